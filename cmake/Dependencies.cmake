@@ -1,0 +1,29 @@
+# Everything Penumbra builds with; all of it comes from Debian (scripts/deps installs it).
+find_package(PkgConfig REQUIRED)
+find_package(glm REQUIRED CONFIG)
+find_package(TBB REQUIRED CONFIG)
+find_package(embree 3 REQUIRED CONFIG)
+find_package(OpenEXR REQUIRED CONFIG)
+find_package(PNG REQUIRED)
+find_package(CLI11 REQUIRED CONFIG)
+find_package(fmt REQUIRED CONFIG)
+find_package(nlohmann_json REQUIRED CONFIG)
+find_package(OpenGL REQUIRED COMPONENTS OpenGL EGL)
+pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
+
+# Debian's OpenSubdivConfig.cmake names a static library that is not shipped, so look for it here.
+find_path(OPENSUBDIV_INCLUDE_DIR opensubdiv/version.h REQUIRED)
+find_library(OPENSUBDIV_CPU_LIBRARY osdCPU REQUIRED)
+add_library(OpenSubdiv::osdCPU UNKNOWN IMPORTED)
+set_target_properties(OpenSubdiv::osdCPU PROPERTIES
+  IMPORTED_LOCATION ${OPENSUBDIV_CPU_LIBRARY}
+  INTERFACE_INCLUDE_DIRECTORIES ${OPENSUBDIV_INCLUDE_DIR})
+
+if(BUILD_TESTING)
+  find_package(GTest REQUIRED CONFIG)
+  find_package(rapidcheck REQUIRED CONFIG)
+  include(GoogleTest)
+endif()
+if(PENUMBRA_BENCH)
+  find_package(benchmark REQUIRED CONFIG)
+endif()

@@ -1,0 +1,50 @@
+// The scene as a list of placed things, grouped into rigid objects.
+#pragma once
+
+#include "scenegraph/Bounds.h"
+#include "scenegraph/ObjectId.h"
+#include "scenegraph/Scene.h"
+
+#include <glm/glm.hpp>
+
+#include <string>
+#include <vector>
+
+namespace penumbra {
+
+class Mesh;
+class Light;
+class Camera;
+
+/// A rigid piece of the scene: one Transform with what is below it, until the next Transform that is
+/// movable. What stands beside all of them belongs to the object at the root, path "/".
+struct Object {
+    std::string path;           ///< of the transform that begins it
+    glm::dmat4 toWorld{1.0};    ///< its frame
+    bool movable = false;
+};
+
+/// A node in its place. The pointers live as long as the scene.
+template <class T>
+struct Placed {
+    const T* node = nullptr;
+    glm::dmat4 toWorld{1.0}; ///< of the node's own frame
+    ObjectId object;
+    std::string path;
+};
+
+/// Everything visible in a scene, in traversal order, with instances written out.
+struct PlacedScene {
+    std::vector<Object> objects;
+    std::vector<Placed<Mesh>> meshes;
+    std::vector<Placed<Light>> lights;
+    std::vector<Placed<Camera>> cameras;
+    Bounds bounds; ///< of meshes and lights [m, world]
+};
+
+/// Lists a scene. An object begins at a movable Transform and, outside of any object, at a Transform
+/// that directly holds a mesh or a light (through plain groups, not through further Transforms).
+/// Objects without geometry are not listed.
+PlacedScene placeScene(const Scene& scene);
+
+} // namespace penumbra

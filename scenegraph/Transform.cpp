@@ -1,0 +1,20 @@
+#include "scenegraph/Transform.h"
+
+#include "scenegraph/Visitor.h"
+
+namespace penumbra {
+
+void Transform::accept(Visitor& visitor) const { visitor.visit(*this); }
+
+void Transform::setMatrix(const glm::dmat4& matrix) {
+    matrix_ = matrix;
+    touch();
+}
+
+void Transform::setMovable(bool movable) {
+    if (movable == movable_) return;
+    movable_ = movable;
+    touch();
+}
+
+} // namespace penumbra

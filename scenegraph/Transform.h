@@ -1,0 +1,29 @@
+// A group with a place of its own.
+#pragma once
+
+#include "scenegraph/Group.h"
+
+#include <glm/glm.hpp>
+
+namespace penumbra {
+
+/// A group whose children live in a frame of their own.
+class Transform : public Group {
+public:
+    using Group::Group;
+    void accept(Visitor& visitor) const override;
+
+    /// Local to parent frame, column vectors (p' = M p), affine, lengths in the parent's unit.
+    const glm::dmat4& matrix() const { return matrix_; }
+    void setMatrix(const glm::dmat4& matrix);
+
+    /// Whether people or an animation move this by itself. A movable transform begins an object.
+    bool movable() const { return movable_; }
+    void setMovable(bool movable);
+
+private:
+    glm::dmat4 matrix_{1.0};
+    bool movable_ = false;
+};
+
+} // namespace penumbra
