@@ -1,0 +1,19 @@
+// Files that are there whole or not at all.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace penumbra {
+
+/// Writes a file such that nobody ever meets half of it: the bytes go to a temporary name in the
+/// same folder, which then takes the place of `path` in one step. When that fails, a file that was
+/// there before is untouched and the temporary one is gone. A symbolic link is followed; into a
+/// device or a pipe (/dev/null, /dev/stdout) the bytes are written straight. \throws Error `path:
+/// can't write: reason` (no such folder, no permission, disk full, ...)
+void writeFileAtomically(const std::string& path, std::span<const std::byte> bytes);
+void writeFileAtomically(const std::string& path, std::string_view text);
+
+} // namespace penumbra

@@ -1,0 +1,114 @@
+#include "io/PngWriter.h"
+
+#include "io/AtomicFile.h"
+#include "scenegraph/Error.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+
+namespace penumbra {
+
+namespace {
+
+constexpr float kMiddleGrey = 0.18f;
+
+/// sRGB's transfer function, IEC 61966-2-1.
+double srgbEncoded(double linear) {
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+/// Interleaved gradient noise, in [0, 1): within each 3x3 pixels the values are well spread.
+double gradientNoise(int x, int y) {
+    const double inner = 0.06711056 * x + 0.00583715 * y;
+    const double outer = 52.9829189 * (inner - std::floor(inner));
+    return outer - std::floor(outer);
+}
+
+/// Logarithms of the luminances that count, ascending: positive, finite, the extremes cut off.
+std::vector<float> sortedLogarithms(std::span<const Rgb> luminances) {
+    std::vector<float> logs;
+    logs.reserve(luminances.size());
+    for (const Rgb& colour : luminances) {
+        const float y = luminance(colour);
+        if (y > 0 && std::isfinite(y)) logs.push_back(std::log2(y));
+    }
+    std::sort(logs.begin(), logs.end());
+    const std::ptrdiff_t cut = std::ptrdiff_t(logs.size()) / 100;
+    return {logs.begin() + cut, logs.end() - cut};
+}
+
+} // namespace
+
+Exposure chooseExposure(std::span<const Rgb> luminances, const ToneOptions& options) {
+    const std::vector<float> logs = sortedLogarithms(luminances);
+    Exposure exposure;
+    if (!logs.empty()) {
+        double sum = 0;
+        for (float log : logs) sum += log;
+        const double mean = sum / double(logs.size());
+        const double range = double(logs.back()) - logs.front();
+        // -1 for a picture that is all dark but for little, 1 for one that is all bright
+        const double lean = range > 0 ? (2 * mean - logs.front() - logs.back()) / range : 0;
+        exposure.middleGrey = float(std::exp2(mean) * std::pow(4.0, -lean));
+        exposure.white = std::exp2(logs.back());
+    }
+    if (options.middleGrey) exposure.middleGrey = *options.middleGrey;
+    if (options.white) exposure.white = *options.white;
+    // Below this the operator would no longer press highlights together but stretch them.
+    exposure.white = std::max(exposure.white, exposure.middleGrey / kMiddleGrey);
+    return exposure;
+}
+
+Rgb toneMapped(Rgb colour, const Exposure& exposure) {
+    colour = {std::max(colour.r, 0.0f), std::max(colour.g, 0.0f), std::max(colour.b, 0.0f)};
+    const float y = luminance(colour);
+    if (!(y > 0) || !std::isfinite(y)) return {};
+    const float scale = kMiddleGrey / exposure.middleGrey;
+    const float level = y * scale;
+    const float white = exposure.white * scale;
+    const float shown = std::min(1.0f, level * (1 + level / (white * white)) / (1 + level));
+    const Rgb scaled = colour * (shown / y);
+    const float most = maxChannel(scaled);
+    if (most <= 1) return scaled;
+    const float keep = (1 - shown) / (most - shown); // most > 1 >= shown
+    return Rgb(shown) + (scaled - Rgb(shown)) * keep;
+}
+
+std::vector<std::uint8_t> toneMappedBytes(const FrameLayers& frame, const Exposure& exposure) {
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(3 * frame.pixelCount());
+    for (int y = 0; y < frame.height; ++y) {
+        for (int x = 0; x < frame.width; ++x) {
+            const Rgb shown = toneMapped(frame.beauty[frame.index(x, y)], exposure);
+            const double noise = gradientNoise(x, y);
+            for (float channel : {shown.r, shown.g, shown.b}) {
+                const double level = 255 * srgbEncoded(std::clamp(channel, 0.0f, 1.0f));
+                bytes.push_back(std::uint8_t(std::min(255.0, std::floor(level + noise))));
+            }
+        }
+    }
+    return bytes;
+}
+
+void writePng(const std::string& path, const FrameLayers& frame, const ToneOptions& options) {
+    assert(frame.width > 0 && frame.height > 0);
+    const std::vector<std::uint8_t> pixels =
+        toneMappedBytes(frame, chooseExposure(frame.beauty, options));
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = png_uint_32(frame.width);
+    image.height = png_uint_32(frame.height);
+    image.format = PNG_FORMAT_RGB; // 8 bits of sRGB, and the file says so
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+    std::vector<std::byte> file(size);
+    if (!png_image_write_to_memory(&image, file.data(), &size, 0, pixels.data(), 0, nullptr))
+        throw Error(path + ": can't write as PNG: " + image.message);
+    file.resize(size);
+    writeFileAtomically(path, std::span<const std::byte>(file));
+}
+
+} // namespace penumbra

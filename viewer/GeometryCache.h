@@ -1,0 +1,66 @@
+// Lit surfaces in the memory of the graphics card.
+#pragma once
+
+#include "scenegraph/Node.h"
+#include "viewer/DrawList.h"
+#include "viewer/GlObject.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+namespace penumbra {
+
+/// A run of a geometry's triangles that share a material.
+struct MaterialRange {
+    std::uint32_t material = 0; ///< index into LitMeshData::materials
+    std::size_t firstIndex = 0;
+    std::size_t indexCount = 0;
+};
+
+/// One LitGeometry, ready to be drawn.
+class GpuGeometry {
+public:
+    explicit GpuGeometry(const LitGeometry& geometry);
+
+    /// Copies the light again if the geometry was edited since; returns whether it was.
+    bool refresh(const LitGeometry& geometry);
+
+    void bind() const;
+    const std::vector<MaterialRange>& ranges() const { return ranges_; }
+
+private:
+    GlObject vertexArray_, positions_, normals_, direct_, indirect_, indices_;
+    std::vector<MaterialRange> ranges_;
+    std::uint64_t revision_ = 0;
+};
+
+/// Uploads each geometry once, and afterwards only its light when that has changed. A geometry that
+/// is gone from memory is dropped; until then it may leave the view, or the graph, and come back
+/// for free.
+class GeometryCache {
+public:
+    /// Drops what no longer exists. To be called before each frame.
+    void dropDead();
+
+    /// The geometry with its present light.
+    const GpuGeometry& get(const DrawItem& item);
+
+    std::size_t uploads() const { return uploads_; }           ///< of whole geometries, ever
+    std::size_t lightUploads() const { return lightUploads_; } ///< of light alone, ever
+    std::size_t size() const { return entries_.size(); }
+
+private:
+    struct Entry {
+        std::weak_ptr<const Node> alive; ///< an address alone might be that of a later node
+        GpuGeometry gpu;
+    };
+
+    std::unordered_map<const LitGeometry*, Entry> entries_;
+    std::size_t uploads_ = 0;
+    std::size_t lightUploads_ = 0;
+};
+
+} // namespace penumbra

@@ -1,0 +1,33 @@
+// A linked pair of shaders.
+#pragma once
+
+#include "scenegraph/Rgb.h"
+#include "viewer/GlObject.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+
+namespace penumbra {
+
+/// A vertex and a fragment shader, compiled and linked. The set() functions need the program in
+/// use; a uniform that the shaders do not have is ignored, as OpenGL does.
+class ShaderProgram {
+public:
+    /// \throws Error with the first line of the compiler's log
+    ShaderProgram(const char* vertexSource, const char* fragmentSource);
+
+    void use() const;
+    void set(const char* uniform, const glm::mat4& value) const;
+    void set(const char* uniform, const glm::mat3& value) const;
+    void set(const char* uniform, glm::vec4 value) const;
+    void set(const char* uniform, Rgb value) const;
+    void set(const char* uniform, std::uint32_t value) const;
+
+private:
+    int location(const char* uniform) const;
+
+    GlObject program_;
+};
+
+} // namespace penumbra

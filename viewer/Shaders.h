@@ -1,0 +1,20 @@
+// The text of the shaders, GLSL 3.30.
+#pragma once
+
+namespace penumbra {
+
+/// Vertex attributes of a lit surface.
+enum LitAttribute : unsigned { kPosition = 0, kNormal = 1, kDirect = 2, kIndirect = 3 };
+
+/// Places a lit vertex; for both fragment shaders below.
+extern const char* const kLitVertexShader;
+
+/// What the eye receives [nit]. Outputs 0 beauty with alpha, 1 direct, 2 indirect; these may be
+/// averaged.
+extern const char* const kLightFragmentShader;
+
+/// What the surface is. Outputs 0 normal (world) and depth [m], 1 albedo, 2 illuminance [lux],
+/// 3 object id; these may not be averaged.
+extern const char* const kSurfaceFragmentShader;
+
+} // namespace penumbra
