@@ -17,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kMostLinks = 40; ///< followed one after another, as Linux itself does
+
 [[noreturn]] void fail(const std::string& path, int errorNumber) {
     throw Error(path + ": can't write: " + std::generic_category().message(errorNumber));
 }
@@ -83,7 +85,8 @@ std::pair<int, std::string> openTemporary(const fs::path& folder) {
 void writeFileAtomically(const std::string& path, std::span<const std::byte> bytes) {
     std::error_code ignored; // of what can't be looked at; opening it will say why
     fs::path target = path;
-    if (fs::is_symlink(target, ignored)) target = fs::weakly_canonical(target, ignored);
+    for (int links = 0; links < kMostLinks && fs::is_symlink(target, ignored); ++links)
+        target = target.parent_path() / fs::read_symlink(target, ignored);
     const fs::file_status status = fs::status(target, ignored);
     if (fs::is_directory(status)) fail(path, EISDIR);
     if (fs::exists(status) && !fs::is_regular_file(status)) return writeStraight(path, bytes);

@@ -84,7 +84,8 @@ std::vector<std::uint8_t> toneMappedBytes(const FrameLayers& frame, const Exposu
     for (int y = 0; y < frame.height; ++y) {
         for (int x = 0; x < frame.width; ++x) {
             const Rgb shown = toneMapped(frame.beauty[frame.index(x, y)], exposure);
-            const double noise = gradientNoise(x, y);
+            // not quite 0 to 1, so that rounding errors never show in black and in white
+            const double noise = 0.0005 + 0.999 * gradientNoise(x, y);
             for (float channel : {shown.r, shown.g, shown.b}) {
                 const double level = 255 * srgbEncoded(std::clamp(channel, 0.0f, 1.0f));
                 bytes.push_back(std::uint8_t(std::min(255.0, std::floor(level + noise))));
