@@ -1,0 +1,251 @@
+#include "io/UsdScene.h"
+
+#include "io/UsdGprims.h"
+#include "io/UsdLight.h"
+#include "io/UsdMaterial.h"
+#include "io/UsdMesh.h"
+#include "io/UsdStage.h"
+#include "io/UsdXform.h"
+#include "scenegraph/Camera.h"
+#include "scenegraph/Transform.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace penumbra {
+
+namespace {
+
+template <std::size_t N>
+bool isOneOf(std::string_view word, const std::array<std::string_view, N>& words) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+// Prims that are no part of the picture, nor is anything below them.
+bool isData(std::string_view type) {
+    constexpr std::array<std::string_view, 10> kTypes{
+        "Material",      "Shader",    "NodeGraph",   "GeomSubset", "RenderSettings",
+        "RenderProduct", "RenderVar", "LightFilter", "Backdrop",   "SkelAnimation"};
+    return isOneOf(type, kTypes);
+}
+
+// Things with a shape that we can't show.
+bool isUnsupportedShape(std::string_view type) {
+    constexpr std::array<std::string_view, 9> kTypes{"BasisCurves", "NurbsCurves", "HermiteCurves",
+                                                     "NurbsPatch",  "Points",      "TetMesh",
+                                                     "Volume",      "SkelRoot",    "Skeleton"};
+    return isOneOf(type, kTypes);
+}
+
+bool isXformable(std::string_view type) {
+    return type == "Xform" || type == "Mesh" || type == "Camera" || type == "PointInstancer" ||
+           isUsdGprim(type) || isUsdAreaLight(type) || isUsdLightWithoutArea(type) ||
+           isUnsupportedShape(type);
+}
+
+// What a prim hands down to those below it.
+struct Place {
+    std::shared_ptr<Group> container; // takes the children's nodes; null: nothing below is loaded
+    glm::dmat4 toWorld{1.0};          // column vectors, scene units
+    UsdInherited inherited;
+    bool drawn = true; // purpose
+};
+
+class SceneBuilder {
+public:
+    SceneBuilder(UsdStage& stage, UsdTime time)
+        : stage_(stage), time_(time), warnings_(stage.diagnostics()),
+          materials_(stage, time, warnings_), places_(stage.prims().size()) {}
+
+    void build(std::shared_ptr<Group> root) {
+        places_[0].container = std::move(root);
+        for (std::size_t i = 1; i < stage_.prims().size(); ++i) add(i);
+    }
+
+private:
+    void add(std::size_t index) {
+        const UsdPrim& prim = stage_.prims()[index];
+        const Place& parent = places_[prim.parent];
+        if (!parent.container || !prim.defined || prim.abstract || isData(prim.typeName)) return;
+        const UsdAttributes attributes(prim, time_);
+        if (attributes.text("visibility", "inherited") == "invisible") return;
+        if (UsdStage::animated(prim, "visibility"))
+            warnings_.warn(attributes.location("visibility"), "animated visibility is held");
+        if (prim.typeName == "PointInstancer") {
+            warnings_.warn(prim.location(), "PointInstancer not supported yet: left out");
+            return;
+        }
+        Place place = placeOf(attributes, parent);
+        const auto transform = makeTransform(attributes, parent, place);
+        const NodePtr leaf = place.drawn ? makeLeaf(attributes, place) : nullptr;
+        attach(prim, parent, place, transform, leaf);
+        places_[index] = std::move(place);
+    }
+
+    Place placeOf(const UsdAttributes& attributes, const Place& parent) {
+        Place place;
+        place.toWorld = parent.toWorld;
+        place.inherited = parent.inherited;
+        place.drawn = parent.drawn;
+        const std::string purpose = attributes.text("purpose", "");
+        if (!purpose.empty()) place.drawn = purpose == "default" || purpose == "render";
+        const UsdBinding binding = usdMaterialBinding(attributes.prim(), warnings_);
+        if (!binding.path.empty() && !parent.inherited.materialIsStronger) {
+            place.inherited.material = binding.path;
+            place.inherited.materialIsStronger = binding.strongerThanDescendants;
+        }
+        if (const auto colour = usdConstantColour(attributes))
+            place.inherited.displayColour = colour;
+        return place;
+    }
+
+    // A Transform if the prim has, or may get, a place of its own; else null.
+    std::shared_ptr<Transform> makeTransform(const UsdAttributes& attributes, const Place& parent,
+                                             Place& place) {
+        const UsdPrim& prim = attributes.prim();
+        UsdLocalTransform local;
+        if (isXformable(prim.typeName)) local = usdLocalTransform(attributes, warnings_);
+        const bool movable = local.animated || attributes.flag("penumbra:movable", false);
+        if (prim.typeName != "Xform" && !local.authored && !movable) return nullptr;
+        if (local.resetsStack) {
+            const glm::dmat4 relative = glm::inverse(parent.toWorld) * local.matrix;
+            if (glm::determinant(parent.toWorld) != 0)
+                local.matrix = relative;
+            else
+                warnings_.warn(prim.location(), "!resetXformStack! below a flattened prim ignored");
+        }
+        auto transform = std::make_shared<Transform>(prim.name);
+        transform->setMatrix(local.matrix);
+        transform->setMovable(movable);
+        place.toWorld = parent.toWorld * local.matrix;
+        return transform;
+    }
+
+    NodePtr makeLeaf(const UsdAttributes& attributes, const Place& place) {
+        const UsdPrim& prim = attributes.prim();
+        const std::string& type = prim.typeName;
+        if (type == "Mesh") return makeMesh(attributes, place);
+        if (isUsdGprim(type))
+            return makeUsdMesh(stage_, attributes, makeUsdGprim(attributes, warnings_),
+                               place.inherited, materials_, std::nullopt, warnings_);
+        if (isUsdAreaLight(type)) return makeUsdLight(attributes, place.toWorld, warnings_);
+        if (type == "Camera") return makeCamera(attributes);
+        if (isUsdLightWithoutArea(type) || isUnsupportedShape(type))
+            warnings_.warn(prim.location(), type + " not supported yet: left out");
+        return nullptr;
+    }
+
+    NodePtr makeMesh(const UsdAttributes& attributes, const Place& place) {
+        const UsdPrim& prim = attributes.prim();
+        if (UsdStage::animated(prim, "points"))
+            warnings_.warn(attributes.location("points"), "animated points are held");
+        UsdPolygons polygons = readUsdPolygons(attributes, warnings_);
+        std::optional<Rgb> light;
+        if (UsdStage::hasApi(prim, "MeshLightAPI")) {
+            const double area = areaOf(polygons, glm::dmat3(place.toWorld));
+            light = usdLightLuminance(attributes, area, warnings_);
+        }
+        return makeUsdMesh(stage_, attributes, std::move(polygons), place.inherited, materials_,
+                           light, warnings_);
+    }
+
+    NodePtr makeCamera(const UsdAttributes& attributes) {
+        Lens lens;
+        const auto read = [&](float& value, std::string_view name) {
+            const double number = attributes.number(name, double(value));
+            if (std::isfinite(number)) value = float(number);
+        };
+        read(lens.focalLength, "focalLength");
+        read(lens.horizontalAperture, "horizontalAperture");
+        read(lens.verticalAperture, "verticalAperture");
+        read(lens.horizontalApertureOffset, "horizontalApertureOffset");
+        read(lens.verticalApertureOffset, "verticalApertureOffset");
+        const auto range = attributes.tuple("clippingRange", 2);
+        if (!range.empty()) lens.clippingRange = {float(range[0]), float(range[1])};
+        lens.perspective = attributes.text("projection", "perspective") != "orthographic";
+        if (!(lens.focalLength > 0) || !(lens.horizontalAperture > 0) ||
+            !(lens.verticalAperture > 0)) {
+            warnings_.warn(attributes.prim().location(),
+                           "a camera without a usable lens gets the standard one");
+            lens = Lens();
+        }
+        return std::make_shared<Camera>(attributes.prim().name, lens);
+    }
+
+    bool hasChildren(const UsdPrim& prim) const {
+        return std::any_of(prim.children.begin(), prim.children.end(), [&](std::uint32_t child) {
+            return !isData(stage_.prims()[child].typeName);
+        });
+    }
+
+    void attach(const UsdPrim& prim, const Place& parent, Place& place,
+                const std::shared_ptr<Transform>& transform, const NodePtr& leaf) {
+        const bool below = hasChildren(prim);
+        if (leaf && !transform && !below) {
+            parent.container->add(leaf);
+            return;
+        }
+        const bool structure = prim.typeName == "Xform" || !isXformable(prim.typeName);
+        if (!leaf && !below && !structure) return; // left out
+        place.container = transform;
+        if (!transform) place.container = std::make_shared<Group>(prim.name);
+        if (leaf) place.container->add(leaf);
+        parent.container->add(place.container);
+    }
+
+    UsdStage& stage_;
+    UsdTime time_;
+    Diagnostics& warnings_;
+    UsdMaterials materials_;
+    std::vector<Place> places_;
+};
+
+std::optional<double> layerNumber(const UsdLayer& layer, std::string_view key) {
+    const UsdValue* value = find(layer.metadata, key);
+    const auto numbers = value ? value->numbers() : std::vector<double>{};
+    if (numbers.size() != 1 || !std::isfinite(numbers[0])) return std::nullopt;
+    return numbers[0];
+}
+
+// Units, axes and frames of the whole scene.
+void readStageMetadata(const UsdLayer& layer, Scene& scene, Diagnostics& warnings) {
+    const SourceLocation where{layer.file, 0, 0};
+    scene.metersPerUnit = layerNumber(layer, "metersPerUnit").value_or(0.01);
+    if (!(scene.metersPerUnit > 0)) {
+        warnings.warn(where, "metersPerUnit is not positive: 0.01 is used");
+        scene.metersPerUnit = 0.01;
+    }
+    const UsdValue* axis = find(layer.metadata, "upAxis");
+    const std::string up = axis && axis->text() ? *axis->text() : "Y";
+    if (up == "Z") scene.upAxis = UpAxis::z;
+    if (up != "Y" && up != "Z") warnings.warn(where, "upAxis is neither Y nor Z: Y is used");
+    scene.startTimeCode = layerNumber(layer, "startTimeCode").value_or(0);
+    scene.endTimeCode = layerNumber(layer, "endTimeCode").value_or(scene.startTimeCode);
+    scene.timeCodesPerSecond = timeCodesPerSecond(layer);
+}
+
+} // namespace
+
+LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& options) {
+    UsdStage stage = UsdStage::open(file, {.fileBytes = options.maxFileBytes});
+    LoadedScene loaded;
+    loaded.scene = std::make_shared<Scene>();
+    Scene& scene = *loaded.scene;
+    scene.name = file.stem().string();
+    readStageMetadata(stage.rootLayer(), scene, stage.diagnostics());
+    if (scene.metersPerUnit != 1) {
+        auto toMetres = std::make_shared<Transform>("");
+        glm::dmat4 scale(scene.metersPerUnit);
+        scale[3][3] = 1;
+        toMetres->setMatrix(scale);
+        scene.root = toMetres;
+    }
+    const UsdTime time =
+        options.time ? options.time : layerNumber(stage.rootLayer(), "startTimeCode");
+    SceneBuilder(stage, time).build(scene.root);
+    loaded.diagnostics = stage.diagnostics().take();
+    return loaded;
+}
+
+} // namespace penumbra
