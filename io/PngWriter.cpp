@@ -28,14 +28,20 @@ double gradientNoise(int x, int y) {
     return outer - std::floor(outer);
 }
 
-/// Logarithms of the luminances that count, ascending: positive, finite, the extremes cut off.
-std::vector<float> sortedLogarithms(std::span<const Rgb> luminances) {
+/// Adds the logarithm of a luminance if it has one.
+void addLogarithm(std::vector<float>& logs, Rgb colour) {
+    const float y = luminance(colour);
+    if (y > 0 && std::isfinite(y)) logs.push_back(std::log2(y));
+}
+
+/// Logarithms of the luminances that count, ascending: of reflected light, the extremes cut off.
+std::vector<float> sortedLogarithms(const FrameLayers& frame) {
     std::vector<float> logs;
-    logs.reserve(luminances.size());
-    for (const Rgb& colour : luminances) {
-        const float y = luminance(colour);
-        if (y > 0 && std::isfinite(y)) logs.push_back(std::log2(y));
-    }
+    logs.reserve(frame.pixelCount());
+    for (std::size_t i = 0; i < frame.pixelCount(); ++i)
+        addLogarithm(logs, frame.direct[i] + frame.indirect[i]);
+    if (logs.empty())
+        for (const Rgb& colour : frame.beauty) addLogarithm(logs, colour);
     std::sort(logs.begin(), logs.end());
     const std::ptrdiff_t cut = std::ptrdiff_t(logs.size()) / 100;
     return {logs.begin() + cut, logs.end() - cut};
@@ -43,8 +49,9 @@ std::vector<float> sortedLogarithms(std::span<const Rgb> luminances) {
 
 } // namespace
 
-Exposure chooseExposure(std::span<const Rgb> luminances, const ToneOptions& options) {
-    const std::vector<float> logs = sortedLogarithms(luminances);
+Exposure chooseExposure(const FrameLayers& frame, const ToneOptions& options) {
+    assert(!options.middleGrey || *options.middleGrey > 0);
+    const std::vector<float> logs = sortedLogarithms(frame);
     Exposure exposure;
     if (!logs.empty()) {
         double sum = 0;
@@ -97,8 +104,7 @@ std::vector<std::uint8_t> toneMappedBytes(const FrameLayers& frame, const Exposu
 
 void writePng(const std::string& path, const FrameLayers& frame, const ToneOptions& options) {
     assert(frame.width > 0 && frame.height > 0);
-    const std::vector<std::uint8_t> pixels =
-        toneMappedBytes(frame, chooseExposure(frame.beauty, options));
+    const std::vector<std::uint8_t> pixels = toneMappedBytes(frame, chooseExposure(frame, options));
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
     image.width = png_uint_32(frame.width);

@@ -5,15 +5,14 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 namespace penumbra {
 
 struct ToneOptions {
-    /// Luminance that is shown as 18 % grey [nit]; unset: chosen from the picture. A photographer's
-    /// exposure value (at ISO 100) is log2(8 * middleGrey).
+    /// Luminance that is shown as 18 % grey [nit], more than 0; unset: chosen from the picture. A
+    /// photographer's exposure value (at ISO 100) is log2(8 * middleGrey).
     std::optional<float> middleGrey;
     /// Luminance that is just shown as white [nit]; unset: chosen from the picture.
     std::optional<float> white;
@@ -27,13 +26,14 @@ struct Exposure {
 
 /// Exposure for a picture, by the parameters of the photographic operator: the middle grey follows
 /// the geometric mean of the luminances and leans to the brighter or the darker end as the picture
-/// does. Black pixels, which are background, do not count, nor do the darkest and brightest 1 %, so
-/// that a lamp in view does not darken the room. `options` overrides either value.
+/// does; white is the brightest of them. What counts is reflected light (the direct and indirect
+/// layers), so that lamps in view do not darken the room, and of that not the darkest and brightest
+/// 1 %. A picture of lamps alone is judged by its beauty. `options` overrides either value.
 ///
 /// Reinhard et al., "Photographic Tone Reproduction for Digital Images", SIGGRAPH 2002;
 /// Reinhard, "Parameter Estimation for Photographic Tone Reproduction", J. Graphics Tools 7(1),
 /// 2002.
-Exposure chooseExposure(std::span<const Rgb> luminances, const ToneOptions& options = {});
+Exposure chooseExposure(const FrameLayers& frame, const ToneOptions& options = {});
 
 /// Display value of a luminance, linear, each channel in [0, 1]:
 ///

@@ -23,21 +23,20 @@ int supportedSamples(int wanted) {
     return std::clamp(wanted, 1, std::max(1, int(most)));
 }
 
-/// Calls copy(frame index, tile index) for every pixel of the tile, whose bottom row OpenGL has
-/// first.
+/// Calls copy(frame index, strip index) for every pixel; OpenGL has the bottom row first.
 template <class Copy>
-void forEachPixel(const FrameLayers& frame, const Tile& tile, Copy copy) {
-    for (int y = 0; y < tile.height; ++y) {
-        const std::size_t row = std::size_t(tile.height - 1 - y) * std::size_t(tile.width);
-        for (int x = 0; x < tile.width; ++x)
-            copy(frame.index(tile.x + x, tile.y + y), row + std::size_t(x));
+void forEachPixel(const FrameLayers& frame, const Strip& strip, Copy copy) {
+    for (int y = 0; y < strip.height; ++y) {
+        const std::size_t to = frame.index(0, strip.top + y);
+        const std::size_t from = frame.index(0, strip.height - 1 - y);
+        for (std::size_t x = 0; x < std::size_t(frame.width); ++x) copy(to + x, from + x);
     }
 }
 
-std::vector<glm::vec4> readColours(int attachment, const Tile& tile) {
-    std::vector<glm::vec4> pixels(std::size_t(tile.width) * std::size_t(tile.height));
+std::vector<glm::vec4> readColours(int attachment, int width, int height) {
+    std::vector<glm::vec4> pixels(std::size_t(width) * std::size_t(height));
     glReadBuffer(GL_COLOR_ATTACHMENT0 + GLenum(attachment));
-    glReadPixels(0, 0, tile.width, tile.height, GL_RGBA, GL_FLOAT, pixels.data());
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, pixels.data());
     return pixels;
 }
 
@@ -101,38 +100,38 @@ void FrameTargets::beginSurface(float clearDepth) const {
     glClearBufferfv(GL_DEPTH, 0, &clearDepth);
 }
 
-void FrameTargets::readInto(FrameLayers& frame, const Tile& tile) const {
+void FrameTargets::readInto(FrameLayers& frame, const Strip& strip) const {
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    readLight(frame, tile);
-    readSurface(frame, tile);
+    readLight(frame, strip);
+    readSurface(frame, strip);
 }
 
-void FrameTargets::readLight(FrameLayers& frame, const Tile& tile) const {
+void FrameTargets::readLight(FrameLayers& frame, const Strip& strip) const {
     std::vector<Rgb>* const layers[] = {&frame.beauty, &frame.direct, &frame.indirect};
     for (int layer = 0; layer < 3; ++layer) {
         glBindFramebuffer(GL_READ_FRAMEBUFFER, light_.framebuffer.name());
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.framebuffer.name());
         glReadBuffer(GL_COLOR_ATTACHMENT0 + GLenum(layer));
-        glBlitFramebuffer(0, 0, tile.width, tile.height, 0, 0, tile.width, tile.height,
+        glBlitFramebuffer(0, 0, width_, strip.height, 0, 0, width_, strip.height,
                           GL_COLOR_BUFFER_BIT, GL_NEAREST);
         glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.framebuffer.name());
-        const std::vector<glm::vec4> pixels = readColours(0, tile);
-        forEachPixel(frame, tile, [&](std::size_t to, std::size_t from) {
+        const std::vector<glm::vec4> pixels = readColours(0, width_, strip.height);
+        forEachPixel(frame, strip, [&](std::size_t to, std::size_t from) {
             (*layers[layer])[to] = toRgb(pixels[from]);
             if (layer == 0) frame.alpha[to] = pixels[from].a;
         });
     }
 }
 
-void FrameTargets::readSurface(FrameLayers& frame, const Tile& tile) const {
+void FrameTargets::readSurface(FrameLayers& frame, const Strip& strip) const {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, surface_.framebuffer.name());
-    const std::vector<glm::vec4> normalAndDepth = readColours(0, tile);
-    const std::vector<glm::vec4> albedo = readColours(1, tile);
-    const std::vector<glm::vec4> illuminance = readColours(2, tile);
-    std::vector<std::uint32_t> ids(std::size_t(tile.width) * std::size_t(tile.height));
+    const std::vector<glm::vec4> normalAndDepth = readColours(0, width_, strip.height);
+    const std::vector<glm::vec4> albedo = readColours(1, width_, strip.height);
+    const std::vector<glm::vec4> illuminance = readColours(2, width_, strip.height);
+    std::vector<std::uint32_t> ids(std::size_t(width_) * std::size_t(strip.height));
     glReadBuffer(GL_COLOR_ATTACHMENT3);
-    glReadPixels(0, 0, tile.width, tile.height, GL_RED_INTEGER, GL_UNSIGNED_INT, ids.data());
-    forEachPixel(frame, tile, [&](std::size_t to, std::size_t from) {
+    glReadPixels(0, 0, width_, strip.height, GL_RED_INTEGER, GL_UNSIGNED_INT, ids.data());
+    forEachPixel(frame, strip, [&](std::size_t to, std::size_t from) {
         frame.normal[to] = glm::vec3(normalAndDepth[from]);
         frame.depth[to] = normalAndDepth[from].w;
         frame.albedo[to] = toRgb(albedo[from]);

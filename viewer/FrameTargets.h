@@ -1,4 +1,4 @@
-// Float framebuffers for one tile of a picture, and the way back from them.
+// Float framebuffers for a strip of a picture, and the way back from them.
 #pragma once
 
 #include "io/Image.h"
@@ -8,18 +8,18 @@
 
 namespace penumbra {
 
-/// A rectangle of a picture [pixel]; y counts down from the top row.
-struct Tile {
-    int x = 0, y = 0;
-    int width = 0, height = 0;
+/// Some rows of a picture [pixel]; the top row is row 0.
+struct Strip {
+    int top = 0;
+    int height = 0;
 };
 
-/// What a tile of FrameLayers is drawn into: a multisampled framebuffer for light, which is
+/// What a strip of FrameLayers is drawn into: a multisampled framebuffer for light, which is
 /// averaged over the pixel, and one of a single sample for what the surface under the pixel's
 /// centre is. All channels are 32-bit floats (ids: integers), the depth buffers as well.
 class FrameTargets {
 public:
-    /// \param width,height size of the largest tile
+    /// \param width,height size of the largest strip
     /// \param samples      a pixel; halved until the driver can do it
     /// \throws Error if the driver can't make even the single-sampled ones
     FrameTargets(int width, int height, int samples);
@@ -33,9 +33,9 @@ public:
     /// Binds and clears the framebuffer for kSurfaceFragmentShader's outputs.
     void beginSurface(float clearDepth) const;
 
-    /// Copies both into `frame`, of which `tile` was drawn at the targets' lower left. The mean of
+    /// Copies both into `frame`, of which `strip` was drawn at the targets' lower edge. The mean of
     /// the samples is that of linear luminances, since that is what the pixel measures.
-    void readInto(FrameLayers& frame, const Tile& tile) const;
+    void readInto(FrameLayers& frame, const Strip& strip) const;
 
 private:
     /// A framebuffer and the renderbuffers behind it.
@@ -46,8 +46,8 @@ private:
 
     /// \param colourFormats OpenGL's internal formats, in the order of the shader's outputs
     Target makeTarget(const std::vector<unsigned>& colourFormats, bool depth, int samples) const;
-    void readLight(FrameLayers& frame, const Tile& tile) const;
-    void readSurface(FrameLayers& frame, const Tile& tile) const;
+    void readLight(FrameLayers& frame, const Strip& strip) const;
+    void readSurface(FrameLayers& frame, const Strip& strip) const;
 
     int width_, height_, samples_;
     Target light_;    ///< beauty with alpha, direct, indirect

@@ -88,7 +88,7 @@ struct Renderer::Impl {
 
     std::vector<PreparedItem> prepare(const Group& root, const View& view);
     void drawPass(const ShaderProgram& program, const std::vector<PreparedItem>& items);
-    void drawTile(const std::vector<PreparedItem>& items, const Tile& tile, FrameLayers& frame);
+    void drawStrip(const std::vector<PreparedItem>& items, const Strip& strip, FrameLayers& frame);
     void requireTargets(int width, int height);
 
     RendererOptions options;
@@ -148,16 +148,16 @@ void Renderer::Impl::drawPass(const ShaderProgram& program,
     }
 }
 
-void Renderer::Impl::drawTile(const std::vector<PreparedItem>& items, const Tile& tile,
-                              FrameLayers& frame) {
+void Renderer::Impl::drawStrip(const std::vector<PreparedItem>& items, const Strip& strip,
+                               FrameLayers& frame) {
     const DrawState state(reversed);
-    // The whole picture's viewport, moved so that the tile lies at the targets' lower left.
-    glViewport(-tile.x, -(frame.height - tile.y - tile.height), frame.width, frame.height);
+    // The whole picture's viewport, moved so that the strip lies at the targets' lower edge.
+    glViewport(0, -(frame.height - strip.top - strip.height), frame.width, frame.height);
     targets->beginLight(state.clearDepth());
     drawPass(lightProgram, items);
     targets->beginSurface(state.clearDepth());
     drawPass(surfaceProgram, items);
-    targets->readInto(frame, tile);
+    targets->readInto(frame, strip);
 }
 
 void Renderer::Impl::requireTargets(int width, int height) {
@@ -167,11 +167,10 @@ void Renderer::Impl::requireTargets(int width, int height) {
         throw Error("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
                     " pixels is too large: this OpenGL draws at most " + std::to_string(most[0]) +
                     " x " + std::to_string(most[1]));
-    const int tileWidth = std::min(width, options.tileSize);
-    const int tileHeight = std::min(height, options.tileSize);
-    if (targets && targets->width() == tileWidth && targets->height() == tileHeight) return;
+    const int rows = std::clamp(options.stripPixels / width, 1, height);
+    if (targets && targets->width() == width && targets->height() == rows) return;
     targets.reset(); // first: two sets may be more than the card can hold
-    targets.emplace(tileWidth, tileHeight, options.samples);
+    targets.emplace(width, rows, options.samples);
 }
 
 Renderer::Renderer(const RendererOptions& options) : impl_(std::make_unique<Impl>(options)) {}
@@ -184,11 +183,9 @@ FrameLayers Renderer::render(const Group& root, const View& view, int width, int
     const std::vector<PreparedItem> items = impl_->prepare(root, view);
     impl_->statistics.samples = impl_->targets->samples();
     FrameLayers frame(width, height);
-    const int step = impl_->options.tileSize;
-    for (int y = 0; y < height; y += step)
-        for (int x = 0; x < width; x += step)
-            impl_->drawTile(items, {x, y, std::min(step, width - x), std::min(step, height - y)},
-                            frame);
+    const int rows = impl_->targets->height();
+    for (int top = 0; top < height; top += rows)
+        impl_->drawStrip(items, {top, std::min(rows, height - top)}, frame);
     if (glGetError() != GL_NO_ERROR)
         throw Error("OpenGL: drawing failed; the graphics memory may be too small");
     return frame;

@@ -14,15 +14,16 @@ class OffscreenContext;
 
 struct RendererOptions {
     int samples = 4; ///< a pixel, for the averaged layers; fewer if the driver can't
-    int tileSize =
-        1024; ///< longest side of what is drawn at once [pixel]; bounds the memory needed
+    /// What is drawn at once, in strips of whole rows [pixel]: bounds the memory, some 0.4 kB a
+    /// pixel.
+    int stripPixels = 1 << 21;
 };
 
 /// What the last frame cost.
 struct RenderStatistics {
     std::size_t drawn = 0;        ///< places of a LitGeometry in view
     std::size_t culled = 0;       ///< places outside of it
-    std::size_t drawCalls = 0;    ///< over both passes and all tiles
+    std::size_t drawCalls = 0;    ///< over both passes and all strips
     std::size_t uploads = 0;      ///< geometries copied to the graphics card
     std::size_t lightUploads = 0; ///< of which the light alone was copied
     int samples = 0;              ///< a pixel

@@ -15,6 +15,7 @@ namespace {
 FrameLayers flatFrame(Rgb colour, int width = 30, int height = 30) {
     FrameLayers frame(width, height);
     std::fill(frame.beauty.begin(), frame.beauty.end(), colour);
+    frame.direct = frame.beauty;
     return frame;
 }
 
@@ -31,7 +32,7 @@ TEST(PngWriter, TheFileHoldsTheToneMappedBytesAsSrgb) {
     EXPECT_EQ(image.format, png_uint_32(PNG_FORMAT_RGB));
     std::vector<std::uint8_t> pixels(7 * 4 * 3);
     ASSERT_TRUE(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr));
-    EXPECT_EQ(pixels, toneMappedBytes(frame, chooseExposure(frame.beauty)));
+    EXPECT_EQ(pixels, toneMappedBytes(frame, chooseExposure(frame)));
     EXPECT_NE(contentOf(folder.file("a.png")).find("sRGB"), std::string::npos);
 }
 
@@ -39,29 +40,55 @@ TEST(PngWriter, AnEvenGreyPictureIsShownAsMiddleGrey) {
     // 18 % of white is 118 of 255 in sRGB (117.6), whatever the luminance.
     for (float nits : {0.001f, 50.0f, 1e6f}) {
         const FrameLayers frame = flatFrame(Rgb(nits));
-        const auto bytes = toneMappedBytes(frame, chooseExposure(frame.beauty));
+        const auto bytes = toneMappedBytes(frame, chooseExposure(frame));
         double mean = 0;
         for (std::uint8_t byte : bytes) mean += byte / double(bytes.size());
         EXPECT_NEAR(mean, 117.6 + 0.0, 0.1);
     }
 }
 
-TEST(PngWriter, ALampInViewDoesNotDarkenTheRoom) {
+TEST(PngWriter, LampsInViewDoNotDarkenTheRoom) {
     FrameLayers room = flatFrame(Rgb(20), 100, 100);
-    const float without = chooseExposure(room.beauty).middleGrey;
-    std::fill_n(room.beauty.begin(), 90, Rgb(10000)); // less than 1 % of the picture
-    EXPECT_FLOAT_EQ(chooseExposure(room.beauty).middleGrey, without);
+    const float without = chooseExposure(room).middleGrey;
+    std::fill_n(room.beauty.begin(), 4000, Rgb(10000)); // shining by themselves
+    std::fill_n(room.direct.begin(), 4000, Rgb(0));
+    EXPECT_FLOAT_EQ(chooseExposure(room).middleGrey, without);
+}
+
+TEST(PngWriter, ASpotOfBrightLightDoesNotDarkenTheRoom) {
+    FrameLayers room = flatFrame(Rgb(20), 100, 100);
+    const float without = chooseExposure(room).middleGrey;
+    std::fill_n(room.direct.begin(), 90, Rgb(10000)); // less than 1 % of the picture
+    EXPECT_FLOAT_EQ(chooseExposure(room).middleGrey, without);
+}
+
+TEST(PngWriter, APictureOfLampsAloneIsExposedForThem) {
+    FrameLayers lamps(10, 10);
+    std::fill(lamps.beauty.begin(), lamps.beauty.end(), Rgb(5000));
+    EXPECT_FLOAT_EQ(chooseExposure(lamps).middleGrey, 5000);
 }
 
 TEST(PngWriter, BackgroundDoesNotBrightenTheRoom) {
     FrameLayers room = flatFrame(Rgb(20), 100, 100);
     std::fill_n(room.beauty.begin(), 5000, Rgb(0));
-    EXPECT_FLOAT_EQ(chooseExposure(room.beauty).middleGrey, 20);
+    std::fill_n(room.direct.begin(), 5000, Rgb(0));
+    EXPECT_FLOAT_EQ(chooseExposure(room).middleGrey, 20);
+}
+
+TEST(PngWriter, ADarkRoomWithOneBrightWallIsExposedBetweenThem) {
+    // By hand: of 79 pixels with 1 nit and 21 with 256 one each is cut off, so the logarithms are 0
+    // (78 times) and 8 (20 times). mean = 160 / 98, lean = (2 mean - 0 - 8) / 8, and
+    // middle grey = 2^mean * 4^-lean = 2^(2 + mean / 2).
+    FrameLayers room = flatFrame(Rgb(1), 10, 10);
+    std::fill_n(room.direct.begin(), 21, Rgb(256));
+    const Exposure exposure = chooseExposure(room);
+    EXPECT_NEAR(exposure.middleGrey, std::exp2(2 + 80.0 / 98), 1e-4);
+    EXPECT_NEAR(exposure.white, 256, 1e-3);
 }
 
 TEST(PngWriter, ExposureCanBeGiven) {
     const FrameLayers frame = flatFrame(Rgb(20));
-    const Exposure exposure = chooseExposure(frame.beauty, {.middleGrey = 5, .white = 400});
+    const Exposure exposure = chooseExposure(frame, {.middleGrey = 5, .white = 400});
     EXPECT_EQ(exposure.middleGrey, 5);
     EXPECT_EQ(exposure.white, 400);
 }

@@ -1,4 +1,4 @@
-// The layers of a rendered frame: sizes, edges, tiles.
+// The layers of a rendered frame: sizes, edges, strips.
 #include "LitScenes.h"
 
 #include "scenegraph/Error.h"
@@ -108,14 +108,14 @@ TEST_F(RenderedLayers, AnOddSizeAfterAnotherIsRight) {
     }
 }
 
-TEST_F(RenderedLayers, TilesLeaveNoSeams) {
-    Renderer tiled({.tileSize = 16});
+TEST_F(RenderedLayers, StripsLeaveNoSeams) {
+    Renderer striped({.stripPixels = 500});
     root.add(placed(glm::rotate(glm::dmat4(1.0), 0.4, {1, 1, 0}), litNode(litSquare())));
     const int width = 50, height = 37;
     const View view = viewFrom(1.2, width, height);
     const FrameLayers whole = render(view, width, height);
-    const FrameLayers parts = renderFrame(*context, tiled, root, view, width, height);
-    EXPECT_EQ(tiled.statistics().drawCalls, 2u * 4 * 3);
+    const FrameLayers parts = renderFrame(*context, striped, root, view, width, height);
+    EXPECT_EQ(striped.statistics().drawCalls, 2u * 4) << "10 rows each";
     for (std::size_t i = 0; i < whole.pixelCount(); ++i) {
         EXPECT_EQ(whole.objectId[i], parts.objectId[i]) << i;
         EXPECT_NEAR(whole.alpha[i], parts.alpha[i], 1e-6f) << i;
@@ -131,6 +131,14 @@ TEST_F(RenderedLayers, WithoutMultisamplingEveryPixelIsAllOrNothing) {
     EXPECT_EQ(plain.statistics().samples, 1);
     for (std::size_t i = 0; i < frame.pixelCount(); ++i)
         EXPECT_EQ(frame.alpha[i], frame.objectId[i].valid() ? 1 : 0);
+}
+
+TEST_F(RenderedLayers, MoreSamplesThanTheDriverHasAreFewer) {
+    Renderer greedy({.samples = 1000});
+    root.add(litNode(litSquare()));
+    const FrameLayers frame = renderFrame(*context, greedy, root, viewFrom(1, 5, 5), 5, 5);
+    EXPECT_LT(greedy.statistics().samples, 1000);
+    EXPECT_EQ(frame.alpha[12], 1);
 }
 
 TEST_F(RenderedLayers, TheSameFrameGivesTheSameBits) {

@@ -92,6 +92,16 @@ TEST_F(RendererTest, WhatIsOutOfViewCostsNoDrawCall) {
     EXPECT_EQ(renderer.statistics().uploads, 1u);
 }
 
+TEST_F(RendererTest, WhatASwitchHidesIsNotDrawn) {
+    auto lamp = std::make_shared<Switch>("switch");
+    lamp->add(litNode(litSquare()));
+    root.add(lamp);
+    EXPECT_TRUE(render(viewFrom(1, 5, 5), 5, 5).objectId[12].valid());
+    lamp->setVisible(false);
+    EXPECT_FALSE(render(viewFrom(1, 5, 5), 5, 5).objectId[12].valid());
+    EXPECT_EQ(renderer.statistics().drawn + renderer.statistics().culled, 0u);
+}
+
 TEST_F(RendererTest, EachTriangleHasItsOwnMaterial) {
     LitMeshData data = litSquare();
     data.materials = {{Rgb(0), {1, 0, 0}}, {Rgb(0), {0, 1, 0}}, {Rgb(0), {0, 0, 1}}};
