@@ -26,13 +26,14 @@ void Camera::accept(Visitor& visitor) const { visitor.visit(*this); }
 View makeView(const Lens& lens, const glm::dmat4& cameraToWorld, int width, int height) {
     View view;
     view.eye = glm::dvec3(cameraToWorld[3]);
-    const double unit = glm::length(glm::dvec3(cameraToWorld[2])); // local clipping range to metres
+    const double unit = glm::length(glm::dvec3(cameraToWorld[2])); // local lengths to metres
     view.worldToCamera = glm::inverse(withoutScale(cameraToWorld));
 
     const double near = std::max(1e-3, double(lens.clippingRange.x) * unit);
     const double far = std::max(near * 10, double(lens.clippingRange.y) * unit);
     const double aspect = double(height) / double(width);
-    const double scale = lens.perspective ? near / lens.focalLength : 0.1;
+    // USD gives apertures in tenths of a scene unit; in perspective only their ratio to f matters.
+    const double scale = lens.perspective ? near / lens.focalLength : 0.1 * unit;
     const double centreX = scale * lens.horizontalApertureOffset;
     const double centreY = scale * lens.verticalApertureOffset;
     const double halfX = scale * lens.horizontalAperture / 2;

@@ -8,7 +8,8 @@
 namespace penumbra {
 
 /// Lens and film of a camera that looks along -Z with +Y up in its own frame. Apertures, offsets and
-/// focal length share one unit; only their ratios matter.
+/// focal length share one unit, a tenth of the camera's own (local) unit; only in an orthographic view
+/// does more than their ratios matter.
 struct Lens {
     float focalLength = 50;
     float horizontalAperture = 20.955f;

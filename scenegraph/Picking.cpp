@@ -5,8 +5,10 @@
 #include "scenegraph/Light.h"
 #include "scenegraph/Mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace penumbra {
 
@@ -37,7 +39,8 @@ bool meetsBox(const Ray& ray, const Bounds& box) {
     double t0 = 0, t1 = kMiss;
     for (int axis = 0; axis < 3; ++axis) {
         if (ray.direction[axis] == 0) {
-            if (ray.origin[axis] < box.lower[axis] || ray.origin[axis] > box.upper[axis]) return false;
+            if (ray.origin[axis] < box.lower[axis] || ray.origin[axis] > box.upper[axis])
+                return false;
             continue;
         }
         double a = (box.lower[axis] - ray.origin[axis]) / ray.direction[axis];
@@ -49,18 +52,47 @@ bool meetsBox(const Ray& ray, const Bounds& box) {
     return t0 <= t1;
 }
 
+/// Meets a face as a fan of triangles around its first corner. Where the face is concave the fan
+/// folds back over itself and triangles turned against the face take away what they cover: the ray
+/// meets the face if its triangles do not cancel out.
+double meetFace(const Ray& ray, const MeshData& data, std::span<const std::int32_t> corners) {
+    const auto point = [&](std::size_t i) {
+        return glm::dvec3(data.points[std::size_t(corners[i])]);
+    };
+    if (corners.size() == 3) return meetTriangle(ray, point(0), point(1), point(2));
+    const auto fanNormal = [&](std::size_t i) {
+        return glm::cross(point(i - 1) - point(0), point(i) - point(0));
+    };
+    glm::dvec3 normal(0);
+    for (std::size_t i = 2; i < corners.size(); ++i) normal += fanNormal(i);
+
+    double nearest = kMiss;
+    int layers = 0;
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+        const double t = meetTriangle(ray, point(0), point(i - 1), point(i));
+        if (t == kMiss) continue;
+        nearest = std::min(nearest, t);
+        layers += glm::dot(fanNormal(i), normal) > 0 ? 1 : -1;
+    }
+    return layers != 0 ? nearest : kMiss;
+}
+
+bool isHole(const MeshData& data, std::size_t face) {
+    if (data.scheme == SubdivisionScheme::none) return false;
+    return std::find(data.holes.begin(), data.holes.end(), std::int32_t(face)) != data.holes.end();
+}
+
 double meetMesh(const Ray& ray, const Mesh& mesh) {
     if (!meetsBox(ray, mesh.bounds())) return kMiss;
     const MeshData& data = mesh.data();
     double nearest = kMiss;
     std::size_t first = 0;
-    for (std::int32_t count : data.faceVertexCounts) {
-        const auto point = [&](std::size_t corner) {
-            return glm::dvec3(data.points[std::size_t(data.faceVertexIndices[first + corner])]);
-        };
-        for (std::size_t i = 2; i < std::size_t(count); ++i)
-            nearest = std::min(nearest, meetTriangle(ray, point(0), point(i - 1), point(i)));
-        first += std::size_t(count);
+    for (std::size_t face = 0; face < mesh.faceCount(); ++face) {
+        const auto count = std::size_t(data.faceVertexCounts[face]);
+        const double t =
+            meetFace(ray, data, std::span(data.faceVertexIndices).subspan(first, count));
+        if (t < nearest && !isHole(data, face)) nearest = t;
+        first += count;
     }
     return nearest;
 }
@@ -106,7 +138,8 @@ std::optional<Pick> pick(const PlacedScene& scene, glm::vec3 origin, glm::vec3 d
     for (const auto& mesh : scene.meshes) consider(mesh, meetMesh);
     for (const auto& light : scene.lights)
         consider(light, [](const Ray& ray, const Light& node) {
-            return std::visit([&](const auto& shape) { return meetShape(ray, shape); }, node.shape());
+            return std::visit([&](const auto& shape) { return meetShape(ray, shape); },
+                              node.shape());
         });
     if (nearest == kMiss) return std::nullopt;
     best.distance = float(nearest * glm::length(glm::dvec3(direction)));

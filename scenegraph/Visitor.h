@@ -36,7 +36,8 @@ protected:
     /// Visits the children of `group`; inside them path() ends with the child's name.
     void traverse(const Group& group);
 
-    /// Local frame of the node being visited to the root's frame (column vectors).
+    /// Local frame of the node being visited to the root's frame (column vectors). A Transform's own
+    /// matrix comes on top of it when its children are visited.
     const glm::dmat4& toWorld() const { return matrices_.back(); }
     /// Names from below the root to the node being visited, e.g. "/World/Seat/Cushion".
     std::string path() const;
