@@ -8,8 +8,8 @@
 
 namespace penumbra {
 
-/// Reads attributes of one prim at one time. An attribute that is absent, blocked, or of a type that
-/// can't be meant (text for a number, two components for a point) gives the fallback.
+/// Reads attributes of one prim at one time. An attribute that is absent, blocked, or of a type
+/// that can't be meant (text for a number, two components for a point) gives the fallback.
 class UsdAttributes {
 public:
     UsdAttributes(const UsdPrim& prim, UsdTime time) : prim_(prim), time_(time) {}

@@ -7,8 +7,9 @@
 
 namespace penumbra {
 
-/// The value of some samples at a time of their own layer, which is outside of the first and last or
-/// between two of them. `held` is the sample to take; if `made` isn't empty, it is the value instead.
+/// The value of some samples at a time of their own layer, which is outside of the first and last
+/// or between two of them. `held` is the sample to take; if `made` isn't empty, it is the value
+/// instead.
 struct UsdSampled {
     const UsdValue* held = nullptr;
     UsdValue made;

@@ -158,8 +158,8 @@ NodePtr makeTube(const std::string& name, double radius, double length, Rgb lumi
         data.points.emplace_back(float(length / 2), float(yz.x), float(yz.y));
         const int next = (i + 1) % kTubeSides;
         data.faceVertexCounts.push_back(4);
-        for (const int corner_ : {2 * i, 2 * i + 1, 2 * next + 1, 2 * next})
-            data.faceVertexIndices.push_back(corner_);
+        for (const int point : {2 * i, 2 * next, 2 * next + 1, 2 * i + 1})
+            data.faceVertexIndices.push_back(point);
     }
     auto material = std::make_shared<Material>(name);
     material->setReflectance(Rgb());

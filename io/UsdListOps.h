@@ -13,7 +13,8 @@ namespace penumbra {
 /// Applies the edits of one opinion to the list that weaker opinions have made: an explicit list
 /// replaces it; otherwise items are deleted, added (at the end, if absent), prepended (moved to the
 /// front), appended (moved to the back). `reorder` is left out: no list that we read depends on it.
-inline void applyUsdListEdits(const UsdListEdits<std::string>& edits, std::vector<std::string>& list) {
+inline void applyUsdListEdits(const UsdListEdits<std::string>& edits,
+                              std::vector<std::string>& list) {
     const auto itemsOf = [&](UsdListOp op) -> const std::vector<std::string>* {
         for (const auto& edit : edits)
             if (edit.op == op) return &edit.items;

@@ -4,6 +4,7 @@
 #include "io/UsdLight.h"
 #include "io/UsdMaterial.h"
 #include "io/UsdMesh.h"
+#include "io/UsdNumber.h"
 #include "io/UsdStage.h"
 #include "io/UsdXform.h"
 #include "scenegraph/Camera.h"
@@ -90,6 +91,8 @@ private:
         place.drawn = parent.drawn;
         const std::string purpose = attributes.text("purpose", "");
         if (!purpose.empty()) place.drawn = purpose == "default" || purpose == "render";
+        if (!purpose.empty() && !place.drawn && purpose != "proxy" && purpose != "guide")
+            warnings_.warn(attributes.location("purpose"), "prim of unknown purpose left out");
         const UsdBinding binding = usdMaterialBinding(attributes.prim(), warnings_);
         if (!binding.path.empty() && !parent.inherited.materialIsStronger) {
             place.inherited.material = binding.path;
@@ -153,8 +156,8 @@ private:
     NodePtr makeCamera(const UsdAttributes& attributes) {
         Lens lens;
         const auto read = [&](float& value, std::string_view name) {
-            const double number = attributes.number(name, double(value));
-            if (std::isfinite(number)) value = float(number);
+            const float number = roundToFloat(attributes.number(name, double(value)));
+            if (std::isfinite(number)) value = number;
         };
         read(lens.focalLength, "focalLength");
         read(lens.horizontalAperture, "horizontalAperture");
@@ -162,7 +165,7 @@ private:
         read(lens.horizontalApertureOffset, "horizontalApertureOffset");
         read(lens.verticalApertureOffset, "verticalApertureOffset");
         const auto range = attributes.tuple("clippingRange", 2);
-        if (!range.empty()) lens.clippingRange = {float(range[0]), float(range[1])};
+        if (!range.empty()) lens.clippingRange = {roundToFloat(range[0]), roundToFloat(range[1])};
         lens.perspective = attributes.text("projection", "perspective") != "orthographic";
         if (!(lens.focalLength > 0) || !(lens.horizontalAperture > 0) ||
             !(lens.verticalAperture > 0)) {

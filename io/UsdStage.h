@@ -54,8 +54,9 @@ private:
     UsdValue made_;
 };
 
-/// The composed scene, from a root layer and its sublayers (strength: local opinions only). References,
-/// payloads, inherits, specializes and variants are not composed yet: each is warned of.
+/// The composed scene, from a root layer and its sublayers (strength: local opinions only).
+/// References, payloads, inherits, specializes and variants are not composed yet: each is warned
+/// of.
 class UsdStage {
 public:
     /// Throws SceneFileError for faults of the root layer; sublayers' faults are warned of.
@@ -69,10 +70,10 @@ public:
 
     // The strongest opinions on one prim. ------------------------------------------------------
 
-    /// Value of an attribute. Within a layer time samples beat the default, unless `time` is empty: then
-    /// only defaults count, or, where there is none at all, the earliest sample. Numbers are interpolated
-    /// linearly (quaternions along the great circle), everything else is held; beyond the ends the last sample holds.
-    /// A block (`None`) is no value.
+    /// Value of an attribute. Within a layer time samples beat the default, unless `time` is empty:
+    /// then only defaults count, or, where there is none at all, the earliest sample. Numbers are
+    /// interpolated linearly (quaternions along the great circle), everything else is held; beyond
+    /// the ends the last sample holds. A block (`None`) is no value.
     static UsdResolved value(const UsdPrim& prim, std::string_view attribute, UsdTime time);
     /// Whether some layer's samples make it change with time.
     static bool animated(const UsdPrim& prim, std::string_view attribute);

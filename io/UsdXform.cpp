@@ -158,7 +158,7 @@ UsdLocalTransform usdLocalTransform(const UsdAttributes& prim, Diagnostics& diag
             result.matrix = product;
         else
             diagnostics.warn(prim.location(attribute),
-                             "transform op skipped: it can't be inverted");
+                             "transform op skipped: its matrix is not finite or can't be inverted");
     }
     return result;
 }
