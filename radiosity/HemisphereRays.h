@@ -1,0 +1,24 @@
+// A fixed bundle of rays over the hemisphere.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <vector>
+
+namespace penumbra {
+
+/// Directions of equal weight for cosine-weighted means over a hemisphere, well spread, every prefix of
+/// 4, 16, 64 ... too. The same for every point of the same normal, so that what is sampled with them
+/// varies smoothly from point to point.
+class HemisphereRays {
+public:
+    explicit HemisphereRays(int count);
+    int count() const { return int(local_.size()); }
+    /// Direction `index` around a unit normal, unit length.
+    glm::vec3 direction(int index, glm::vec3 normal) const;
+
+private:
+    std::vector<glm::vec3> local_; ///< around +Z
+};
+
+} // namespace penumbra

@@ -1,0 +1,69 @@
+// Puts tessellated surfaces together into a PatchSet.
+#pragma once
+
+#include "radiosity/PatchSet.h"
+#include "radiosity/RayScene.h"
+#include "radiosity/SurfaceMesh.h"
+#include "radiosity/Tessellation.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace penumbra {
+
+/// Collects surfaces with add(), then makes patches of them with finish().
+class PatchAssembly {
+public:
+    explicit PatchAssembly(PatchSet& out) : out_(out) {}
+
+    /// Adds the sides of `mesh` that there are as elements, and its triangles to the object's RayMesh.
+    void add(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object);
+
+    /// Resolves contacts between objects and groups the elements into patches.
+    /// \param rays the scene made of the RayMeshes that add() collected
+    void finish(const RayScene& rays);
+
+private:
+    /// A cell of one sheet, before contacts may divide it into several patches.
+    struct SheetCell {
+        std::vector<glm::vec3> outline;
+        std::uint32_t material = 0;
+        ObjectId object;
+        bool whole = false;
+        bool smooth = false; ///< of a subdivision surface
+    };
+    using CornerCoordinates = std::array<glm::vec2, 4>;
+    /// Elements of a cell that hang together, and the part of the cell that they span.
+    struct Group {
+        std::vector<std::uint32_t> elements;
+        glm::vec2 low{1}, high{0};
+
+        void add(glm::vec2 st) {
+            low = glm::min(low, st);
+            high = glm::max(high, st);
+        }
+    };
+
+    void addSheet(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object, bool back);
+    void addRays(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object);
+    std::uint32_t materialIndex(const Material& material, bool emits);
+    void makePatches(std::uint32_t cell, std::vector<std::uint32_t>& elements,
+                     const std::vector<std::uint8_t>& free);
+    static void mergeOverlapping(std::vector<Group>& groups);
+    void makePatch(const SheetCell& cell, const Group& group, bool part);
+    void placeNodes(Patch& patch, const SheetCell& cell, const std::vector<std::uint32_t>& elements,
+                    glm::vec2 low, glm::vec2 high);
+    std::uint32_t nodeOfVertex(std::uint32_t vertex);
+
+    PatchSet& out_;
+    std::vector<SheetCell> cells_;
+    std::vector<std::uint32_t> elementCell_;
+    std::vector<CornerCoordinates> elementSt_;
+    std::map<std::pair<const Material*, bool>, std::uint32_t> materials_;
+    std::vector<std::uint32_t> vertexNode_;
+    std::vector<std::uint8_t> vertexPlaced_;
+};
+
+} // namespace penumbra

@@ -1,0 +1,36 @@
+// Illuminance at a point, evaluated there instead of interpolated.
+#pragma once
+
+#include "radiosity/EmitterSender.h"
+#include "radiosity/PatchSet.h"
+#include "radiosity/RayScene.h"
+#include "radiosity/Solver.h"
+#include "scenegraph/Rgb.h"
+
+#include <vector>
+
+namespace penumbra {
+
+/// Gathers light at single points: from the emitters by closed form and many shadow rays, from the
+/// solved patches (their elements, where they are near) by closed form and rays.
+class PointGather {
+public:
+    /// All must outlive this. Element counts as visible if its middle is.
+    PointGather(const PatchSet& patches, const RayScene& rays, const Lighting& lighting);
+
+    Rgb direct(const Receiver& receiver) const;   ///< [lux]
+    Rgb indirect(const Receiver& receiver) const; ///< [lux]
+
+private:
+    float patchVisibility(std::uint32_t patch, const Receiver& receiver) const;
+
+    const PatchSet& patches_;
+    const RayScene& rays_;
+    std::vector<EmitterSender> emitters_;
+    std::vector<Rgb> elementRadiosity_; ///< rho H, own emission left out [lm/m^2]
+    std::vector<Rgb> patchRadiosity_;
+    std::vector<float> patchRadius_;
+    std::vector<glm::vec3> patchSamples_;
+};
+
+} // namespace penumbra

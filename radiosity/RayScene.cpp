@@ -1,0 +1,149 @@
+#include "radiosity/RayScene.h"
+
+#include "scenegraph/Error.h"
+
+#include <embree3/rtcore.h>
+
+#include <cassert>
+#include <cstring>
+#include <string>
+
+namespace penumbra {
+
+namespace {
+
+/// What our filters want to know of a query.
+struct QueryContext {
+    RTCIntersectContext context;      // first, so that Embree's pointer is ours
+    std::uint32_t* blocker = nullptr; // where to note who is in the way
+    bool frontOnly = false;
+
+    QueryContext() { rtcInitIntersectContext(&context); } // incoherent: COHERENT is slower everywhere
+};
+
+/// Notes the object of the hit that ends each ray; the hit itself is accepted.
+void noteBlocker(const RTCFilterFunctionNArguments* args) {
+    const auto* const context = reinterpret_cast<const QueryContext*>(args->context);
+    if (!context->blocker) return;
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] == 0) continue;
+        const unsigned ray = RTCRayN_id(args->ray, args->N, i);
+        context->blocker[ray] = RTCHitN_geomID(args->hit, args->N, i);
+    }
+}
+
+/// Rejects hits from behind when the query asks for fronts only.
+void rejectBacks(const RTCFilterFunctionNArguments* args) {
+    if (!reinterpret_cast<const QueryContext*>(args->context)->frontOnly) return;
+    for (unsigned i = 0; i < args->N; ++i) {
+        const float facing = RTCRayN_dir_x(args->ray, args->N, i) * RTCHitN_Ng_x(args->hit, args->N, i) +
+                             RTCRayN_dir_y(args->ray, args->N, i) * RTCHitN_Ng_y(args->hit, args->N, i) +
+                             RTCRayN_dir_z(args->ray, args->N, i) * RTCHitN_Ng_z(args->hit, args->N, i);
+        if (facing >= 0) args->valid[i] = 0;
+    }
+}
+
+} // namespace
+
+struct RayScene::Impl {
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+
+    Impl() {
+        device = rtcNewDevice("threads=1");
+        if (!device) throw Error("ray tracing: Embree can't start on this processor (SSE2 is needed)");
+        scene = rtcNewScene(device);
+        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_DYNAMIC);
+        rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
+    }
+    ~Impl() {
+        rtcReleaseScene(scene);
+        rtcReleaseDevice(device);
+    }
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
+    void add(const RayMesh& mesh, unsigned id) {
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
+        void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                 sizeof(glm::vec3), mesh.vertices.size());
+        void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                3 * sizeof(std::uint32_t), mesh.triangles.size());
+        if (!vertices || !indices) throw Error("ray tracing: not enough memory for the scene");
+        std::memcpy(vertices, mesh.vertices.data(), mesh.vertices.size() * sizeof(glm::vec3));
+        std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * 3 * sizeof(std::uint32_t));
+        rtcSetGeometryOccludedFilterFunction(geometry, noteBlocker);
+        rtcSetGeometryIntersectFilterFunction(geometry, rejectBacks);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(scene, geometry, id);
+        rtcReleaseGeometry(geometry);
+    }
+};
+
+RayScene::RayScene(std::span<const RayMesh> objects) : impl_(std::make_unique<Impl>()) {
+    for (std::size_t i = 0; i < objects.size(); ++i)
+        if (!objects[i].triangles.empty()) impl_->add(objects[i], unsigned(i));
+    rtcCommitScene(impl_->scene);
+    if (rtcGetDeviceError(impl_->device) != RTC_ERROR_NONE)
+        throw Error("ray tracing: Embree could not build the scene (out of memory?)");
+}
+
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+void RayScene::occluded(ShadowRays& rays) const {
+    static_assert(ShadowRays::kMost == 16);
+    alignas(64) int valid[16];
+    alignas(64) RTCRay16 packet;
+    for (int i = 0; i < 16; ++i) {
+        const bool used = rays.used >> i & 1;
+        valid[i] = used ? -1 : 0;
+        rays.blocker[i] = ObjectId::kNone;
+        packet.org_x[i] = used ? rays.originX[i] : 0;
+        packet.org_y[i] = used ? rays.originY[i] : 0;
+        packet.org_z[i] = used ? rays.originZ[i] : 0;
+        packet.dir_x[i] = used ? rays.directionX[i] : 0;
+        packet.dir_y[i] = used ? rays.directionY[i] : 0;
+        packet.dir_z[i] = used ? rays.directionZ[i] : 1;
+        packet.tnear[i] = 0;
+        packet.tfar[i] = kReach;
+        packet.time[i] = 0;
+        packet.mask[i] = 0xffffffffu;
+        packet.id[i] = unsigned(i);
+        packet.flags[i] = 0;
+    }
+    QueryContext context;
+    context.blocker = rays.blocker;
+    rtcOccluded16(valid, impl_->scene, &context.context, &packet);
+}
+
+bool RayScene::occluded(glm::vec3 origin, glm::vec3 target) const {
+    const glm::vec3 d = target - origin;
+    RTCRay ray{origin.x, origin.y, origin.z, 0, d.x, d.y, d.z, 0, kReach, 0xffffffffu, 0, 0};
+    QueryContext context;
+    rtcOccluded1(impl_->scene, &context.context, &ray);
+    return ray.tfar < 0;
+}
+
+RayHit RayScene::nearest(glm::vec3 origin, glm::vec3 direction, float reach, Faces faces) const {
+    RTCRayHit query{};
+    query.ray = {origin.x, origin.y, origin.z, 0, direction.x, direction.y, direction.z,
+                 0,        reach,    0xffffffffu, 0, 0};
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    QueryContext context;
+    context.frontOnly = faces == Faces::front;
+    rtcIntersect1(impl_->scene, &context.context, &query);
+    RayHit hit;
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
+    hit.distance = query.ray.tfar;
+    hit.object.value = query.hit.geomID;
+    hit.triangle = query.hit.primID;
+    hit.u = query.hit.u;
+    hit.v = query.hit.v;
+    hit.normal = {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
+    return hit;
+}
+
+} // namespace penumbra

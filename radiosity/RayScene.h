@@ -1,0 +1,69 @@
+// Rays, by Embree.
+#pragma once
+
+#include "radiosity/PatchSet.h"
+#include "scenegraph/ObjectId.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace penumbra {
+
+/// Up to 16 segments to be tested for obstacles. Segment i runs from its origin to origin + direction.
+struct alignas(64) ShadowRays {
+    static constexpr int kMost = 16;
+    float originX[kMost], originY[kMost], originZ[kMost];
+    float directionX[kMost], directionY[kMost], directionZ[kMost];
+    std::uint32_t used = 0;       ///< bit i: segment i is to be tested
+    std::uint32_t blocker[kMost]; ///< result: object that blocks the segment, ObjectId::kNone if free
+
+    void set(int i, glm::vec3 origin, glm::vec3 target) {
+        originX[i] = origin.x, originY[i] = origin.y, originZ[i] = origin.z;
+        directionX[i] = target.x - origin.x;
+        directionY[i] = target.y - origin.y;
+        directionZ[i] = target.z - origin.z;
+        used |= 1u << i;
+    }
+};
+
+/// What a ray met first.
+struct RayHit {
+    float distance = 0;      ///< in units of the ray's direction
+    ObjectId object;         ///< not valid: nothing was met
+    std::uint32_t triangle = 0;
+    float u = 0, v = 0;      ///< barycentric, of the triangle's second and third corner
+    glm::vec3 normal{};      ///< of the triangle's front, not unit
+
+    bool met() const { return object.valid(); }
+};
+
+/// The objects of a scene, each one geometry of its own in one flat Embree scene, so that an object
+/// can be moved by refitting. Tracing is thread-safe.
+class RayScene {
+public:
+    /// Segments count as free up to this share of their length: the target's own surface is not an
+    /// obstacle.
+    static constexpr float kReach = 1.0f - 1e-4f;
+
+    explicit RayScene(std::span<const RayMesh> objects);
+    ~RayScene();
+    RayScene(RayScene&&) noexcept;
+    RayScene& operator=(RayScene&&) noexcept;
+
+    /// Finds for each segment an object that blocks it, if any.
+    void occluded(ShadowRays& rays) const;
+    bool occluded(glm::vec3 origin, glm::vec3 target) const;
+    enum class Faces { both, front };
+    /// The nearest triangle, up to `reach` times the length of `direction`; on request only of those
+    /// that show their front.
+    RayHit nearest(glm::vec3 origin, glm::vec3 direction, float reach, Faces faces = Faces::both) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace penumbra

@@ -1,0 +1,90 @@
+// After [Schoeffel1998], whose list keeps one blocker an entry. Departures: samples and their blockers
+// are kept one by one where they differ, and form factors are stored apart from visibility, so that an
+// entry can be changed by retesting single samples.
+#include "radiosity/Row.h"
+
+#include <cassert>
+
+namespace penumbra {
+
+namespace {
+
+std::uint32_t low(std::uint64_t v) { return std::uint32_t(v); }
+std::uint32_t high(std::uint64_t v) { return std::uint32_t(v >> 32); }
+std::uint64_t join(std::uint32_t a, std::uint32_t b) { return std::uint64_t(b) << 32 | a; }
+
+} // namespace
+
+void RowBlock::assign(std::span<const Draft> drafts) {
+    assert(drafts.size() <= kSize);
+    present_ = visible_ = 0;
+    std::vector<std::uint32_t> factors, codes, side;
+    for (std::size_t i = 0; i < drafts.size(); ++i) {
+        if (!(drafts[i].formFactor > 0)) continue;
+        present_ |= std::uint64_t(1) << i;
+        if (drafts[i].blockerCount == 0) visible_ |= std::uint64_t(1) << i;
+        factors.push_back(std::bit_cast<std::uint32_t>(drafts[i].formFactor));
+    }
+    const auto sideStart = std::uint32_t(factors.size() + factors.size() -
+                                         std::size_t(std::popcount(visible_)));
+    for (const Draft& draft : drafts) {
+        if (!(draft.formFactor > 0) || draft.blockerCount == 0) continue;
+        if (draft.visible == 0 && draft.blockerCount == 1) {
+            codes.push_back(draft.blockers[0].object);
+            continue;
+        }
+        codes.push_back(kMixed | (sideStart + std::uint32_t(side.size())));
+        side.push_back(std::bit_cast<std::uint32_t>(draft.visibility));
+        side.push_back(std::uint32_t(draft.blockerCount));
+        side.push_back(low(draft.visible));
+        side.push_back(high(draft.visible));
+        for (const Blocker& blocker : std::span(draft.blockers).first(std::size_t(draft.blockerCount))) {
+            side.push_back(blocker.object);
+            side.push_back(low(blocker.samples));
+            side.push_back(high(blocker.samples));
+        }
+    }
+    words_.clear();
+    words_.reserve(factors.size() + codes.size() + side.size());
+    words_.insert(words_.end(), factors.begin(), factors.end());
+    words_.insert(words_.end(), codes.begin(), codes.end());
+    words_.insert(words_.end(), side.begin(), side.end());
+}
+
+RowBlock::Entry RowBlock::entry(int receiver) const {
+    Entry entry;
+    const std::uint64_t bit = std::uint64_t(1) << receiver;
+    if (!(present_ & bit)) return entry;
+    entry.present = true;
+    const std::size_t index = std::size_t(std::popcount(present_ & (bit - 1)));
+    entry.formFactor = std::bit_cast<float>(words_[index]);
+    if (visible_ & bit) {
+        entry.visibility = 1;
+        entry.visible = ~std::uint64_t(0);
+        return entry;
+    }
+    const std::size_t hidden = std::size_t(std::popcount(present_ & ~visible_ & (bit - 1)));
+    const std::uint32_t code = words_[std::size_t(std::popcount(present_)) + hidden];
+    if (!(code & kMixed)) {
+        entry.blockers.push_back({code, ~std::uint64_t(0)});
+        return entry;
+    }
+    const std::uint32_t* side = words_.data() + (code & ~kMixed);
+    entry.visibility = std::bit_cast<float>(side[0]);
+    entry.visible = join(side[2], side[3]);
+    for (std::uint32_t b = 0; b < side[1]; ++b)
+        entry.blockers.push_back(
+            {side[4 + 3 * b], join(side[5 + 3 * b], side[6 + 3 * b])});
+    return entry;
+}
+
+RowSize sizeOf(const Row& row) {
+    RowSize size;
+    for (const RowBlock& block : row) {
+        size.entries += std::size_t(block.entryCount());
+        size.bytes += block.bytes();
+    }
+    return size;
+}
+
+} // namespace penumbra

@@ -1,0 +1,39 @@
+// Where on a sender visibility is sampled.
+#pragma once
+
+#include "radiosity/PatchSet.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace penumbra {
+
+/// Point `index` of the Sobol (0,2)-sequence (Sobol 1967): every first 4, 16, 64 ... points are
+/// stratified in both coordinates and in the square. In [0, 1)^2.
+glm::vec2 sobol02(std::uint32_t index);
+
+/// Square to unit disk, keeping areas and neighbourhoods (Shirley & Chiu, JGT 2(3), 1997).
+glm::vec2 squareToDisk(glm::vec2 u);
+
+/// Points on an emitter, each of the same share of its area, and every prefix of 4, 16, ... well
+/// spread. For a sphere points of the unit disk: seen from a receiver it is a disk.
+struct EmitterSamples {
+    struct Point {
+        glm::vec3 position; ///< [m, world], on the surface; (x, y, 0) in the unit disk for a sphere
+        glm::vec3 normal;
+    };
+    std::vector<Point> points;
+};
+EmitterSamples sampleEmitter(const Emitter& emitter, std::size_t count);
+
+/// kPatchSamples points on the elements of a patch, in 4 x 4 strata: 4 * i ... 4 * i + 3 lie in the
+/// same quarter i of the patch.
+inline constexpr std::size_t kPatchSamples = 16;
+void samplePatch(const PatchSet& set, const Patch& patch, glm::vec3* points);
+
+/// An arbitrary but fixed number for a pair of indices: decides which samples the pair uses.
+std::uint32_t pairHash(std::uint32_t a, std::uint32_t b);
+
+} // namespace penumbra

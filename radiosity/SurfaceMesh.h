@@ -1,0 +1,56 @@
+// A placed mesh made ready for tessellation: clean convex faces in world space, and which of its
+// sides there are.
+#pragma once
+
+#include "scenegraph/Mesh.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace penumbra {
+
+/// One face of a SurfaceMesh.
+struct SurfaceFace {
+    std::uint32_t firstCorner = 0; ///< SurfaceMesh::corners[first ... first + count)
+    std::uint32_t cornerCount = 0;
+    std::uint32_t source = 0;      ///< face of the scene's mesh that it comes from
+    bool front = true;             ///< whether its front and its back receive light
+    bool back = false;
+    bool solid = false;            ///< belongs to a closed surface with nothing lit inside
+};
+
+/// Faces in world space. Concave and twisted polygons are triangulated (not in subdivision cages).
+struct SurfaceMesh {
+    const MeshData* data = nullptr;
+    std::vector<glm::vec3> points;       ///< [m, world]
+    std::vector<std::uint32_t> corners;  ///< indices into points, face by face
+    std::vector<SurfaceFace> faces;
+    std::size_t skipped = 0;             ///< faces that can't be used
+    std::size_t used = 0;                ///< faces of the scene's mesh that were used
+
+    std::span<const std::uint32_t> cornersOf(const SurfaceFace& face) const {
+        return std::span(corners).subspan(face.firstCorner, face.cornerCount);
+    }
+    /// Loop cages are taken as the polygons they are.
+    bool subdivided() const {
+        return data->scheme == SubdivisionScheme::catmullClark ||
+               data->scheme == SubdivisionScheme::bilinear;
+    }
+};
+
+/// Places a mesh. A mirroring transform turns the winding round, so that fronts stay fronts.
+SurfaceMesh placeSurface(const MeshData& data, const glm::dmat4& toWorld);
+
+/// Decides which sides of the faces there are. Of a closed connected surface that contains none of
+/// `lightPoints` only the outside is ever lit. An open two-sided surface, or a closed one with a light
+/// inside, has both sides; a one-sided surface has its front.
+/// \param lightPoints a point on every emitter [m, world]
+void chooseSides(SurfaceMesh& mesh, std::span<const glm::vec3> lightPoints);
+
+/// Normal of a polygon, its length twice the area (Newell's method; sound for twisted polygons).
+glm::dvec3 newellNormal(std::span<const glm::vec3> points, std::span<const std::uint32_t> corners);
+
+} // namespace penumbra

@@ -1,0 +1,14 @@
+// The subcommands of the program. Each adds itself to the command line and runs when it was chosen.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace penumbra {
+
+void addRenderCommand(CLI::App& app);
+void addSolveCommand(CLI::App& app);
+void addInfoCommand(CLI::App& app);
+
+} // namespace penumbra

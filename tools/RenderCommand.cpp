@@ -1,0 +1,147 @@
+#include "io/ExrWriter.h"
+#include "io/PngWriter.h"
+#include "radiosity/Parallel.h"
+#include "scenegraph/Camera.h"
+#include "scenegraph/Error.h"
+#include "tools/Commands.h"
+#include "tools/SceneSolution.h"
+#include "tools/Statistics.h"
+#include "viewer/FinalRenderer.h"
+#include "viewer/OffscreenContext.h"
+#include "viewer/Renderer.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+namespace penumbra {
+
+namespace {
+
+struct RenderCommand {
+    SolveSettings solve;
+    std::string output, png, camera;
+    std::string quality = "drawn";
+    std::string pixels = "half";
+    int width = 1280, height = 720;
+};
+
+/// The camera that was asked for, or the first one, or none.
+const Placed<Camera>* chooseCamera(const PlacedScene& placed, const std::string& path,
+                                   const std::string& file) {
+    if (path.empty()) return placed.cameras.empty() ? nullptr : &placed.cameras.front();
+    const auto matches = [&](const Placed<Camera>& camera) {
+        // A camera prim with a transform of its own is two nodes of the same name.
+        return camera.path == path || camera.path == path + "/" + camera.node->name();
+    };
+    const auto found = std::find_if(placed.cameras.begin(), placed.cameras.end(), matches);
+    if (found != placed.cameras.end()) return &*found;
+    std::string known;
+    for (const auto& camera : placed.cameras) known += (known.empty() ? "" : ", ") + camera.path;
+    throw SceneFileError({file}, fmt::format("no camera '{}' ({})", path,
+                                             known.empty() ? "the file has none" : "it has " + known));
+}
+
+View chooseView(const RenderCommand& command, const SceneSolution& solution) {
+    const auto* const camera = chooseCamera(solution.placed(), command.camera, command.solve.scene);
+    if (camera)
+        return makeView(camera->node->lens(), camera->toWorld, command.width, command.height);
+    if (!command.solve.quiet)
+        fmt::print(stderr, "{}: no camera in the file: the whole scene is framed from above\n",
+                   command.solve.scene);
+    const Bounds& bounds = solution.placed().bounds;
+    return frameBox(bounds.lower, bounds.upper, int(solution.scene().upAxis), command.width,
+                    command.height);
+}
+
+ExrMetadata metadata(const RenderCommand& command, const SceneSolution& solution) {
+    const SolveStatistics s = solution.solver().statistics();
+    ExrMetadata data;
+    data.texts["software"] = "Penumbra " PENUMBRA_VERSION;
+    data.texts["scene"] = std::filesystem::path(command.solve.scene).filename().string();
+    data.texts["units"] = "R, G, B, direct, indirect: cd/m^2; illuminance: lux; Z: m";
+    data.texts["quality"] = command.quality;
+    data.numbers["certificate"] = float(s.certificate); // bound of |B_exact - B| [lm/m^2]
+    data.numbers["patchSize"] = solution.patches().patchSize;
+    data.numbers["elementSize"] = solution.patches().elementSize;
+    return data;
+}
+
+/// Fails early when the picture could not be written in the end.
+void checkOutput(const std::string& path) {
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder))
+        throw Error(fmt::format("{}: error: can't write: no folder '{}' (create it first)", path,
+                                folder.string()));
+    if (std::filesystem::is_directory(path))
+        throw Error(fmt::format("{}: error: can't write: is a folder (name a file)", path));
+}
+
+FrameLayers draw(const RenderCommand& command, SceneSolution& solution, const View& view) {
+    if (command.quality == "final") {
+        FinalOptions options;
+        options.progress = [&](double done) { solution.progress().show("tracing", done); };
+        return traceFrame(solution.patches(), solution.rays(), solution.lighting(), view,
+                          command.width, command.height, options);
+    }
+    OffscreenContext context;
+    Renderer renderer;
+    const RadiosityNode lit(solution.patches(), solution.lighting());
+    return renderFrame(context, renderer, lit, view, command.width, command.height);
+}
+
+void run(const RenderCommand& command) {
+    const ThreadLimit limit(command.solve.threads);
+    checkOutput(command.output);
+    if (!command.png.empty()) checkOutput(command.png);
+    SceneSolution solution(command.solve);
+    const View view = chooseView(command, solution);
+    const FrameLayers frame = solution.timed("draw", [&] { return draw(command, solution, view); });
+    solution.progress().clear();
+    ExrOptions options;
+    options.half = command.pixels == "half";
+    const std::size_t clamped = solution.timed("write", [&] {
+        return writeExr(command.output, frame, view, metadata(command, solution), options);
+    });
+    if (clamped > 0 && !command.solve.quiet)
+        fmt::print(stderr,
+                   "{}: {} values above 65504 were clamped: --pixels float keeps them\n",
+                   command.output, clamped);
+    if (!command.png.empty()) writePng(command.png, frame);
+    if (!command.solve.stats.empty()) writeStatistics(command.solve.stats, solution);
+}
+
+} // namespace
+
+void addRenderCommand(CLI::App& app) {
+    auto command = std::make_shared<RenderCommand>();
+    CLI::App* const render = app.add_subcommand(
+        "render", "A lit frame, without a display.\n"
+                  "Example: penumbra render scenes/office.usda -o office.exr --png office.png");
+    addSolveOptions(*render, command->solve);
+    render->add_option("-o,--output", command->output, "OpenEXR file to write, pixels in cd/m^2")
+        ->required();
+    render->add_option("--png", command->png, "Also write a tone-mapped picture for people");
+    render->add_option("--camera", command->camera, "Path of the camera (default: the first one)");
+    render
+        ->add_option("--quality", command->quality,
+                     "drawn: the patches as OpenGL draws them\n"
+                     "final: traced, direct light evaluated in every pixel")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"drawn", "final"}));
+    render->add_option("--pixels", command->pixels, "half (16 bit) or float (32 bit)")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"half", "float"}));
+    render->add_option("--width", command->width, "Of the picture [pixels]")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 16384));
+    render->add_option("--height", command->height, "Of the picture [pixels]")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 16384));
+    render->callback([command] { run(*command); });
+}
+
+} // namespace penumbra

@@ -1,0 +1,108 @@
+#include "tools/SceneSolution.h"
+
+#include "radiosity/DetailGather.h"
+#include "scenegraph/Error.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+
+namespace penumbra {
+
+namespace {
+
+double now() {
+    using namespace std::chrono;
+    return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+} // namespace
+
+void addSolveOptions(CLI::App& command, SolveSettings& settings) {
+    command.add_option("SCENE", settings.scene, "USD text file (.usda) to light")->required();
+    const auto positive = CLI::Range(1e-6, 1e6);
+    command.add_option("--patch-size", settings.meshing.patchSize,
+                       "Longest edge of a patch, which sends light [m]\n"
+                       "(default: follows the scene, sqrt(surface area / 2500))")
+        ->check(positive);
+    command.add_option("--element-size", settings.meshing.elementSize,
+                       "Longest edge of an element, which receives and shows light [m]\n"
+                       "(default: an eighth of a patch)")
+        ->check(positive);
+    command.add_option("--samples", settings.solver.samples,
+                       "Visibility samples of a lamp and a point; four times as many in penumbrae")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 64));
+    command.add_option("--residual", settings.solver.residual,
+                       "Relax until the certificate, the bound of what the picture may still be\n"
+                       "wrong by, is below this share of the brightest emitter's exitance\n"
+                       "(default: until it is below 1 % of the mean radiosity)")
+        ->check(CLI::Range(1e-9, 1.0));
+    command.add_flag("--direct-only", settings.solver.directOnly,
+                     "Light straight from the emitters, no interreflection");
+    command.add_option("--frame", settings.frame,
+                       "Time code of the file's animation to show (default: its start)");
+    command.add_option("--threads", settings.threads, "Threads to use (default: one a core)")
+        ->check(CLI::Range(1u, 1024u));
+    command.add_option("--stats", settings.stats, "Write counts and times to this file, as JSON");
+    command.add_flag("--verbose", settings.verbose, "Say everything that was skipped in the file");
+    command.add_flag("--progress", settings.progress,
+                     "Show progress even when standard error is no terminal");
+    command.add_flag("--quiet", settings.quiet, "Show neither progress nor a summary");
+}
+
+void reportDiagnostics(const std::vector<Diagnostic>& diagnostics, bool verbose) {
+    if (diagnostics.empty()) return;
+    if (!verbose) {
+        std::fprintf(stderr, "%s (--verbose says all)\n", summary(diagnostics).c_str());
+        return;
+    }
+    for (const Diagnostic& diagnostic : diagnostics)
+        std::fprintf(stderr, "%s\n", diagnostic.line().c_str());
+}
+
+SceneSolution::PhaseTimer::PhaseTimer(double& sum) : sum_(sum), start_(now()) {}
+SceneSolution::PhaseTimer::~PhaseTimer() { sum_ += now() - start_; }
+
+SceneSolution::SceneSolution(const SolveSettings& settings)
+    : progress_(settings.quiet      ? ProgressBar::When::never
+                : settings.progress ? ProgressBar::When::always
+                                    : ProgressBar::When::terminal) {
+    progress_.show("reading", 0);
+    loaded_ = timed("read", [&] {
+        LoadOptions options;
+        options.time = settings.frame;
+        return loadUsdScene(settings.scene, options);
+    });
+    progress_.clear();
+    if (!settings.quiet) reportDiagnostics(loaded_.diagnostics, settings.verbose);
+    placed_ = placeScene(*loaded_.scene);
+    if (placed_.meshes.empty() && placed_.lights.empty())
+        throw SceneFileError({settings.scene}, "nothing to light: no visible mesh that can be read");
+
+    progress_.show("meshing", 0);
+    built_ = timed("mesh", [&] { return buildPatches(placed_, settings.meshing); });
+    progress_.clear();
+    if (!settings.quiet)
+        for (const std::string& warning : built_.warnings)
+            std::fprintf(stderr, "%s: warning: %s\n", settings.scene.c_str(), warning.c_str());
+    rays_ = timed("rays", [&] { return std::make_unique<RayScene>(built_.patches.rayMeshes); });
+
+    const Progress show = [&](const char* phase, double done) { progress_.show(phase, done); };
+    solver_ = timed("prepare", [&] {
+        return std::make_unique<Solver>(built_.patches, *rays_, settings.solver);
+    });
+    timed("direct", [&] { solver_->solveDirect(show); });
+    if (!settings.solver.directOnly) timed("indirect", [&] { solver_->solveIndirect(show); });
+    lighting_ = timed("light", [&] { return solver_->lighting(); });
+    if (!settings.solver.directOnly)
+        timed("detail", [&] {
+            progress_.show("fine shadows", 0);
+            DetailGather(built_.patches).apply(lighting_);
+        });
+    progress_.clear();
+}
+
+} // namespace penumbra

@@ -1,0 +1,94 @@
+#include "tools/SensorFile.h"
+
+#include "io/AtomicFile.h"
+#include "scenegraph/Error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+namespace penumbra {
+
+namespace {
+
+constexpr std::array<std::string_view, 6> kColumns{"x", "y", "z", "nx", "ny", "nz"};
+
+std::vector<std::string_view> cells(std::string_view line) {
+    std::vector<std::string_view> cells;
+    for (;;) {
+        const std::size_t comma = line.find(',');
+        std::string_view cell = line.substr(0, comma);
+        while (!cell.empty() && (cell.front() == ' ' || cell.front() == '\t')) cell.remove_prefix(1);
+        while (!cell.empty() && (cell.back() == ' ' || cell.back() == '\r')) cell.remove_suffix(1);
+        cells.push_back(cell);
+        if (comma == std::string_view::npos) return cells;
+        line.remove_prefix(comma + 1);
+    }
+}
+
+float number(std::string_view cell, const SourceLocation& where) {
+    float value = 0;
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
+        throw SceneFileError(where, fmt::format("'{}' is not a number", cell.substr(0, 40)));
+    return value;
+}
+
+} // namespace
+
+std::vector<Receiver> readSensors(const std::string& path) {
+    if (std::filesystem::is_directory(path))
+        throw SceneFileError({path}, "is a folder, not a sensor list");
+    std::ifstream file(path);
+    if (!file) throw SceneFileError({path}, "can't be read (does it exist?)");
+    std::string line;
+    std::getline(file, line);
+    std::array<std::size_t, 6> column;
+    const auto header = cells(line);
+    for (std::size_t i = 0; i < 6; ++i) {
+        column[i] = std::size_t(std::find(header.begin(), header.end(), kColumns[i]) - header.begin());
+        if (column[i] == header.size())
+            throw SceneFileError({path, 1}, fmt::format("no column '{}' (the header of a sensor list is "
+                                                        "x,y,z,nx,ny,nz)", kColumns[i]));
+    }
+    std::vector<Receiver> sensors;
+    for (std::size_t row = 2; std::getline(file, line); ++row) {
+        if (line.empty() || line == "\r") continue;
+        const auto fields = cells(line);
+        std::array<float, 6> v;
+        for (std::size_t i = 0; i < 6; ++i) {
+            if (column[i] >= fields.size())
+                throw SceneFileError({path, row}, fmt::format("too few values: no '{}'", kColumns[i]));
+            v[i] = number(fields[column[i]], {path, row});
+        }
+        const glm::vec3 normal(v[3], v[4], v[5]);
+        if (!(glm::length(normal) > 0)) throw SceneFileError({path, row}, "the normal is zero");
+        sensors.push_back({{v[0], v[1], v[2]}, glm::normalize(normal)});
+    }
+    return sensors;
+}
+
+void writeValues(const std::string& path, std::span<const Receiver> sensors,
+                 std::span<const Rgb> values) {
+    std::string text = "x,y,z,nx,ny,nz,r,g,b\n";
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
+        const auto& [p, n] = sensors[i];
+        text += fmt::format("{},{},{},{},{},{},{},{},{}\n", p.x, p.y, p.z, n.x, n.y, n.z, values[i].r,
+                            values[i].g, values[i].b);
+    }
+    if (path == "-") {
+        if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+            throw Error("standard output: error: can't be written");
+        return;
+    }
+    writeFileAtomically(path, text);
+}
+
+} // namespace penumbra

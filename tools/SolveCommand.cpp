@@ -1,0 +1,100 @@
+#include "radiosity/Parallel.h"
+#include "radiosity/PointGather.h"
+#include "scenegraph/Error.h"
+#include "tools/Commands.h"
+#include "tools/SceneSolution.h"
+#include "tools/SensorFile.h"
+#include "tools/Statistics.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+namespace penumbra {
+
+namespace {
+
+struct SolveCommand {
+    SolveSettings solve;
+    std::string sensors, values;
+    bool gather = false;
+};
+
+/// What the sensors read: of the drawn surface under them, or evaluated where they are. A sensor with
+/// no surface under it is always evaluated.
+std::vector<Rgb> readSensorValues(SceneSolution& solution, const std::vector<Receiver>& sensors,
+                                  bool gather, bool directOnly) {
+    const LitSurface surface(solution.patches(), solution.lighting());
+    const PointGather point(solution.patches(), solution.rays(), solution.lighting());
+    std::vector<Rgb> values(sensors.size());
+    parallelFor(sensors.size(), 4, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            if (!gather) {
+                const auto drawn = surface.under(sensors[i].position, sensors[i].normal);
+                if (drawn) {
+                    values[i] = drawn->direct + drawn->indirect;
+                    continue;
+                }
+            }
+            Receiver lifted = sensors[i];
+            lifted.position += solution.patches().skin * lifted.normal;
+            values[i] = point.direct(lifted);
+            if (!directOnly) values[i] += point.indirect(lifted);
+        }
+    });
+    return values;
+}
+
+void run(const SolveCommand& command) {
+    const ThreadLimit limit(command.solve.threads);
+    std::vector<Receiver> sensors; // read first: a wrong list should not cost a solution
+    if (!command.sensors.empty()) sensors = readSensors(command.sensors);
+    SceneSolution solution(command.solve);
+    if (!command.sensors.empty()) {
+        const auto values = solution.timed("sensors", [&] {
+            return readSensorValues(solution, sensors, command.gather,
+                                    command.solve.solver.directOnly);
+        });
+        writeValues(command.values, sensors, values);
+    }
+    if (!command.solve.stats.empty()) writeStatistics(command.solve.stats, solution);
+    if (command.solve.quiet || command.values == "-") return;
+    const SolveStatistics s = solution.solver().statistics();
+    const PatchSet& patches = solution.patches();
+    fmt::print(stderr,
+               "{} patches, {} elements, {} emitters; {:.1f} M rays, {} shots in {:.1f} s; the light is "
+               "exact to {:.3g} lm/m2 (mean {:.3g})\n",
+               patches.patches.size(), patches.elements.size(), patches.emitters.size(),
+               double(s.directRays + s.indirectRays) * 1e-6, s.shots,
+               s.directSeconds + s.indirectSeconds, s.certificate, s.meanRadiosity);
+}
+
+} // namespace
+
+void addSolveCommand(CLI::App& app) {
+    auto command = std::make_shared<SolveCommand>();
+    CLI::App* const solve = app.add_subcommand(
+        "solve", "The lighting itself: values at sensors, statistics.\n"
+                 "Example: penumbra solve room.usda --sensors points.csv --values lux.csv");
+    addSolveOptions(*solve, command->solve);
+    CLI::Option* const sensors = solve->add_option(
+        "--sensors", command->sensors,
+        "CSV with the header x,y,z,nx,ny,nz (metres, scene frame, unit normal)");
+    CLI::Option* const values =
+        solve->add_option("--values", command->values,
+                          "Where to write the sensors with r,g,b added, illuminance in lux\n"
+                          "(\"-\": standard output)");
+    sensors->needs(values);
+    values->needs(sensors);
+    solve
+        ->add_flag("--gather", command->gather,
+                   "Evaluate light at the sensors themselves (direct light by closed form and\n"
+                   "shadow rays, indirect gathered from the patches) instead of reading it off\n"
+                   "the surface as drawn")
+        ->needs(sensors);
+    solve->callback([command] { run(*command); });
+}
+
+} // namespace penumbra

@@ -1,0 +1,38 @@
+#include "tools/Commands.h"
+
+#include <CLI/CLI.hpp>
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+
+int main(int argc, char** argv) {
+    // A full disk or a closed pipe is told by the failing write, not by a signal.
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
+    CLI::App app{"Penumbra: soft, physically right light for scenes in which things move.\n"
+                 "Reads USD text (.usda), solves radiosity, writes lit frames as OpenEXR.\n",
+                 "penumbra"};
+    app.set_version_flag("--version", "penumbra " PENUMBRA_VERSION);
+    app.require_subcommand(1);
+    app.footer("Each command explains itself: penumbra render --help\n"
+               "Exit codes: 0 done; 1 it failed, and one line says why; 2 the command line was wrong.");
+    penumbra::addRenderCommand(app);
+    penumbra::addSolveCommand(app);
+    penumbra::addInfoCommand(app);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& success) { // --help, --version
+        return app.exit(success);
+    } catch (const CLI::ParseError& error) {
+        app.exit(error);
+        return 2;
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr, "penumbra: error: out of memory (try a larger --element-size)\n");
+        return 1;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 1;
+    }
+    return 0;
+}
