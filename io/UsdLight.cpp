@@ -170,38 +170,42 @@ NodePtr makeTube(const std::string& name, double radius, double length, Rgb lumi
 
 } // namespace
 
+double usdLightArea(const UsdAttributes& light, const glm::dmat4& toWorld) {
+    const std::string& type = light.prim().typeName;
+    const glm::dmat3 linear(toWorld);
+    const auto size = [&](std::string_view input, double fallback) {
+        const double value = double(roundToFloat(light.number(input, fallback)));
+        return value > 0 && std::isfinite(value) ? value : 0;
+    };
+    const double flat = areaFactor(linear, {1, 0, 0}, {0, 1, 0});
+    if (type == "RectLight") return size("inputs:width", 1) * size("inputs:height", 1) * flat;
+    const double r = size("inputs:radius", 0.5);
+    if (type == "DiskLight") return kPi * r * r * flat;
+    if (type == "SphereLight") return sphereArea(linear, r);
+    return tubeArea(linear, r, size("inputs:length", 1));
+}
+
 NodePtr makeUsdLight(const UsdAttributes& light, const glm::dmat4& toWorld,
                      Diagnostics& diagnostics) {
     const std::string& type = light.prim().typeName;
     const std::string& name = light.prim().name;
-    const glm::dmat3 linear(toWorld);
-    const float radius = roundToFloat(light.number("inputs:radius", 0.5));
-    const auto make = [&](double area, const auto& node) -> NodePtr {
-        if (std::isfinite(area) && area > 0)
-            return node(usdLightLuminance(light, area, diagnostics));
+    const double area = usdLightArea(light, toWorld);
+    if (!(area > 0) || !std::isfinite(area)) {
         diagnostics.warn(light.prim().location(), "a light without area left out");
         return nullptr;
-    };
-    const auto shaped = [&](LightShape shape) {
-        return [&, shape](Rgb luminance) -> NodePtr {
-            return std::make_shared<Light>(name, shape, luminance);
-        };
+    }
+    const Rgb luminance = usdLightLuminance(light, area, diagnostics);
+    const auto size = [&](std::string_view input, double fallback) {
+        return roundToFloat(light.number(input, fallback));
     };
     if (type == "RectLight") {
-        const RectShape rect{roundToFloat(light.number("inputs:width", 1)),
-                             roundToFloat(light.number("inputs:height", 1))};
-        const bool positive = rect.width > 0 && rect.height > 0;
-        const double size = positive ? double(rect.width) * double(rect.height) : 0;
-        return make(size * areaFactor(linear, {1, 0, 0}, {0, 1, 0}), shaped(rect));
+        const RectShape rect{size("inputs:width", 1), size("inputs:height", 1)};
+        return std::make_shared<Light>(name, rect, luminance);
     }
-    const double r = radius > 0 ? radius : 0;
-    if (type == "DiskLight")
-        return make(kPi * r * r * areaFactor(linear, {1, 0, 0}, {0, 1, 0}),
-                    shaped(DiskShape{radius}));
-    if (type == "SphereLight") return make(sphereArea(linear, r), shaped(SphereShape{radius}));
-    const double length = std::max(0.0, light.number("inputs:length", 1));
-    return make(tubeArea(linear, r, length),
-                [&](Rgb luminance) { return makeTube(name, r, length, luminance); });
+    const float radius = size("inputs:radius", 0.5);
+    if (type == "DiskLight") return std::make_shared<Light>(name, DiskShape{radius}, luminance);
+    if (type == "SphereLight") return std::make_shared<Light>(name, SphereShape{radius}, luminance);
+    return makeTube(name, double(radius), light.number("inputs:length", 1), luminance);
 }
 
 bool isUsdLightWithoutArea(std::string_view typeName) {

@@ -28,9 +28,12 @@ Rgb blackbodyColour(double kelvin);
 /// and always finite.
 Rgb usdLightLuminance(const UsdAttributes& light, double area, Diagnostics& diagnostics);
 
+/// Area of a light's emitting surface in the world, scene units squared; 0 if a size is not
+/// positive. \param toWorld local frame to world, column vectors, scene units; any scale and shear
+double usdLightArea(const UsdAttributes& light, const glm::dmat4& toWorld);
+
 /// The node of a RectLight, DiskLight, SphereLight or CylinderLight (an open tube of 24 sides, as
 /// large as the cylinder, black and emitting outwards). Null, with a warning, if it has no area.
-/// \param toWorld local frame to world, column vectors, scene units
 NodePtr makeUsdLight(const UsdAttributes& light, const glm::dmat4& toWorld,
                      Diagnostics& diagnostics);
 

@@ -30,6 +30,8 @@ public:
 
     /// The surface of the material at `path`.
     const UsdSurface& at(const std::string& path);
+    /// All materials that were asked for so far, by path.
+    const std::unordered_map<std::string, UsdSurface>& made() const { return surfaces_; }
     /// For what has neither material nor colour: reflectance 0.5.
     const std::shared_ptr<Material>& neutral();
 

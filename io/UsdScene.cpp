@@ -1,11 +1,12 @@
 #include "io/UsdScene.h"
 
+#include "io/UsdCamera.h"
 #include "io/UsdGprims.h"
 #include "io/UsdLight.h"
 #include "io/UsdMaterial.h"
 #include "io/UsdMesh.h"
-#include "io/UsdNumber.h"
 #include "io/UsdStage.h"
+#include "io/UsdTracks.h"
 #include "io/UsdXform.h"
 #include "scenegraph/Camera.h"
 #include "scenegraph/Transform.h"
@@ -55,13 +56,14 @@ struct Place {
 
 class SceneBuilder {
 public:
-    SceneBuilder(UsdStage& stage, UsdTime time)
-        : stage_(stage), time_(time), warnings_(stage.diagnostics()),
+    SceneBuilder(UsdStage& stage, UsdTime time, UsdTracks& tracks)
+        : stage_(stage), tracks_(tracks), time_(time), warnings_(stage.diagnostics()),
           materials_(stage, time, warnings_), places_(stage.prims().size()) {}
 
     void build(std::shared_ptr<Group> root) {
         places_[0].container = std::move(root);
         for (std::size_t i = 1; i < stage_.prims().size(); ++i) add(i);
+        tracks_.addMaterials(materials_);
     }
 
 private:
@@ -70,9 +72,9 @@ private:
         const Place& parent = places_[prim.parent];
         if (!parent.container || !prim.defined || prim.abstract || isData(prim.typeName)) return;
         const UsdAttributes attributes(prim, time_);
-        if (attributes.text("visibility", "inherited") == "invisible") return;
         if (UsdStage::animated(prim, "visibility"))
             warnings_.warn(attributes.location("visibility"), "animated visibility is held");
+        if (attributes.text("visibility", "inherited") == "invisible") return;
         if (prim.typeName == "PointInstancer") {
             warnings_.warn(prim.location(), "PointInstancer not supported yet: left out");
             return;
@@ -80,6 +82,9 @@ private:
         Place place = placeOf(attributes, parent);
         const auto transform = makeTransform(attributes, parent, place);
         const NodePtr leaf = place.drawn ? makeLeaf(attributes, place) : nullptr;
+        if (leaf && isUsdAreaLight(prim.typeName)) tracks_.addLight(leaf, prim, place.toWorld);
+        if (const auto camera = std::dynamic_pointer_cast<Camera>(leaf))
+            tracks_.addCamera(camera, prim);
         attach(prim, parent, place, transform, leaf);
         places_[index] = std::move(place);
     }
@@ -111,17 +116,12 @@ private:
         if (isXformable(prim.typeName)) local = usdLocalTransform(attributes, warnings_);
         const bool movable = local.animated || attributes.flag("penumbra:movable", false);
         if (prim.typeName != "Xform" && !local.authored && !movable) return nullptr;
-        if (local.resetsStack) {
-            const glm::dmat4 relative = glm::inverse(parent.toWorld) * local.matrix;
-            if (glm::determinant(parent.toWorld) != 0)
-                local.matrix = relative;
-            else
-                warnings_.warn(prim.location(), "!resetXformStack! below a flattened prim ignored");
-        }
+        if (local.resetsStack) local.matrix = relativeToParent(local, parent.toWorld);
         auto transform = std::make_shared<Transform>(prim.name);
         transform->setMatrix(local.matrix);
         transform->setMovable(movable);
         place.toWorld = parent.toWorld * local.matrix;
+        tracks_.addTransform(transform, prim, parent.toWorld);
         return transform;
     }
 
@@ -133,7 +133,8 @@ private:
             return makeUsdMesh(stage_, attributes, makeUsdGprim(attributes, warnings_),
                                place.inherited, materials_, std::nullopt, warnings_);
         if (isUsdAreaLight(type)) return makeUsdLight(attributes, place.toWorld, warnings_);
-        if (type == "Camera") return makeCamera(attributes);
+        if (type == "Camera")
+            return std::make_shared<Camera>(prim.name, usdLens(attributes, warnings_));
         if (isUsdLightWithoutArea(type) || isUnsupportedShape(type))
             warnings_.warn(prim.location(), type + " not supported yet: left out");
         return nullptr;
@@ -151,29 +152,6 @@ private:
         }
         return makeUsdMesh(stage_, attributes, std::move(polygons), place.inherited, materials_,
                            light, warnings_);
-    }
-
-    NodePtr makeCamera(const UsdAttributes& attributes) {
-        Lens lens;
-        const auto read = [&](float& value, std::string_view name) {
-            const float number = roundToFloat(attributes.number(name, double(value)));
-            if (std::isfinite(number)) value = number;
-        };
-        read(lens.focalLength, "focalLength");
-        read(lens.horizontalAperture, "horizontalAperture");
-        read(lens.verticalAperture, "verticalAperture");
-        read(lens.horizontalApertureOffset, "horizontalApertureOffset");
-        read(lens.verticalApertureOffset, "verticalApertureOffset");
-        const auto range = attributes.tuple("clippingRange", 2);
-        if (!range.empty()) lens.clippingRange = {roundToFloat(range[0]), roundToFloat(range[1])};
-        lens.perspective = attributes.text("projection", "perspective") != "orthographic";
-        if (!(lens.focalLength > 0) || !(lens.horizontalAperture > 0) ||
-            !(lens.verticalAperture > 0)) {
-            warnings_.warn(attributes.prim().location(),
-                           "a camera without a usable lens gets the standard one");
-            lens = Lens();
-        }
-        return std::make_shared<Camera>(attributes.prim().name, lens);
     }
 
     bool hasChildren(const UsdPrim& prim) const {
@@ -198,6 +176,7 @@ private:
     }
 
     UsdStage& stage_;
+    UsdTracks& tracks_;
     UsdTime time_;
     Diagnostics& warnings_;
     UsdMaterials materials_;
@@ -231,12 +210,13 @@ void readStageMetadata(const UsdLayer& layer, Scene& scene, Diagnostics& warning
 } // namespace
 
 LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& options) {
-    UsdStage stage = UsdStage::open(file, {.fileBytes = options.maxFileBytes});
+    const auto stage =
+        std::make_shared<UsdStage>(UsdStage::open(file, {.fileBytes = options.maxFileBytes}));
     LoadedScene loaded;
     loaded.scene = std::make_shared<Scene>();
     Scene& scene = *loaded.scene;
     scene.name = file.stem().string();
-    readStageMetadata(stage.rootLayer(), scene, stage.diagnostics());
+    readStageMetadata(stage->rootLayer(), scene, stage->diagnostics());
     if (scene.metersPerUnit != 1) {
         auto toMetres = std::make_shared<Transform>("");
         glm::dmat4 scale(scene.metersPerUnit);
@@ -245,9 +225,11 @@ LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& o
         scene.root = toMetres;
     }
     const UsdTime time =
-        options.time ? options.time : layerNumber(stage.rootLayer(), "startTimeCode");
-    SceneBuilder(stage, time).build(scene.root);
-    loaded.diagnostics = stage.diagnostics().take();
+        options.time ? options.time : layerNumber(stage->rootLayer(), "startTimeCode");
+    const auto tracks = std::make_shared<UsdTracks>(stage);
+    SceneBuilder(*stage, time, *tracks).build(scene.root);
+    if (!tracks->empty()) loaded.animation = tracks;
+    loaded.diagnostics = stage->diagnostics().take();
     return loaded;
 }
 

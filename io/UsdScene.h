@@ -1,6 +1,7 @@
 // Loading a scene: USD text to the scene graph.
 #pragma once
 
+#include "io/UsdAnimation.h"
 #include "io/UsdDiagnostic.h"
 #include "scenegraph/Scene.h"
 
@@ -21,6 +22,8 @@ struct LoadOptions {
 
 struct LoadedScene {
     std::shared_ptr<Scene> scene;
+    std::shared_ptr<SceneAnimation>
+        animation;                       ///< plays the file's time samples; null: nothing moves
     std::vector<Diagnostic> diagnostics; ///< what was not understood or left out; see summary()
 };
 

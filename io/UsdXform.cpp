@@ -163,4 +163,9 @@ UsdLocalTransform usdLocalTransform(const UsdAttributes& prim, Diagnostics& diag
     return result;
 }
 
+glm::dmat4 relativeToParent(const UsdLocalTransform& local, const glm::dmat4& parentToWorld) {
+    const glm::dmat4 relative = glm::inverse(parentToWorld) * local.matrix;
+    return finite(relative) ? relative : local.matrix;
+}
+
 } // namespace penumbra
