@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace penumbra {
@@ -27,7 +28,10 @@ public:
     void warn(const SourceLocation& where, const std::string& text, std::size_t count = 1);
     void append(const std::vector<Diagnostic>& others);
     const std::vector<Diagnostic>& list() const { return list_; }
-    std::vector<Diagnostic> take() { return std::move(list_); }
+    std::vector<Diagnostic> take() {
+        indexOf_.clear();
+        return std::exchange(list_, {});
+    }
 
     static constexpr std::size_t kMaxTexts = 1000;
 

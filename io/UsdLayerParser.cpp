@@ -147,7 +147,7 @@ private:
         const char* where = in_.cursor();
         std::string name = in_.string();
         // An escape may have made bytes that are no UTF-8.
-        if (!isUsdIdentifier(name) || firstBadUtf8(name) != name.npos)
+        if (!isUsdIdentifier(name) || firstBadUtf8(name) != std::string_view::npos)
             in_.failAt(where, "'" + printable(name) +
                                   "' can't be a prim's name (letters, digits and _ only)");
         return name;

@@ -33,7 +33,8 @@ private:
         return cached;
     }
 
-    void add(const fs::path& file, std::shared_ptr<const UsdLayer> layer, UsdLayerOffset offset) {
+    void add(const fs::path& file, const std::shared_ptr<const UsdLayer>& layer,
+             UsdLayerOffset offset) {
         stack_.push_back({layer, offset});
         std::error_code ignored;
         open_.push_back(fs::weakly_canonical(file, ignored));

@@ -110,8 +110,8 @@ UsdMaterials::Input UsdMaterials::textureFallback(const UsdPrim& shader, const s
     if (fallback.empty()) return {{}, true};
     constexpr std::string_view kChannels = "rgba";
     const std::string channel = output.substr(std::string_view("outputs:").size());
-    const std::size_t at = channel.size() == 1 ? kChannels.find(channel) : kChannels.npos;
-    if (at != kChannels.npos) return {{fallback[at]}, true};
+    const std::size_t at = channel.size() == 1 ? kChannels.find(channel) : std::string_view::npos;
+    if (at != std::string_view::npos) return {{fallback[at]}, true};
     fallback.resize(3);
     return {std::move(fallback), true};
 }

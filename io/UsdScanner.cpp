@@ -136,7 +136,8 @@ std::string UsdScanner::string() {
     const bool isLong = cursor_[1] == quote && cursor_[2] == quote;
     cursor_ += isLong ? 3 : 1;
     std::string text = isLong ? longString(quote) : shortString(quote);
-    if (const std::size_t nul = text.find('\0'); nul != text.npos) text.resize(nul); // as OpenUSD
+    if (const std::size_t nul = text.find('\0'); nul != std::string::npos)
+        text.resize(nul); // as OpenUSD
     return text;
 }
 
@@ -201,7 +202,7 @@ void UsdScanner::appendEscape(std::string& text) {
     } else if (isOctal(*cursor_)) {
         for (int i = 0; i < 3 && isOctal(*cursor_); ++i) code = code * 8 + (*cursor_++ - '0');
         text += char(code & 0xff);
-    } else if (const auto at = kLetters.find(*cursor_); at != kLetters.npos && !atEnd()) {
+    } else if (const auto at = kLetters.find(*cursor_); at != std::string_view::npos && !atEnd()) {
         text += kMeanings[at];
         ++cursor_;
     } else if (!atEnd()) {

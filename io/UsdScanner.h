@@ -83,7 +83,7 @@ private:
     void skipComment();
     std::string shortString(char quote);
     std::string longString(char quote);
-    std::string longAsset(const char* begin);
+    std::string longAsset(const char* open);
     void appendEscape(std::string& text);
     void skipGroup();
 

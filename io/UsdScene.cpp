@@ -137,6 +137,8 @@ private:
             return std::make_shared<Camera>(prim.name, usdLens(attributes, warnings_));
         if (isUsdLightWithoutArea(type) || isUnsupportedShape(type))
             warnings_.warn(prim.location(), type + " not supported yet: left out");
+        else if (!type.empty() && type != "Scope" && type != "Xform")
+            warnings_.warn(prim.location(), "unknown type '" + type + "' taken as a group");
         return nullptr;
     }
 

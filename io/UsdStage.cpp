@@ -63,12 +63,12 @@ void UsdStage::addChildren(std::uint32_t parent) {
         }
     };
     if (parent == 0) {
-        for (auto l = layers_.rbegin(); l != layers_.rend(); ++l)
-            collect(l->layer->prims, l->layer.get(), l->offset);
+        for (std::size_t i = layers_.size(); i-- > 0;)
+            collect(layers_[i].layer->prims, layers_[i].layer.get(), layers_[i].offset);
     } else {
         const auto opinions = prims_[parent].opinions;
-        for (auto o = opinions.rbegin(); o != opinions.rend(); ++o)
-            collect(o->spec->children, o->layer, o->offset);
+        for (std::size_t i = opinions.size(); i-- > 0;)
+            collect(opinions[i].spec->children, opinions[i].layer, opinions[i].offset);
     }
     for (auto& [name, opinions] : found) {
         std::reverse(opinions.begin(), opinions.end()); // strongest first
@@ -123,16 +123,17 @@ const UsdProperty* UsdStage::property(const UsdPrim& prim, std::string_view name
 
 std::vector<std::string> UsdStage::targets(const UsdPrim& prim, std::string_view property) {
     std::vector<std::string> list;
-    for (auto o = prim.opinions.rbegin(); o != prim.opinions.rend(); ++o)
-        if (const UsdProperty* found = o->spec->property(property))
+    for (std::size_t i = prim.opinions.size(); i-- > 0;) // from the weakest
+        if (const UsdProperty* found = prim.opinions[i].spec->property(property))
             applyUsdListEdits(found->targets, list);
     return list;
 }
 
 bool UsdStage::hasApi(const UsdPrim& prim, std::string_view schema) {
     std::vector<std::string> schemas;
-    for (auto o = prim.opinions.rbegin(); o != prim.opinions.rend(); ++o)
-        if (o->spec->arcs) applyUsdListEdits(o->spec->arcs->apiSchemas, schemas);
+    for (std::size_t i = prim.opinions.size(); i-- > 0;) // from the weakest
+        if (const auto& arcs = prim.opinions[i].spec->arcs)
+            applyUsdListEdits(arcs->apiSchemas, schemas);
     return std::find(schemas.begin(), schemas.end(), schema) != schemas.end();
 }
 

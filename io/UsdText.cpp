@@ -91,7 +91,7 @@ void checkUsdText(std::string_view text, const std::string& file) {
     if (!text.starts_with("#usda"))
         refuse(file, "this is not USD text: it doesn't begin with '#usda 1.0'");
     const std::size_t bad = std::min(firstBadUtf8(text), text.find('\0'));
-    if (bad == text.npos) return;
+    if (bad == std::string_view::npos) return;
     const UsdScanner scanner(text, file);
     scanner.failAt(text.data() + bad,
                    text[bad] ? "this byte is not valid UTF-8" : "a NUL byte in a text file");

@@ -34,8 +34,8 @@ void parseUsdList(UsdScanner& scanner, char close, Element element) {
         scanner.skipSpace();
         if (scanner.take(close)) return;
         if (!comma) {
-            const char close_[] = {'\'', close, '\'', '\0'};
-            scanner.fail(std::string("expected ',' or ") + close_ + ", found " + scanner.found());
+            scanner.fail("expected ',' or '" + std::string(1, close) + "', found " +
+                         scanner.found());
         }
     }
 }

@@ -69,7 +69,7 @@ glm::dmat4 fromRows(const std::vector<double>& v) {
     glm::dmat4 m;
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 4; ++column)
-            m[row][column] = v[std::size_t(4 * row + column)];
+            m[row][column] = v[4 * std::size_t(row) + std::size_t(column)];
     return m;
 }
 
