@@ -9,9 +9,9 @@ namespace penumbra {
 
 /// What changes with time in a scene that was loaded from USD: transforms, the luminance of lights,
 /// the constants of materials, lenses. Geometry, sizes of lights and visibility are held.
-class SceneAnimation {
+class UsdAnimation {
 public:
-    virtual ~SceneAnimation() = default;
+    virtual ~UsdAnimation() = default;
     /// Brings the scene to a time code. Only nodes whose value really changes are edited, so that
     /// their revisions tell what has to be computed anew.
     virtual void setTime(double timeCode) = 0;

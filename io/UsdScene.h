@@ -22,9 +22,8 @@ struct LoadOptions {
 
 struct LoadedScene {
     std::shared_ptr<Scene> scene;
-    std::shared_ptr<SceneAnimation>
-        animation;                       ///< plays the file's time samples; null: nothing moves
-    std::vector<Diagnostic> diagnostics; ///< what was not understood or left out; see summary()
+    std::shared_ptr<UsdAnimation> animation; ///< plays the file's time samples; null: nothing moves
+    std::vector<Diagnostic> diagnostics;     ///< what was not understood or left out; see summary()
 };
 
 /// Reads a USD text file as a scene graph. Below the root everything is in metres, in the file's

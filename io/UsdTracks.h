@@ -15,7 +15,7 @@
 namespace penumbra {
 
 /// Remembers which prim each changing node came from, and reads those prims again at other times.
-class UsdTracks : public SceneAnimation {
+class UsdTracks : public UsdAnimation {
 public:
     explicit UsdTracks(std::shared_ptr<const UsdStage> stage) : stage_(std::move(stage)) {}
     void setTime(double timeCode) override;

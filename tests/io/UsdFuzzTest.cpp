@@ -25,7 +25,7 @@ def Xform "World" (
     double3 xformOp:translate.timeSamples = { 0: (0, 0, 0), 10: (1, 2, 3), 11: None }
     quatf xformOp:orient = (1, 0, 0, 0)
     matrix4d xformOp:transform = ( (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1) )
-    uniform token[] xformOpOrder = ["xformOp:translate", "!invert!xformOp:orient", "xformOp:transform"]
+    uniform token[] xformOpOrder = ["xformOp:translate", "!invert!xformOp:orient"]
     variantSet "v" = {
         "x" {
             over "m" (kind = "group") { }
