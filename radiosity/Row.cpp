@@ -1,4 +1,4 @@
-// After [Schoeffel1998], whose list keeps one blocker an entry. Departures: samples and their blockers
+// After [Schoeffel1997], whose list keeps one blocker an entry. Departures: samples and their blockers
 // are kept one by one where they differ, and form factors are stored apart from visibility, so that an
 // entry can be changed by retesting single samples.
 #include "radiosity/Row.h"

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace penumbra {
 
@@ -77,6 +78,9 @@ void RowBuilder::patchBlock(const PatchSet& set, std::uint32_t patch, const glm:
                             std::uint32_t firstReceiver, RowBlock& block) {
     const Patch& sender = set.patches[patch];
     const auto outline = std::span(set.corners).subspan(sender.firstCorner, sender.cornerCount);
+    float radius2 = 0;
+    for (glm::vec3 corner : outline)
+        radius2 = std::max(radius2, glm::dot(corner - sender.centre, corner - sender.centre));
     patchRays_.clear();
     for (std::size_t r = 0; r < receivers.size(); ++r) {
         const Receiver& receiver = receivers[r];
@@ -85,7 +89,14 @@ void RowBuilder::patchBlock(const PatchSet& set, std::uint32_t patch, const glm:
         if (!(wanted >> r & 1)) continue;
         const glm::vec3 away = receiver.position - sender.centre;
         if (glm::dot(sender.normal, away) <= 0) continue;
-        const float factor = polygonFormFactor(receiver.position, receiver.normal, outline);
+        // From afar the point kernel is as good as the closed form: it errs by (radius / distance)^2.
+        const float distance2 = glm::dot(away, away);
+        const float facing = -glm::dot(receiver.normal, away);
+        const bool small = distance2 > 100 * radius2 && facing > std::sqrt(radius2);
+        const float factor =
+            small ? facing * glm::dot(sender.normal, away) * sender.area /
+                        (std::numbers::pi_v<float> * distance2 * distance2)
+                  : polygonFormFactor(receiver.position, receiver.normal, outline);
         if (!(factor > 1e-9f)) continue;
         draft.begin(factor);
         draft.visibility = 0;

@@ -1,6 +1,8 @@
 // After [Cohen1988] (progressive refinement) in the form of Southwell's relaxation (Gortler, Cohen &
 // Slusallek, IEEE CG&A 14(6), 1994). Departures: senders shoot in batches of a fixed size, so that
-// receivers can be worked on side by side; a patch receives at its middle and its corners.
+// receivers can be worked on side by side; a patch receives at its middle and its corners; it sends
+// more than it owes by what the ambient estimate says will come (Shao & Badler 1993, Xu & Fussell 1994
+// call this overshooting).
 #include "radiosity/Solver.h"
 
 #include "importance/WorkOrder.h"
@@ -176,9 +178,14 @@ void Solver::shoot(const std::vector<std::uint32_t>& senders) {
     const std::size_t blocks = blockCount(set_.nodes.size());
     const bool keep = rowBytes_ < options_.rowMemory;
     std::vector<std::uint8_t> fresh(senders.size()), build(senders.size());
+    std::vector<glm::dvec3> sent(senders.size());
+    const glm::dvec3 expected = ambient();
     for (std::size_t i = 0; i < senders.size(); ++i) {
         Row& row = patchRows_[senders[i]];
         fresh[i] = !rowKnown_[senders[i]];
+        // Send at once what is sure to come back later; what is too much is taken back in its turn.
+        sent[i] = residual_[senders[i]] +
+                  toDouble(set_.materials[set_.patches[senders[i]].material].reflectance) * expected;
         build[i] = row.empty();
         if (build[i]) row.resize(keep ? blocks : 0);
     }
@@ -200,7 +207,7 @@ void Solver::shoot(const std::vector<std::uint32_t>& senders) {
                                        block);
                     if (!row.empty()) added += block.bytes();
                 }
-                const glm::dvec3 light = residual_[senders[i]];
+                const glm::dvec3 light = sent[i];
                 block.forEach([&](int r, float factor) {
                     nodeIndirect_[base + std::size_t(r)] += double(factor) * light;
                     if (fresh[i]) nodeRowSum_[base + std::size_t(r)] += factor;
@@ -211,7 +218,7 @@ void Solver::shoot(const std::vector<std::uint32_t>& senders) {
         bytes += added;
     });
     for (std::size_t i = 0; i < senders.size(); ++i) {
-        shot_[senders[i]] += residual_[senders[i]];
+        shot_[senders[i]] += sent[i];
         knownRows_ += fresh[i];
         rowKnown_[senders[i]] = 1;
     }

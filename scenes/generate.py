@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""Writes the committed scene files, the same bytes each time.
+
+    python3 scenes/generate.py            write all scenes beside this file
+    python3 scenes/generate.py --check    compare and validate only; exit 1 on any difference
+    python3 scenes/generate.py --stats    counts and areas as a Markdown table
+"""
+
+import argparse
+import pathlib
+import sys
+
+from scenegen import check_model, check_text, gallery, office, small
+from scenegen.subdivision import subdivide
+
+HERE = pathlib.Path(__file__).resolve().parent
+SCENES = (small.cornell, small.chamber, office.build, gallery.build)
+
+
+def surface_area(scene):
+    """Of all meshes, cages as the smooth surfaces they stand for [m2]."""
+    total = sum(p.area() for o in scene.objects for p in o.all_parts())
+    return total + sum(subdivide(part, creases, 2).area()
+                       for o in scene.objects for _, part, creases in o.cages)
+
+
+def stats(scenes):
+    print("| scene | objects | movable | polygons | lights | surface [m2] | bytes |")
+    print("| --- | ---: | ---: | ---: | ---: | ---: | ---: |")
+    for scene in scenes:
+        lights = sum(len(o.lights) for o in scene.objects)
+        movable = sum(o.movable for o in scene.objects)
+        print(f"| `{scene.name}.usda` | {len(scene.objects)} | {movable} | {scene.polygons()} "
+              f"| {lights} | {surface_area(scene):.1f} | {len(scene.text())} |")
+
+
+def check(scenes):
+    problems = []
+    for scene in scenes:
+        text, path = scene.text(), HERE / f"{scene.name}.usda"
+        if not path.exists() or path.read_bytes() != text.encode():
+            problems.append(f"{path.name}: differs from what generate.py writes")
+        problems += check_text.complaints(scene.name, text) + check_model.complaints(scene)
+    for problem in problems:
+        print(problem, file=sys.stderr)
+    return 1 if problems else 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--check", action="store_true", help="write nothing, compare and validate")
+    parser.add_argument("--stats", action="store_true", help="write nothing, print counts")
+    options = parser.parse_args()
+    scenes = [build() for build in SCENES]
+    if options.stats:
+        stats(scenes)
+    elif options.check:
+        return check(scenes)
+    else:
+        for scene in scenes:
+            (HERE / f"{scene.name}.usda").write_bytes(scene.text().encode())
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

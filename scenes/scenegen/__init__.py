@@ -1,0 +1,1 @@
+"""What generate.py builds the committed scene files from. Lengths are metres, Z is up."""
