@@ -116,7 +116,7 @@ void addEmitters(const Surface& surface, const Tessellation& tessellation, Patch
 
 } // namespace
 
-float defaultPatchSize(double area) { return float(std::sqrt(std::max(area, 1e-12) / 1000.0)); }
+float defaultPatchSize(double area) { return float(std::sqrt(std::max(area, 1e-12) / 1650.0)); }
 
 BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& options) {
     BuiltPatches built;

@@ -24,7 +24,7 @@ struct BuiltPatches {
 /// under or inside of something are told from those that lie free, lamps become emitters.
 BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& options = {});
 
-/// sqrt(area / 1000), so that a room has some thousand patches whether it is half a metre or forty.
+/// sqrt(area / 1650), so that a room has some thousand patches whether it is half a metre or forty.
 /// \param area of all surfaces [m^2]
 float defaultPatchSize(double area);
 

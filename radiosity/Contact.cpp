@@ -43,7 +43,7 @@ public:
         float size = 0;
         for (int k = 0; k < count; ++k)
             size = std::max(size, glm::distance(middle, vertex(element, k).position));
-        const float cover = std::max(kCover * size, 4 * skin_);
+        const float cover = coverDistance(size, skin_);
 
         std::array<glm::vec3, 4> corner;
         std::array<bool, 4> cornerFree{};
@@ -70,15 +70,8 @@ private:
         return vertices_[element.vertices[std::size_t(k)]];
     }
 
-    /// Neither inside of something solid nor closely covered. Looked for along a line that is not
-    /// quite the normal, so as not to run along edges that stand on the surface.
     bool isFree(glm::vec3 p, glm::vec3 normal, float cover) const {
-        const glm::vec3 skew(0.0123f, 0.0234f, -0.0171f);
-        const RayHit hit = rays_.nearest(p, normal + skew, 1e30f);
-        if (!hit.met()) return true;
-        if (hit.distance < cover) return false;
-        const bool fromBehind = glm::dot(hit.normal, normal + skew) > 0;
-        return !(fromBehind && meshes_[hit.object.value].solid[hit.triangle]);
+        return liesFree(rays_, meshes_, p, normal, cover);
     }
 
     glm::vec3 endOfWay(glm::vec3 from, glm::vec3 to, glm::vec3 normal, float cover) const {
@@ -121,6 +114,19 @@ void pullReceiversIn(float skin, const std::vector<Element>& elements, std::vect
 }
 
 } // namespace
+
+float coverDistance(float elementSize, float skin) { return std::max(kCover * elementSize, 4 * skin); }
+
+bool liesFree(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point, glm::vec3 normal,
+              float cover) {
+    // Not quite along the normal, so as not to run along edges that stand on the surface.
+    const glm::vec3 direction = normal + glm::vec3(0.0123f, 0.0234f, -0.0171f);
+    const RayHit hit = rays.nearest(point, direction, 1e30f);
+    if (!hit.met()) return true;
+    if (hit.distance < cover) return false;
+    const bool fromBehind = glm::dot(hit.normal, direction) > 0;
+    return !(fromBehind && meshes[hit.object.value].solid[hit.triangle]);
+}
 
 std::vector<std::uint8_t> resolveContacts(const RayScene& rays, std::span<const RayMesh> meshes,
                                           float skin, std::vector<Element>& elements,

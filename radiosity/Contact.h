@@ -24,4 +24,12 @@ std::vector<std::uint8_t> resolveContacts(const RayScene& rays, std::span<const 
                                           std::vector<Vertex>& vertices,
                                           std::vector<PatchCoordinate>& coordinates);
 
+/// Whether a point that hovers over a surface is neither inside of something solid nor covered by
+/// something nearer than `cover` [m].
+bool liesFree(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point, glm::vec3 normal,
+              float cover);
+
+/// Something this close above a surface with elements of this size counts as lying on it [m].
+float coverDistance(float elementSize, float skin);
+
 } // namespace penumbra

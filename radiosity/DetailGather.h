@@ -5,38 +5,49 @@
 #include "radiosity/Solver.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace penumbra {
 
-struct DetailOptions {
-    int rays = 64;          ///< over the hemisphere of a vertex that needs them
-    float tolerance = 0.1f; ///< by how much its openness may differ from what its patch suggests
-    float shut = 0.45f;     ///< openness below which near surfaces matter more than patches can tell
-};
-
-/// Indirect light is exchanged between patches and interpolated to the vertices. That misses shadows
-/// of indirect light that are smaller than a patch. They are found by openness, the cosine-weighted
-/// share of the hemisphere that is free of surfaces nearer than a patch's size: a vertex whose openness
-/// is small, or differs from the value interpolated from its patch's nodes, gathers its indirect light
-/// itself, by rays to the surfaces around it. Which vertices do depends on geometry alone.
+/// Indirect light is exchanged between patches and interpolated from their nodes to the vertices. That
+/// misses shadows of indirect light that are smaller than a patch. They are found by openness, the
+/// cosine-weighted share of a point's hemisphere that is free of surfaces nearer than a patch's size.
+/// With H the solver's values at the nodes and G what rays over the hemisphere gather,
+///
+///     H_v = interpolated H + w (G_v - interpolated G)
+///
+/// where w rises from 0 to 1 as the vertex's openness differs from the one interpolated from the nodes.
+/// Vertex and nodes use the same ray directions, so that most of the sampling error cancels. Where so
+/// little is open that near surfaces matter more than patches can tell, G itself is taken. Which
+/// vertices gather, and with which weight, depends on geometry alone.
 class DetailGather {
 public:
     /// Traces the rays. `patches` must outlive this.
-    explicit DetailGather(const PatchSet& patches, const DetailOptions& options = {});
+    explicit DetailGather(const PatchSet& patches);
 
-    /// Replaces the indirect light of the vertices in question, given that of all others.
-    void apply(Lighting& lighting) const;
+    /// Corrects the indirect light of the vertices in question.
+    /// \param nodeIndirect the solver's, one a node of the patch set [lux]
+    void apply(std::span<const glm::dvec3> nodeIndirect, Lighting& lighting) const;
 
     std::size_t vertexCount() const { return vertices_.size(); }
     std::uint64_t rayCount() const { return rayCount_; }
 
 private:
+    struct Gatherer {
+        std::uint32_t vertex = 0;
+        float detail = 0; ///< w
+        float shut = 0;   ///< weight of G itself
+    };
+    void traceNodes(const class DrawnSurface& surface, const class HemisphereRays& rays);
+    void traceVertices(const DrawnSurface& surface, const HemisphereRays& rays);
+    glm::dvec3 gathered(std::span<const Rgb> sent, const std::uint32_t* hits) const;
+
     const PatchSet& patches_;
-    int rays_;
-    std::vector<std::uint32_t> vertices_; ///< that gather
-    std::vector<float> openness_;         ///< of theirs
-    std::vector<std::uint32_t> hits_;     ///< element that each ray meets, Element::kNone: nothing lit
+    std::vector<Gatherer> vertices_;
+    std::vector<std::uint32_t> vertexHits_; ///< element that each ray meets, Element::kNone: nothing
+    std::vector<std::uint32_t> nodeHits_;
+    std::vector<double> nodeOpenness_;
     std::uint64_t rayCount_ = 0;
 };
 

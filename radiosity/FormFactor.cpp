@@ -175,7 +175,7 @@ TangentDisk tangentDisk(glm::vec3 p, glm::vec3 centre, float radius) {
 
 float sphereFormFactor(glm::vec3 p, glm::vec3 n, glm::vec3 centre, float radius) {
     const double distance = glm::length(glm::dvec3(centre) - glm::dvec3(p));
-    if (distance <= radius) return 1.0f;
+    if (distance <= radius) return 0.0f;
     const double height = glm::dot(glm::dvec3(n), glm::dvec3(centre) - glm::dvec3(p));
     if (height >= radius) { // wholly above the horizon: (r/d)^2 cos (Howell B-38)
         const double ratio = radius / distance;

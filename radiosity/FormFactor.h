@@ -44,7 +44,7 @@ float polygonFormFactor(glm::vec3 p, glm::vec3 n, std::span<const glm::vec3> pol
 float diskFormFactor(glm::vec3 p, glm::vec3 n, glm::vec3 centre, glm::vec3 axis, float radius);
 
 /// The same for a sphere: seen from p it is the disk that touches the tangent cone.
-/// \return 1 if p is inside the sphere
+/// It emits outwards: inside of it nothing arrives.
 float sphereFormFactor(glm::vec3 p, glm::vec3 n, glm::vec3 centre, float radius);
 
 /// The disk as which a point outside sees a sphere: the circle in which the cone from `p` touches it.

@@ -13,11 +13,14 @@ namespace {
 constexpr int kShadowSamples = 256;
 /// Patches nearer than this many of their radii are gathered element by element.
 constexpr float kNear = 6;
+constexpr int kManyRays = 1024, kFewRays = 64; ///< over the hemisphere, first and at what is met
+constexpr float kCloseBy = 2; ///< "near" when rays gather, in element sizes
 
 } // namespace
 
 PointGather::PointGather(const PatchSet& patches, const RayScene& rays, const Lighting& lighting)
-    : patches_(patches), rays_(rays), elementRadiosity_(patches.elements.size()),
+    : patches_(patches), rays_(rays), lighting_(lighting), surface_(patches), manyRays_(kManyRays),
+      fewRays_(kFewRays), elementRadiosity_(patches.elements.size()),
       patchRadiosity_(patches.patches.size()), patchRadius_(patches.patches.size()),
       patchSamples_(patches.patches.size() * kPatchSamples) {
     for (const Emitter& emitter : patches.emitters)
@@ -47,11 +50,15 @@ PointGather::PointGather(const PatchSet& patches, const RayScene& rays, const Li
 }
 
 Rgb PointGather::direct(const Receiver& receiver) const {
+    return directFrom(receiver, kShadowSamples);
+}
+
+Rgb PointGather::directFrom(const Receiver& receiver, int shadowSamples) const {
     Rgb sum;
     for (const EmitterSender& sender : emitters_) {
         const float factor = sender.formFactor(receiver);
         if (!(factor > 0)) continue;
-        const float visible = sender.visibility(rays_, receiver, 0, sender.allSamples());
+        const float visible = sender.visibility(rays_, receiver, 0, shadowSamples);
         sum += factor * visible * sender.emitter().exitance;
     }
     return sum;
@@ -79,7 +86,47 @@ float PointGather::patchVisibility(std::uint32_t index, const Receiver& receiver
     return total > 0 ? seen / total : 0.0f;
 }
 
+bool PointGather::somethingNear(const Receiver& receiver) const {
+    const float near = kCloseBy * patches_.elementSize;
+    for (int i = 0; i < fewRays_.count(); ++i)
+        if (surface_.nearest(receiver.position, fewRays_.direction(i, receiver.normal), near).met())
+            return true;
+    return false;
+}
+
 Rgb PointGather::indirect(const Receiver& receiver) const {
+    return somethingNear(receiver) ? indirectByRays(receiver, manyRays_, 2) : indirectByForm(receiver);
+}
+
+/// \param depth how many times near surfaces are evaluated anew instead of interpolated
+Rgb PointGather::indirectByRays(const Receiver& receiver, const HemisphereRays& rays, int depth) const {
+    Rgb sum;
+    for (int i = 0; i < rays.count(); ++i) {
+        const glm::vec3 direction = rays.direction(i, receiver.normal);
+        const DrawnHit hit = surface_.nearest(receiver.position, direction, 1e30f);
+        if (!hit.met()) continue;
+        const Rgb reflectance =
+            patches_.materials[patches_.elements[hit.element].material].reflectance;
+        Rgb light;
+        if (depth > 0 && hit.distance < 2 * kCloseBy * patches_.elementSize) {
+            Receiver there{glm::vec3(0), glm::vec3(0)};
+            for (std::size_t k = 0; k < 3; ++k)
+                there.normal += hit.weights[k] * patches_.vertices[hit.vertices[k]].receiver.normal;
+            there.normal = glm::normalize(there.normal);
+            there.position =
+                receiver.position + hit.distance * direction + patches_.skin * there.normal;
+            light = directFrom(there, 16) + indirectByRays(there, fewRays_, depth - 1);
+        } else {
+            for (std::size_t k = 0; k < 3; ++k)
+                light += hit.weights[k] * (lighting_.direct[hit.vertices[k]] +
+                                           lighting_.indirect[hit.vertices[k]]);
+        }
+        sum += reflectance * light;
+    }
+    return (1.0f / float(rays.count())) * sum;
+}
+
+Rgb PointGather::indirectByForm(const Receiver& receiver) const {
     Rgb sum;
     for (std::uint32_t p = 0; p < patches_.patches.size(); ++p) {
         const Patch& patch = patches_.patches[p];

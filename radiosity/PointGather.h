@@ -1,7 +1,9 @@
 // Illuminance at a point, evaluated there instead of interpolated.
 #pragma once
 
+#include "radiosity/DrawnSurface.h"
 #include "radiosity/EmitterSender.h"
+#include "radiosity/HemisphereRays.h"
 #include "radiosity/PatchSet.h"
 #include "radiosity/RayScene.h"
 #include "radiosity/Solver.h"
@@ -12,7 +14,9 @@
 namespace penumbra {
 
 /// Gathers light at single points: from the emitters by closed form and many shadow rays, from the
-/// solved patches (their elements, where they are near) by closed form and rays.
+/// solved patches (their elements, where they are near) by closed form and rays. Where something is
+/// nearer than elements can tell, in gaps and corners, the hemisphere is sampled by rays instead, and
+/// the near surfaces that they meet are evaluated there in their turn.
 class PointGather {
 public:
     /// All must outlive this. Element counts as visible if its middle is.
@@ -23,9 +27,16 @@ public:
 
 private:
     float patchVisibility(std::uint32_t patch, const Receiver& receiver) const;
+    bool somethingNear(const Receiver& receiver) const;
+    Rgb indirectByForm(const Receiver& receiver) const;
+    Rgb indirectByRays(const Receiver& receiver, const HemisphereRays& rays, int depth) const;
+    Rgb directFrom(const Receiver& receiver, int shadowSamples) const;
 
     const PatchSet& patches_;
     const RayScene& rays_;
+    const Lighting& lighting_;
+    DrawnSurface surface_;
+    HemisphereRays manyRays_, fewRays_;
     std::vector<EmitterSender> emitters_;
     std::vector<Rgb> elementRadiosity_; ///< rho H, own emission left out [lm/m^2]
     std::vector<Rgb> patchRadiosity_;

@@ -1,7 +1,7 @@
 // After [Cohen1988] (progressive refinement) in the form of Southwell's relaxation (Gortler, Cohen &
 // Slusallek, IEEE CG&A 14(6), 1994). Departures: senders shoot in batches of a fixed size, so that
-// receivers can be worked on side by side; a patch receives at its middle and its corners; it sends
-// more than it owes by what the ambient estimate says will come (Shao & Badler 1993, Xu & Fussell 1994
+// receivers can be worked on side by side; a patch receives at its middle and its corners; its first
+// shot sends more than it owes, by what the ambient estimate says will come (Shao & Badler 1993, Xu & Fussell 1994
 // call this overshooting).
 #include "radiosity/Solver.h"
 
@@ -183,9 +183,11 @@ void Solver::shoot(const std::vector<std::uint32_t>& senders) {
     for (std::size_t i = 0; i < senders.size(); ++i) {
         Row& row = patchRows_[senders[i]];
         fresh[i] = !rowKnown_[senders[i]];
-        // Send at once what is sure to come back later; what is too much is taken back in its turn.
-        sent[i] = residual_[senders[i]] +
-                  toDouble(set_.materials[set_.patches[senders[i]].material].reflectance) * expected;
+        // The first time send at once what is sure to come later; too much is taken back in its turn.
+        sent[i] = residual_[senders[i]];
+        if (fresh[i])
+            sent[i] +=
+                toDouble(set_.materials[set_.patches[senders[i]].material].reflectance) * expected;
         build[i] = row.empty();
         if (build[i]) row.resize(keep ? blocks : 0);
     }
@@ -299,19 +301,27 @@ glm::dvec3 Solver::ambient() const {
     return (owed / area) / (1.0 - glm::min(reflected / area, 0.98));
 }
 
+std::vector<glm::dvec3> Solver::nodeIlluminance() const {
+    const glm::dvec3 owed = ambient();
+    std::vector<glm::dvec3> nodes(nodeIndirect_.size());
+    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+        const bool reached = !nodeReached_.empty() && (nodeReached_[n / 64] >> n % 64 & 1);
+        nodes[n] = nodeIndirect(n) + (reached ? owed : glm::dvec3(0));
+    }
+    return nodes;
+}
+
 Lighting Solver::lighting() const {
     Lighting light;
     light.direct = vertexDirect_;
     light.indirect.resize(set_.vertices.size());
     if (options_.directOnly || set_.patches.empty()) return light;
-    const glm::dvec3 owed = ambient();
-    std::vector<glm::dvec3> nodes(nodeIndirect_.size());
-    for (std::uint32_t n = 0; n < nodes.size(); ++n) nodes[n] = nodeIndirect(n);
+    const std::vector<glm::dvec3> nodes = nodeIlluminance();
     for (std::size_t v = 0; v < set_.vertices.size(); ++v) {
         const auto [index, s, t] = set_.vertexCoordinates[v];
         if (index == Element::kNone) continue;
         const Patch& patch = set_.patches[index];
-        light.indirect[v] = toRgb(interpolateNodes<glm::dvec3>(patch, s, t, nodes) + owed);
+        light.indirect[v] = toRgb(interpolateNodes<glm::dvec3>(patch, s, t, nodes));
     }
     return light;
 }

@@ -66,6 +66,8 @@ public:
 
     /// What the vertices receive. What is still owed is added as an ambient term (Cohen et al. 1988).
     Lighting lighting() const;
+    /// Indirect illuminance at the nodes, the ambient term included [lux].
+    std::vector<glm::dvec3> nodeIlluminance() const;
     /// Radiosity of every patch, own emission left out: rho * H [lm/m^2].
     std::vector<Rgb> radiosity() const;
     SolveStatistics statistics() const;

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -26,7 +27,8 @@ struct RenderCommand {
     std::string output, png, camera;
     std::string quality = "drawn";
     std::string pixels = "half";
-    int width = 1280, height = 720;
+    int width = 1280;
+    int height = 0; ///< 0: the camera's shape
 };
 
 /// The camera that was asked for, or the first one, or none.
@@ -45,8 +47,15 @@ const Placed<Camera>* chooseCamera(const PlacedScene& placed, const std::string&
                                              known.empty() ? "the file has none" : "it has " + known));
 }
 
-View chooseView(const RenderCommand& command, const SceneSolution& solution) {
+/// \param command its height is set from the camera's film if it was not given
+View chooseView(RenderCommand& command, const SceneSolution& solution) {
     const auto* const camera = chooseCamera(solution.placed(), command.camera, command.solve.scene);
+    if (command.height == 0) {
+        const Lens lens = camera ? camera->node->lens() : Lens{.horizontalAperture = 16,
+                                                               .verticalAperture = 9};
+        const float shape = lens.verticalAperture / lens.horizontalAperture;
+        command.height = std::clamp(int(std::lround(float(command.width) * shape)), 1, 16384);
+    }
     if (camera)
         return makeView(camera->node->lens(), camera->toWorld, command.width, command.height);
     if (!command.solve.quiet)
@@ -93,7 +102,7 @@ FrameLayers draw(const RenderCommand& command, SceneSolution& solution, const Vi
     return renderFrame(context, renderer, lit, view, command.width, command.height);
 }
 
-void run(const RenderCommand& command) {
+void run(RenderCommand command) {
     const ThreadLimit limit(command.solve.threads);
     checkOutput(command.output);
     if (!command.png.empty()) checkOutput(command.png);
@@ -138,8 +147,9 @@ void addRenderCommand(CLI::App& app) {
     render->add_option("--width", command->width, "Of the picture [pixels]")
         ->capture_default_str()
         ->check(CLI::Range(1, 16384));
-    render->add_option("--height", command->height, "Of the picture [pixels]")
-        ->capture_default_str()
+    render
+        ->add_option("--height", command->height,
+                     "Of the picture [pixels] (default: as the camera's film is shaped)")
         ->check(CLI::Range(1, 16384));
     render->callback([command] { run(*command); });
 }

@@ -25,7 +25,7 @@ void addSolveOptions(CLI::App& command, SolveSettings& settings) {
     const auto positive = CLI::Range(1e-6, 1e6);
     command.add_option("--patch-size", settings.meshing.patchSize,
                        "Longest edge of a patch, which sends light [m]\n"
-                       "(default: follows the scene, sqrt(surface area / 1000))")
+                       "(default: follows the scene, sqrt(surface area / 1650))")
         ->check(positive);
     command.add_option("--element-size", settings.meshing.elementSize,
                        "Longest edge of an element, which receives and shows light [m]\n"
@@ -100,7 +100,7 @@ SceneSolution::SceneSolution(const SolveSettings& settings)
     if (!settings.solver.directOnly)
         timed("detail", [&] {
             progress_.show("fine shadows", 0);
-            DetailGather(built_.patches).apply(lighting_);
+            DetailGather(built_.patches).apply(solver_->nodeIlluminance(), lighting_);
         });
     progress_.clear();
 }

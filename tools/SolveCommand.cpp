@@ -1,3 +1,4 @@
+#include "radiosity/Contact.h"
 #include "radiosity/Parallel.h"
 #include "radiosity/PointGather.h"
 #include "scenegraph/Error.h"
@@ -23,7 +24,8 @@ struct SolveCommand {
 };
 
 /// What the sensors read: of the drawn surface under them, or evaluated where they are. A sensor with
-/// no surface under it is always evaluated.
+/// no surface under it, or on one that something else lies on so that nobody can see it, is always
+/// evaluated.
 std::vector<Rgb> readSensorValues(SceneSolution& solution, const std::vector<Receiver>& sensors,
                                   bool gather, bool directOnly) {
     const LitSurface surface(solution.patches(), solution.lighting());
@@ -31,15 +33,18 @@ std::vector<Rgb> readSensorValues(SceneSolution& solution, const std::vector<Rec
     std::vector<Rgb> values(sensors.size());
     parallelFor(sensors.size(), 4, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            if (!gather) {
+            const PatchSet& patches = solution.patches();
+            Receiver lifted = sensors[i];
+            lifted.position += patches.skin * lifted.normal;
+            const bool free = liesFree(solution.rays(), patches.rayMeshes, lifted.position, lifted.normal,
+                                       coverDistance(patches.elementSize, patches.skin));
+            if (!gather && free) {
                 const auto drawn = surface.under(sensors[i].position, sensors[i].normal);
                 if (drawn) {
                     values[i] = drawn->direct + drawn->indirect;
                     continue;
                 }
             }
-            Receiver lifted = sensors[i];
-            lifted.position += solution.patches().skin * lifted.normal;
             values[i] = point.direct(lifted);
             if (!directOnly) values[i] += point.indirect(lifted);
         }
