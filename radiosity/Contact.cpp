@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 
 namespace penumbra {
 
@@ -33,45 +32,57 @@ public:
 
     Result examine(const Element& element) const {
         Result result;
-        const int count = element.isTriangle() ? 3 : 4;
-        glm::vec3 middle(0), normal(0);
-        for (int k = 0; k < count; ++k) {
-            middle += vertex(element, k).position / float(count);
-            normal += vertex(element, k).receiver.normal;
-        }
-        normal = glm::normalize(normal);
-        float size = 0;
-        for (int k = 0; k < count; ++k)
-            size = std::max(size, glm::distance(middle, vertex(element, k).position));
-        const float cover = coverDistance(size, skin_);
-
+        const Frame frame = frameOf(element);
+        const float cover = coverDistance(frame.size, skin_);
         std::array<glm::vec3, 4> corner;
         std::array<bool, 4> cornerFree{};
-        for (int k = 0; k < count; ++k) {
-            const auto i = std::size_t(k);
-            corner[i] = glm::mix(vertex(element, k).position, middle, kPullIn) + skin_ * normal;
-            cornerFree[i] = isFree(corner[i], normal, cover);
+        for (std::size_t i = 0; i < frame.count; ++i) {
+            corner[i] = cornerOf(element, i);
+            cornerFree[i] = isFree(corner[i], frame.normal, cover);
         }
-        glm::vec3 anchor = middle + skin_ * normal;
-        result.free = isFree(anchor, normal, cover);
-        for (std::size_t i = 0; !result.free && i < std::size_t(count); ++i)
+        glm::vec3 anchor = frame.middle + skin_ * frame.normal;
+        result.free = isFree(anchor, frame.normal, cover);
+        for (std::size_t i = 0; !result.free && i < frame.count; ++i)
             if (cornerFree[i]) anchor = corner[i], result.free = true;
         if (!result.free) return result;
-        for (std::size_t i = 0; i < std::size_t(count); ++i) {
+        for (std::size_t i = 0; i < frame.count; ++i) {
             if (cornerFree[i] && (corner[i] == anchor || !rays_.occluded(anchor, corner[i]))) continue;
             result.moved[i] = true;
-            result.position[i] = endOfWay(anchor, corner[i], normal, cover);
+            result.position[i] = endOfWay(anchor, corner[i], frame.normal, cover);
         }
         return result;
     }
 
+    /// Where corner i of an element receives light if it is not shared: a hair inside of the element.
+    glm::vec3 cornerOf(const Element& element, std::size_t i) const {
+        const Frame frame = frameOf(element);
+        return glm::mix(vertex(element, i).position, frame.middle, kPullIn) + skin_ * frame.normal;
+    }
+
 private:
-    const Vertex& vertex(const Element& element, int k) const {
-        return vertices_[element.vertices[std::size_t(k)]];
+    struct Frame {
+        std::size_t count = 4;
+        glm::vec3 middle{0}, normal{0};
+        float size = 0; ///< from the middle to the farthest corner
+    };
+    Frame frameOf(const Element& element) const {
+        Frame frame;
+        frame.count = element.isTriangle() ? 3 : 4;
+        for (std::size_t i = 0; i < frame.count; ++i) {
+            frame.middle += vertex(element, i).position / float(frame.count);
+            frame.normal += vertex(element, i).receiver.normal;
+        }
+        frame.normal = glm::normalize(frame.normal);
+        for (std::size_t i = 0; i < frame.count; ++i)
+            frame.size = std::max(frame.size, glm::distance(frame.middle, vertex(element, i).position));
+        return frame;
+    }
+    const Vertex& vertex(const Element& element, std::size_t i) const {
+        return vertices_[element.vertices[i]];
     }
 
     bool isFree(glm::vec3 p, glm::vec3 normal, float cover) const {
-        return liesFree(rays_, meshes_, p, normal, cover);
+        return lieOf(rays_, meshes_, p, normal, cover) == Lie::free;
     }
 
     glm::vec3 endOfWay(glm::vec3 from, glm::vec3 to, glm::vec3 normal, float cover) const {
@@ -90,26 +101,93 @@ private:
     const std::vector<Vertex>& vertices_;
 };
 
+/// The corners of elements that meet at each vertex: element * 4 + corner, vertex by vertex.
+struct Fans {
+    std::vector<std::uint32_t> first, corners;
+};
+
+Fans fansOf(const std::vector<Element>& elements, std::size_t vertexCount) {
+    Fans fans;
+    fans.first.resize(vertexCount + 1);
+    const auto forEachCorner = [&](auto visit) {
+        for (std::uint32_t e = 0; e < elements.size(); ++e)
+            for (std::uint32_t k = 0; k < (elements[e].isTriangle() ? 3u : 4u); ++k)
+                visit(elements[e].vertices[k], 4 * e + k);
+    };
+    forEachCorner([&](std::uint32_t v, std::uint32_t) { ++fans.first[v + 1]; });
+    for (std::size_t v = 0; v < vertexCount; ++v) fans.first[v + 1] += fans.first[v];
+    fans.corners.resize(fans.first.back());
+    std::vector<std::uint32_t> next(fans.first.begin(), fans.first.end() - 1);
+    forEachCorner([&](std::uint32_t v, std::uint32_t corner) { fans.corners[next[v]++] = corner; });
+    return fans;
+}
+
+/// A wall may stand exactly where elements meet: then no corner is covered, but elements on its two
+/// sides must not share theirs.
+void partAtWalls(const RayScene& rays, const ContactResolver& resolver,
+                 const std::vector<Element>& elements, const Fans& fans,
+                 std::vector<ContactResolver::Result>& results) {
+    parallelFor(fans.first.size() - 1, 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+            bool anchored = false;
+            glm::vec3 anchor(0);
+            for (std::uint32_t i = fans.first[v]; i < fans.first[v + 1]; ++i) {
+                const std::uint32_t e = fans.corners[i] / 4, k = fans.corners[i] % 4;
+                ContactResolver::Result& result = results[e];
+                if (!result.free || result.moved[k]) continue;
+                const glm::vec3 corner = resolver.cornerOf(elements[e], k);
+                if (!anchored) {
+                    anchor = corner;
+                    anchored = true;
+                } else if (rays.occluded(anchor, corner)) {
+                    result.moved[k] = true; // each (element, corner) belongs to one vertex: no race
+                    result.position[k] = corner;
+                }
+            }
+        }
+    });
+}
+
 /// Moves the receivers of shared vertices towards the mean middle of their elements: not at all inside
 /// of a surface, a hair inwards at its border.
-void pullReceiversIn(float skin, const std::vector<Element>& elements, std::vector<Vertex>& vertices) {
-    std::vector<glm::vec3> sum(vertices.size(), glm::vec3(0));
-    std::vector<float> weight(vertices.size(), 0.0f);
-    for (const Element& element : elements) {
-        const std::size_t count = element.isTriangle() ? 3 : 4;
-        glm::vec3 middle(0);
-        for (std::size_t k = 0; k < count; ++k)
-            middle += vertices[element.vertices[k]].position / float(count);
-        for (std::size_t k = 0; k < count; ++k) {
-            sum[element.vertices[k]] += middle;
-            weight[element.vertices[k]] += 1;
+void pullReceiversIn(float skin, const std::vector<Element>& elements, const Fans& fans,
+                     const std::vector<ContactResolver::Result>& results,
+                     std::vector<Vertex>& vertices) {
+    parallelFor(vertices.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+            glm::vec3 sum(0);
+            float count = 0;
+            for (std::uint32_t i = fans.first[v]; i < fans.first[v + 1]; ++i) {
+                const std::uint32_t e = fans.corners[i] / 4;
+                if (results[e].moved[fans.corners[i] % 4]) continue;
+                const std::size_t corners = elements[e].isTriangle() ? 3 : 4;
+                for (std::size_t k = 0; k < corners; ++k)
+                    sum += vertices[elements[e].vertices[k]].position / float(corners);
+                count += 1;
+            }
+            Vertex& vertex = vertices[v];
+            const glm::vec3 middle = count > 0 ? sum / count : vertex.position;
+            vertex.receiver.position =
+                glm::mix(vertex.position, middle, kPullIn) + skin * vertex.receiver.normal;
         }
-    }
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        Vertex& vertex = vertices[i];
-        const glm::vec3 middle = weight[i] > 0 ? sum[i] / weight[i] : vertex.position;
-        vertex.receiver.position =
-            glm::mix(vertex.position, middle, kPullIn) + skin * vertex.receiver.normal;
+    });
+}
+
+/// Gives every moved corner a vertex of its own.
+void makePrivate(const std::vector<ContactResolver::Result>& results, std::vector<Element>& elements,
+                 std::vector<Vertex>& vertices, std::vector<PatchCoordinate>& coordinates) {
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+        Element& element = elements[e];
+        const std::size_t corners = element.isTriangle() ? 3 : 4;
+        for (std::size_t k = 0; k < corners; ++k) {
+            if (!results[e].moved[k]) continue;
+            Vertex own = vertices[element.vertices[k]];
+            own.receiver.position = results[e].position[k];
+            element.vertices[k] = std::uint32_t(vertices.size());
+            vertices.push_back(own);
+            coordinates.emplace_back();
+        }
+        if (corners == 3) element.vertices[3] = element.vertices[2];
     }
 }
 
@@ -117,52 +195,32 @@ void pullReceiversIn(float skin, const std::vector<Element>& elements, std::vect
 
 float coverDistance(float elementSize, float skin) { return std::max(kCover * elementSize, 4 * skin); }
 
-bool liesFree(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point, glm::vec3 normal,
-              float cover) {
+Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point, glm::vec3 normal,
+          float cover) {
     // Not quite along the normal, so as not to run along edges that stand on the surface.
     const glm::vec3 direction = normal + glm::vec3(0.0123f, 0.0234f, -0.0171f);
     const RayHit hit = rays.nearest(point, direction, 1e30f);
-    if (!hit.met()) return true;
-    if (hit.distance < cover) return false;
+    if (!hit.met()) return Lie::free;
     const bool fromBehind = glm::dot(hit.normal, direction) > 0;
-    return !(fromBehind && meshes[hit.object.value].solid[hit.triangle]);
+    if (fromBehind && meshes[hit.object.value].solid[hit.triangle]) return Lie::buried;
+    return hit.distance < cover ? Lie::covered : Lie::free;
 }
 
 std::vector<std::uint8_t> resolveContacts(const RayScene& rays, std::span<const RayMesh> meshes,
                                           float skin, std::vector<Element>& elements,
                                           std::vector<Vertex>& vertices,
                                           std::vector<PatchCoordinate>& coordinates) {
-    pullReceiversIn(skin, elements, vertices);
-    std::vector<std::uint8_t> free(elements.size());
-    struct Moved {
-        std::size_t element;
-        ContactResolver::Result result;
-    };
-    constexpr std::size_t kGrain = 4096;
-    std::vector<std::vector<Moved>> moved((elements.size() + kGrain - 1) / kGrain);
+    std::vector<ContactResolver::Result> results(elements.size());
     const ContactResolver resolver(rays, meshes, skin, vertices);
-    parallelFor(elements.size(), kGrain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            const auto result = resolver.examine(elements[i]);
-            free[i] = result.free;
-            if (std::any_of(result.moved.begin(), result.moved.end(), [](bool m) { return m; }))
-                moved[first / kGrain].push_back({i, result});
-        }
+    parallelFor(elements.size(), 4096, [&](std::size_t first, std::size_t last) {
+        for (std::size_t e = first; e < last; ++e) results[e] = resolver.examine(elements[e]);
     });
-    for (const auto& range : moved)
-        for (const auto& [index, result] : range) {
-            Element& element = elements[index];
-            const bool triangle = element.isTriangle();
-            for (std::size_t k = 0; k < 4; ++k) {
-                if (triangle && k == 3) element.vertices[3] = element.vertices[2];
-                if (!result.moved[k]) continue;
-                Vertex own = vertices[element.vertices[k]];
-                own.receiver.position = result.position[k];
-                coordinates.push_back(coordinates[element.vertices[k]]);
-                element.vertices[k] = std::uint32_t(vertices.size());
-                vertices.push_back(own);
-            }
-        }
+    const Fans fans = fansOf(elements, vertices.size());
+    partAtWalls(rays, resolver, elements, fans, results);
+    pullReceiversIn(skin, elements, fans, results, vertices);
+    makePrivate(results, elements, vertices, coordinates);
+    std::vector<std::uint8_t> free(elements.size());
+    for (std::size_t e = 0; e < elements.size(); ++e) free[e] = results[e].free;
     return free;
 }
 

@@ -24,10 +24,15 @@ std::vector<std::uint8_t> resolveContacts(const RayScene& rays, std::span<const 
                                           std::vector<Vertex>& vertices,
                                           std::vector<PatchCoordinate>& coordinates);
 
-/// Whether a point that hovers over a surface is neither inside of something solid nor covered by
-/// something nearer than `cover` [m].
-bool liesFree(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point, glm::vec3 normal,
-              float cover);
+/// How a point that hovers over a surface lies.
+enum class Lie {
+    free,
+    covered, ///< by something nearer than the distance that was asked for
+    buried   ///< inside of something solid
+};
+/// \param cover [m], see coverDistance()
+Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point, glm::vec3 normal,
+          float cover);
 
 /// Something this close above a surface with elements of this size counts as lying on it [m].
 float coverDistance(float elementSize, float skin);

@@ -4,7 +4,9 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -83,6 +85,10 @@ struct RayScene::Impl {
 };
 
 RayScene::RayScene(std::span<const RayMesh> objects) : impl_(std::make_unique<Impl>()) {
+    Bounds bounds;
+    for (const RayMesh& mesh : objects)
+        for (glm::vec3 vertex : mesh.vertices) bounds.add(vertex);
+    if (!bounds.empty()) margin_ = 2e-5f * bounds.diagonal();
     for (std::size_t i = 0; i < objects.size(); ++i)
         if (!objects[i].triangles.empty()) impl_->add(objects[i], unsigned(i));
     rtcCommitScene(impl_->scene);
@@ -93,6 +99,10 @@ RayScene::RayScene(std::span<const RayMesh> objects) : impl_(std::make_unique<Im
 RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+float RayScene::reach(float length) const {
+    return 1 - std::max(1e-4f, margin_ / std::max(length, 1e-30f));
+}
 
 void RayScene::occluded(ShadowRays& rays) const {
     static_assert(ShadowRays::kMost == 16);
@@ -109,7 +119,9 @@ void RayScene::occluded(ShadowRays& rays) const {
         packet.dir_y[i] = used ? rays.directionY[i] : 0;
         packet.dir_z[i] = used ? rays.directionZ[i] : 1;
         packet.tnear[i] = 0;
-        packet.tfar[i] = kReach;
+        packet.tfar[i] = reach(std::sqrt(packet.dir_x[i] * packet.dir_x[i] +
+                                         packet.dir_y[i] * packet.dir_y[i] +
+                                         packet.dir_z[i] * packet.dir_z[i]));
         packet.time[i] = 0;
         packet.mask[i] = 0xffffffffu;
         packet.id[i] = unsigned(i);
@@ -122,7 +134,8 @@ void RayScene::occluded(ShadowRays& rays) const {
 
 bool RayScene::occluded(glm::vec3 origin, glm::vec3 target) const {
     const glm::vec3 d = target - origin;
-    RTCRay ray{origin.x, origin.y, origin.z, 0, d.x, d.y, d.z, 0, kReach, 0xffffffffu, 0, 0};
+    RTCRay ray{origin.x, origin.y, origin.z, 0, d.x, d.y, d.z, 0,
+               reach(glm::length(d)), 0xffffffffu, 0, 0};
     QueryContext context;
     rtcOccluded1(impl_->scene, &context.context, &ray);
     return ray.tfar < 0;

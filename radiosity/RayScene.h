@@ -44,10 +44,8 @@ struct RayHit {
 /// can be moved by refitting. Tracing is thread-safe.
 class RayScene {
 public:
-    /// Segments count as free up to this share of their length: the target's own surface is not an
-    /// obstacle.
-    static constexpr float kReach = 1.0f - 1e-4f;
-
+    /// A segment is tested up to a hair before its end, for the target's own surface is no obstacle:
+    /// 1e-4 of its length, or 2e-5 of the scene's diagonal if that is more.
     explicit RayScene(std::span<const RayMesh> objects);
     ~RayScene();
     RayScene(RayScene&&) noexcept;
@@ -62,8 +60,11 @@ public:
     RayHit nearest(glm::vec3 origin, glm::vec3 direction, float reach, Faces faces = Faces::both) const;
 
 private:
+    float reach(float length) const;
+
     struct Impl;
     std::unique_ptr<Impl> impl_;
+    float margin_ = 0; ///< [m]
 };
 
 } // namespace penumbra

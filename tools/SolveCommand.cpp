@@ -36,9 +36,10 @@ std::vector<Rgb> readSensorValues(SceneSolution& solution, const std::vector<Rec
             const PatchSet& patches = solution.patches();
             Receiver lifted = sensors[i];
             lifted.position += patches.skin * lifted.normal;
-            const bool free = liesFree(solution.rays(), patches.rayMeshes, lifted.position, lifted.normal,
-                                       coverDistance(patches.elementSize, patches.skin));
-            if (!gather && free) {
+            const Lie lie = lieOf(solution.rays(), patches.rayMeshes, lifted.position, lifted.normal,
+                                  coverDistance(patches.elementSize, patches.skin));
+            if (lie == Lie::buried) continue; // no light gets there
+            if (!gather && lie == Lie::free) {
                 const auto drawn = surface.under(sensors[i].position, sensors[i].normal);
                 if (drawn) {
                     values[i] = drawn->direct + drawn->indirect;
