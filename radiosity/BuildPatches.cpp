@@ -116,7 +116,11 @@ void addEmitters(const Surface& surface, const Tessellation& tessellation, Patch
 
 } // namespace
 
-float defaultPatchSize(double area) { return float(std::sqrt(std::max(area, 1e-12) / 1650.0)); }
+float defaultPatchSize(double area) {
+    constexpr double kRoom = 0.5; // in a larger building people stand as near to things as in a room
+    const double size = std::sqrt(std::max(area, 1e-12) / 1650.0);
+    return float(size <= kRoom ? size : std::max(kRoom, std::sqrt(area / 6000.0)));
+}
 
 BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& options) {
     BuiltPatches built;

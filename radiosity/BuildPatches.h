@@ -24,7 +24,8 @@ struct BuiltPatches {
 /// under or inside of something are told from those that lie free, lamps become emitters.
 BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& options = {});
 
-/// sqrt(area / 1650), so that a room has some thousand patches whether it is half a metre or forty.
+/// sqrt(area / 1650), so that a room has some thousand patches whether it is half a metre wide or ten;
+/// beyond half a metre the number grows before the size does, up to sqrt(area / 6000).
 /// \param area of all surfaces [m^2]
 float defaultPatchSize(double area);
 

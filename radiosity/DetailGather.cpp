@@ -34,8 +34,10 @@ double smoothstep(double low, double high, double x) {
     return t * t * (3 - 2 * t);
 }
 
-/// Share of what rays gather in what a place with this openness receives, in place of what patches say.
+/// How far what rays gather takes the place of what patches say, at a vertex of this openness.
 double shutWeight(double openness) { return 1 - smoothstep(0.25, 0.45, openness); }
+/// The same at a node: what is wrong there spreads over its patches, so patches are believed later.
+double shutNodeWeight(double openness) { return 1 - smoothstep(0.4, 0.85, openness); }
 
 Rgb toRgb(glm::dvec3 v) { return {float(v.x), float(v.y), float(v.z)}; }
 
@@ -101,10 +103,19 @@ void DetailGather::traceVertices(const DrawnSurface& surface, const HemisphereRa
 
 glm::dvec3 DetailGather::gathered(std::span<const Rgb> sent, const std::uint32_t* hits) const {
     glm::dvec3 sum(0);
-    for (int r = 0; r < kRays; ++r)
-        if (hits[r] != Element::kNone)
-            sum += glm::dvec3(sent[hits[r]].r, sent[hits[r]].g, sent[hits[r]].b);
-    return sum / double(kRays);
+    Rgb brightest, second;
+    for (int r = 0; r < kRays; ++r) {
+        if (hits[r] == Element::kNone) continue;
+        const Rgb light = sent[hits[r]];
+        sum += glm::dvec3(light.r, light.g, light.b);
+        if (luminance(light) > luminance(brightest))
+            second = brightest, brightest = light;
+        else if (luminance(light) > luminance(second))
+            second = light;
+    }
+    // A single ray that finds the glowing inside of a lampshade counts like the next: no fireflies.
+    const Rgb excess = brightest - second;
+    return (sum - glm::dvec3(excess.r, excess.g, excess.b)) / double(kRays);
 }
 
 void DetailGather::apply(std::span<const glm::dvec3> nodeIndirect, Lighting& lighting) const {
@@ -123,7 +134,7 @@ void DetailGather::apply(std::span<const glm::dvec3> nodeIndirect, Lighting& lig
             for (std::size_t n = first; n < last; ++n) {
                 nodeGathered[n] = gathered(sent, nodeHits_.data() + n * kRays);
                 nodeValue[n] =
-                    glm::mix(nodeIndirect[n], nodeGathered[n], shutWeight(nodeOpenness_[n]));
+                    glm::mix(nodeIndirect[n], nodeGathered[n], shutNodeWeight(nodeOpenness_[n]));
             }
         });
         parallelFor(vertices_.size(), 1024, [&](std::size_t first, std::size_t last) {

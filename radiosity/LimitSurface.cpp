@@ -220,6 +220,20 @@ float FaceSurface::edgeLength(int edge) const {
     return length;
 }
 
+float FaceSurface::edgeBend(int edge) const {
+    constexpr int kChords = 4;
+    float bend = 0;
+    glm::vec3 last = at(edgeCoord(edge, 0)).normal;
+    for (int i = 1; i <= kChords; ++i) {
+        const glm::vec2 uv = i < kChords ? edgeCoord(edge, float(i) / kChords)
+                                         : vertexCoord((edge + 1) % size_);
+        const glm::vec3 next = at(uv).normal;
+        bend += std::acos(std::clamp(glm::dot(last, next), -1.0f, 1.0f));
+        last = next;
+    }
+    return bend;
+}
+
 float FaceSurface::extent() const {
     float extent = 0;
     const glm::vec3 first = at(vertexCoord(0)).position;

@@ -50,6 +50,7 @@ public:
     glm::vec2 subFaceCoordinate(int subFace, glm::vec2 point) const;
 
     float edgeLength(int edge) const; ///< along the limit surface [m], by a few chords
+    float edgeBend(int edge) const;   ///< by how much the normal turns along an edge [rad]
     float extent() const;             ///< largest distance between two of its corners [m]
 
     /// \param rates parts each edge is cut into, then inner rates (see Bfr::Tessellation)

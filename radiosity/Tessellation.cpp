@@ -33,15 +33,20 @@ private:
         const std::uint32_t b = corners[(std::size_t(edge) + 1) % corners.size()];
         const std::uint64_t key = std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
         const auto [found, fresh] = rates_.try_emplace(key);
-        if (fresh) found->second = cut(face.edgeLength(edge));
+        if (fresh)
+            found->second = cut(face.edgeLength(edge), mesh_.subdivided() ? face.edgeBend(edge) : 0);
         return found->second;
     }
-    EdgeRate cut(float length) const {
+    /// By length, and so that the normal turns by no more than kMostBend within an element.
+    EdgeRate cut(float length, float bend) const {
+        constexpr float kMostBend = 0.2f; // [rad]
         const auto parts = [](float whole, float part) {
             return std::clamp(int(std::ceil(whole / part - 1e-3f)), 1, 4096);
         };
         const int patches = parts(length, patchSize_);
-        return {patches, patches * parts(length / float(patches), elementSize_)};
+        const int elements = std::max(parts(length / float(patches), elementSize_),
+                                      parts(bend / float(patches), kMostBend));
+        return {patches, patches * elements};
     }
 
     void addFace(std::uint32_t index, const FaceSurface& face);
