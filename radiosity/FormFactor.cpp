@@ -48,17 +48,20 @@ float cutDiskFormFactor(glm::vec3 p, glm::vec3 n, glm::vec3 centre, glm::vec3 ax
     return polygonFormFactor(p, n, polygon);
 }
 
-/// acos(c) / sqrt(1 - c^2), which stays smooth where the angle vanishes. The polynomial is that of
-/// Abramowitz & Stegun 4.4.46, acos(x) = sqrt(1 - x) p(x) + e, |e| <= 2e-8.
-float angleOverSine(float c) {
-    const float x = std::abs(c);
+/// Angle between unit vectors over its sine. Up to 90 degrees as acos(c) / sqrt(1 - c^2), which stays
+/// smooth where the angle vanishes, by Abramowitz & Stegun 4.4.46: acos(x) = sqrt(1 - x) p(x) + e,
+/// |e| <= 2e-8. Beyond, the sine itself is needed: the cosine of an edge seen almost straight says
+/// little about it.
+float angleOverSine(float cosine, glm::vec3 cross) {
+    if (cosine < 0) {
+        const float sine = glm::length(cross);
+        return sine > 0 ? std::atan2(sine, cosine) / sine : 0.0f;
+    }
     float p = -0.0012624911f;
     for (const float k : {0.0066700901f, -0.0170881256f, 0.0308918810f, -0.0501743046f, 0.0889789874f,
                           -0.2145988016f, 1.5707963050f})
-        p = p * x + k;
-    if (c >= 0) return p / std::sqrt(1 + x);
-    const float rest = std::max(1 - x, 1e-12f);
-    return (std::numbers::pi_v<float> - std::sqrt(rest) * p) / std::sqrt(rest * (1 + x));
+        p = p * cosine + k;
+    return p / std::sqrt(1 + cosine);
 }
 
 /// pointToPolygonFormFactor() in single precision, for polygons that are not seen too small.
@@ -73,7 +76,8 @@ float contourSum(glm::vec3 p, glm::vec3 n, std::span<const glm::vec3> polygon) {
     float sum = 0;
     for (std::size_t i = 1; i <= polygon.size(); ++i) {
         const glm::vec3 b = i == polygon.size() ? first : toward(polygon[i]);
-        sum += glm::dot(n, glm::cross(b, a)) * angleOverSine(glm::dot(a, b));
+        const glm::vec3 axis = glm::cross(b, a);
+        sum += glm::dot(n, axis) * angleOverSine(glm::dot(a, b), axis);
         a = b;
     }
     return sum * (0.5f * std::numbers::inv_pi_v<float>);
