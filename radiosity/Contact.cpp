@@ -159,7 +159,7 @@ void pullReceiversIn(float skin, const std::vector<Element>& elements, const Fan
             float count = 0;
             for (std::uint32_t i = fans.first[v]; i < fans.first[v + 1]; ++i) {
                 const std::uint32_t e = fans.corners[i] / 4;
-                if (results[e].moved[fans.corners[i] % 4]) continue;
+                if (!results[e].free || results[e].moved[fans.corners[i] % 4]) continue;
                 const std::size_t corners = elements[e].isTriangle() ? 3 : 4;
                 for (std::size_t k = 0; k < corners; ++k)
                     sum += vertices[elements[e].vertices[k]].position / float(corners);

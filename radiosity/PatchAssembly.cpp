@@ -181,6 +181,12 @@ void PatchAssembly::makePatches(std::uint32_t cell, std::vector<std::uint32_t>& 
         group.elements.push_back(elements[i]);
         for (glm::vec2 st : elementSt_[elements[i]]) group.add(st);
     }
+    if (cells_[cell].whole) { // it has no coordinates to part it by
+        for (std::size_t i = 1; i < groups.size(); ++i)
+            groups[0].elements.insert(groups[0].elements.end(), groups[i].elements.begin(),
+                                      groups[i].elements.end());
+        groups.resize(1);
+    }
     mergeOverlapping(groups);
     for (const Group& group : groups) makePatch(cells_[cell], group, groups.size() > 1);
 }
