@@ -108,9 +108,7 @@ Rgb PointGather::indirectByRays(const Receiver& receiver, const HemisphereRays& 
         const Rgb reflectance =
             patches_.materials[patches_.elements[hit.element].material].reflectance;
         Rgb light;
-        const bool near = hit.distance < 2 * kCloseBy * patches_.elementSize;
-        if (near && depth == 0) continue; // deep in a gap: what still comes from here is next to nothing
-        if (near) {
+        if (depth > 0 && hit.distance < 2 * kCloseBy * patches_.elementSize) {
             Receiver there{glm::vec3(0), glm::vec3(0)};
             for (std::size_t k = 0; k < 3; ++k)
                 there.normal += hit.weights[k] * patches_.vertices[hit.vertices[k]].receiver.normal;
