@@ -1,0 +1,78 @@
+// Light in whole rooms against an independent path tracer (tests/data/*_truth.csv), which Radiance
+// confirms to 0.04 %: the bounds that people are promised, as drawn and gathered.
+#include "io/UsdScene.h"
+#include "radiosity/Contact.h"
+#include "radiosity/LitSurface.h"
+#include "radiosity/PointGather.h"
+#include "tests/support/Reference.h"
+#include "tests/support/Scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace penumbra {
+
+namespace {
+
+struct Room {
+    const char* scene;
+    const char* truth;
+    float patchSize, elementSize; ///< coarser than the defaults, for the time's sake [m]
+};
+
+std::ostream& operator<<(std::ostream& out, const Room& room) { return out << room.scene; }
+
+class ReferenceRoom : public testing::TestWithParam<Room> {
+protected:
+    ReferenceRoom()
+        : solution(*loadUsdScene(dataFile(GetParam().scene)).scene,
+                   {.patchSize = GetParam().patchSize, .elementSize = GetParam().elementSize}),
+          sensors(readTruth(GetParam().truth)) {
+        for (const TruthSensor& sensor : sensors) truth.push_back(sensor.all);
+    }
+
+    Solution solution;
+    std::vector<TruthSensor> sensors;
+    std::vector<Rgb> truth; ///< of the sensors
+};
+
+TEST_P(ReferenceRoom, IsMetAsDrawnAndGathered) {
+    const LitSurface surface(solution.patches(), solution.lighting);
+    const PointGather point(solution.patches(), solution.rays, solution.lighting);
+    std::vector<Rgb> drawn, gathered;
+    const PatchSet& patches = solution.patches();
+    for (const TruthSensor& sensor : sensors) {
+        Receiver lifted = sensor.receiver;
+        lifted.position += patches.skin * lifted.normal;
+        // As `penumbra solve` does it: what is buried is dark, what is covered is not drawn.
+        const Lie lie = lieOf(solution.rays, patches.rayMeshes, lifted.position, lifted.normal,
+                              coverDistance(patches.elementSize, patches.skin));
+        gathered.push_back(lie == Lie::buried ? Rgb()
+                                              : point.direct(lifted) + point.indirect(lifted));
+        const auto sample = surface.under(sensor.receiver.position, sensor.receiver.normal);
+        ASSERT_TRUE(sample) << "no surface under a sensor on " << sensor.object;
+        drawn.push_back(lie == Lie::free ? sample->direct + sample->indirect : gathered.back());
+    }
+    const SensorErrors asDrawn = sensorErrors(drawn, truth);
+    EXPECT_LT(asDrawn.mean, 0.04);
+    EXPECT_LT(asDrawn.percentile95, 0.12);
+    EXPECT_LT(std::abs(asDrawn.bias), 0.01);
+    const SensorErrors asGathered = sensorErrors(gathered, truth);
+    EXPECT_LT(asGathered.mean, 0.01);
+    EXPECT_LT(asGathered.percentile95, 0.03);
+    EXPECT_LT(std::abs(asGathered.bias), 0.005);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rooms, ReferenceRoom,
+    testing::Values(Room{"cornell.usda", "cornell_truth.csv", 0.03f, 0.0075f},
+                    Room{"emptybox.usda", "emptybox_truth.csv", 0.3f, 0.075f},
+                    Room{"emptybox_rectlight.usda", "emptybox_truth.csv", 0.3f, 0.075f},
+                    Room{"tworoom_pos0.usda", "tworoom_pos0_truth.csv", 0.3f, 0.075f}),
+    [](const auto& room) {
+        const std::string scene = room.param.scene;
+        return scene.substr(0, scene.find('.'));
+    });
+
+} // namespace
+
+} // namespace penumbra

@@ -1,0 +1,66 @@
+// Indirect light that varies faster than patches can tell.
+#include "radiosity/DetailGather.h"
+#include "tests/support/Scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace penumbra {
+
+namespace {
+
+const MeshingOptions kMeshing{.patchSize = 0.4f, .elementSize = 0.1f};
+
+NodePtr room(float rho) {
+    return object("room", boxData({-1, -1, -1}, {1, 1, 1}, true, paint(Rgb(rho))));
+}
+
+/// Mean indirect light of the vertices of the wall x = -1 that lie within `radius` of its middle [lux].
+double onWall(const Solution& solution, const Lighting& lighting, glm::vec3 middle, float radius) {
+    double sum = 0;
+    int count = 0;
+    for (std::size_t v = 0; v < lighting.indirect.size(); ++v) {
+        const Vertex& vertex = solution.patches().vertices[v];
+        if (vertex.position.x != -1 || glm::distance(vertex.position, middle) > radius) continue;
+        sum += lighting.indirect[v].r;
+        ++count;
+    }
+    return sum / count;
+}
+
+TEST(DetailGather, DarkensTheGapBehindABoard) {
+    // A board of 1 x 1 m hangs 3 cm in front of a wall: on the wall behind its middle little is left,
+    // on the wall beside it nothing changes.
+    MeshData board = polygonData({{-0.97f, -0.5f, -0.5f}, {-0.97f, 0.5f, -0.5f},
+                                  {-0.97f, 0.5f, 0.5f}, {-0.97f, -0.5f, 0.5f}});
+    board.doubleSided = true;
+    const Solution solution(
+        sceneOf({room(0.5f), object("board", board), ceilingLamp({0, 0, 0.99f}, 0.8f, 0.8f)}),
+        kMeshing);
+    const double gap = onWall(solution, solution.lighting, {-1, 0, 0}, 0.25f);
+    const double free = onWall(solution, solution.lighting, {-1, 0.8f, 0}, 0.1f);
+    EXPECT_GT(free, 0.02);
+    EXPECT_LT(gap, 0.1 * free);
+}
+
+TEST(DetailGather, LeavesAnEvenlyLitRoomAsItIs) {
+    const Solution solution(sceneOf({room(0.5f), ceilingLamp({0, 0, 0.99f}, 0.8f, 0.8f)}), kMeshing);
+    const Lighting raw = solution.solver.lighting();
+    EXPECT_NEAR(onWall(solution, solution.lighting, {-1, 0, 0}, 0.5f),
+                onWall(solution, raw, {-1, 0, 0}, 0.5f), 0.01);
+    for (std::size_t v = 0; v < raw.direct.size(); ++v)
+        EXPECT_EQ(raw.direct[v], solution.lighting.direct[v]);
+}
+
+TEST(DetailGather, ChoosesVerticesByGeometryAlone) {
+    const auto chosen = [](float rho, Rgb nits) {
+        const Scene scene = sceneOf({room(rho), object("box", boxData({-0.5f, -0.5f, -1}, {0, 0, 0}, false)),
+                                     ceilingLamp({0, 0, 0.99f}, 0.8f, 0.8f, nits)});
+        return DetailGather(meshed(scene, kMeshing).patches).vertexCount();
+    };
+    EXPECT_GT(chosen(0.5f, Rgb(1.0f)), 0u);
+    EXPECT_EQ(chosen(0.5f, Rgb(1.0f)), chosen(0.1f, Rgb(100.0f)));
+}
+
+} // namespace
+
+} // namespace penumbra

@@ -1,0 +1,124 @@
+// Rays: what they meet, and whom they name.
+#include "radiosity/RayScene.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace penumbra {
+
+namespace {
+
+/// A square of side 2 around (0, 0, z), front up.
+RayMesh square(float z) {
+    RayMesh mesh;
+    mesh.vertices = {{-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    mesh.solid = {0, 0};
+    return mesh;
+}
+
+TEST(RayScene, NamesTheObjectThatBlocksEachSegment) {
+    RayMesh aside = square(1);
+    for (glm::vec3& p : aside.vertices) p.x += 10;
+    const RayScene scene(std::array{square(1), RayMesh(), aside}); // an empty object keeps its id
+    ShadowRays rays;
+    rays.set(0, {0.1f, 0.2f, 0}, {0.1f, 0.2f, 2});
+    rays.set(3, {10.1f, 0.2f, 2}, {10.1f, 0.2f, 0});
+    rays.set(7, {5, 0, 0}, {5, 0, 2});
+    scene.occluded(rays);
+    EXPECT_EQ(rays.blocker[0], 0u);
+    EXPECT_EQ(rays.blocker[3], 2u);
+    EXPECT_EQ(rays.blocker[7], ObjectId::kNone);
+    EXPECT_EQ(rays.blocker[1], ObjectId::kNone); // was not to be tested
+}
+
+TEST(RayScene, BlocksASegmentFromBothSidesOfASurface) {
+    const RayScene scene(std::array{square(1)});
+    EXPECT_TRUE(scene.occluded({0, 0.1f, 0}, {0, 0.1f, 2}));
+    EXPECT_TRUE(scene.occluded({0, 0.1f, 2}, {0, 0.1f, 0}));
+}
+
+TEST(RayScene, DoesNotTakeTheTargetForAnObstacle) {
+    const RayScene scene(std::array{square(1)});
+    EXPECT_FALSE(scene.occluded({0.3f, 0.1f, 0}, {0.3f, 0.1f, 1}));
+}
+
+TEST(RayScene, DoesNotTakeATargetAtAGrazingAngleForAnObstacle) {
+    // A few millimetres apart and rising by a tenth: rounding must not end the segment early.
+    const RayScene scene(std::array{square(1)});
+    for (int i = 0; i < 1000; ++i) {
+        const glm::vec3 target(-0.9f + 0.0018f * float(i), 0.0007f * float(i), 1);
+        const glm::vec3 origin = target + glm::vec3(-0.004f, 0.001f, 0.0004f);
+        EXPECT_FALSE(scene.occluded(origin, target)) << i;
+    }
+}
+
+TEST(RayScene, FindsTheNearestTriangleAndWhereOnIt) {
+    const RayScene scene(std::array{square(1), square(3)});
+    const RayHit hit = scene.nearest({0.5f, -0.25f, 0}, {0, 0, 2}, 10);
+    ASSERT_TRUE(hit.met());
+    EXPECT_EQ(hit.object.value, 0u);
+    EXPECT_EQ(hit.triangle, 0u);
+    EXPECT_FLOAT_EQ(hit.distance, 0.5f);
+    EXPECT_GT(hit.normal.z, 0);
+    const auto& v = square(1).vertices;
+    const glm::vec3 p = (1 - hit.u - hit.v) * v[0] + hit.u * v[1] + hit.v * v[2];
+    EXPECT_LT(glm::distance(p, {0.5f, -0.25f, 1}), 1e-6f);
+}
+
+TEST(RayScene, LooksNoFurtherThanItsReach) {
+    const RayScene scene(std::array{square(1)});
+    EXPECT_FALSE(scene.nearest({0.1f, 0, 0}, {0, 0, 1}, 0.9f).met());
+    EXPECT_TRUE(scene.nearest({0.1f, 0, 0}, {0, 0, 1}, 1.1f).met());
+}
+
+TEST(RayScene, PassesThroughBacksWhenFrontsAreWanted) {
+    const RayScene scene(std::array{square(1), square(3)});
+    EXPECT_FALSE(scene.nearest({0.1f, 0, 0}, {0, 0, 1}, 10, RayScene::Faces::front).met());
+    const RayHit down = scene.nearest({0.1f, 0, 2}, {0, 0, -1}, 10, RayScene::Faces::front);
+    EXPECT_EQ(down.object.value, 0u);
+}
+
+TEST(RayScene, LetsNoRayThroughTheSeamsOfASurface) {
+    // A 16 x 16 grid in two triangles a cell, rays at every corner, edge and diagonal, straight and
+    // slanting, front and back: a closed room has no cracks.
+    constexpr int kCells = 16;
+    RayMesh grid;
+    for (int j = 0; j <= kCells; ++j)
+        for (int i = 0; i <= kCells; ++i)
+            grid.vertices.emplace_back(float(i) / 7, float(j) / 7, 1 + 0.01f * float((i * j) % 3));
+    for (std::uint32_t j = 0; j < kCells; ++j)
+        for (std::uint32_t i = 0; i < kCells; ++i) {
+            const std::uint32_t a = j * (kCells + 1) + i, b = a + kCells + 1;
+            grid.triangles.push_back({a, a + 1, b + 1});
+            grid.triangles.push_back({a, b + 1, b});
+        }
+    grid.solid.assign(grid.triangles.size(), 0);
+    const RayScene scene(std::array{grid});
+    int lost = 0, shadowsLost = 0;
+    for (std::size_t j = 1; j < kCells; ++j)
+        for (std::size_t i = 1; i < kCells; ++i)
+            for (std::size_t step : {std::size_t(0), std::size_t(1), std::size_t(kCells + 1),
+                                     std::size_t(kCells + 2)}) {
+                const std::size_t a = j * (kCells + 1) + i;
+                const glm::vec3 p = 0.5f * (grid.vertices[a] + grid.vertices[a + step]);
+                for (const glm::vec3 eye : {glm::vec3(p.x, p.y, 0), glm::vec3(1.1f, 0.9f, -3),
+                                            glm::vec3(0.3f, 2.1f, 5)}) {
+                    lost += !scene.nearest(eye, p - eye, 10).met();
+                    shadowsLost += !scene.occluded(eye, eye + 2.0f * (p - eye));
+                }
+            }
+    EXPECT_EQ(lost, 0);
+    EXPECT_EQ(shadowsLost, 0);
+}
+
+TEST(RayScene, WithoutObjectsIsEmpty) {
+    const RayScene scene(std::span<const RayMesh>{});
+    EXPECT_FALSE(scene.occluded({0, 0, 0}, {1, 1, 1}));
+    EXPECT_FALSE(scene.nearest({0, 0, 0}, {1, 1, 1}, 1e30f).met());
+}
+
+} // namespace
+
+} // namespace penumbra
