@@ -34,8 +34,8 @@ std::vector<Surface> placeSurfaces(const PlacedScene& scene, std::vector<MeshDat
     lightMeshes.reserve(scene.lights.size()); // the surfaces point into it
     for (const Placed<Light>& light : scene.lights) {
         lightMeshes.push_back(lightShapeMesh(*light.node));
-        surfaces.push_back({placeSurface(lightMeshes.back(), light.toWorld), light.object, light.path,
-                            light.node, light.toWorld});
+        surfaces.push_back({placeSurface(lightMeshes.back(), light.toWorld), light.object,
+                            light.path, light.node, light.toWorld});
     }
     return surfaces;
 }
@@ -66,7 +66,8 @@ double litArea(const std::vector<Surface>& surfaces) {
     double area = 0;
     for (const Surface& surface : surfaces)
         for (const SurfaceFace& face : surface.mesh.faces)
-            area += 0.5 * glm::length(newellNormal(surface.mesh.points, surface.mesh.cornersOf(face)));
+            area +=
+                0.5 * glm::length(newellNormal(surface.mesh.points, surface.mesh.cornersOf(face)));
     return area;
 }
 
@@ -101,7 +102,8 @@ void addEmitters(const Surface& surface, const Tessellation& tessellation, Patch
         for (const SurfaceFace& face : mesh.faces) {
             if (!materialOf(mesh, face).emissive()) continue;
             std::vector<glm::vec3> outline;
-            for (std::uint32_t corner : mesh.cornersOf(face)) outline.push_back(mesh.points[corner]);
+            for (std::uint32_t corner : mesh.cornersOf(face))
+                outline.push_back(mesh.points[corner]);
             emit(materialOf(mesh, face), std::move(outline));
         }
         return;
@@ -117,7 +119,8 @@ void addEmitters(const Surface& surface, const Tessellation& tessellation, Patch
 } // namespace
 
 float defaultPatchSize(double area) {
-    constexpr double kRoom = 0.5; // in a larger building people stand as near to things as in a room
+    constexpr double kRoom =
+        0.5; // in a larger building people stand as near to things as in a room
     const double size = std::sqrt(std::max(area, 1e-12) / 1650.0);
     return float(size <= kRoom ? size : std::max(kRoom, std::sqrt(area / 6000.0)));
 }
@@ -150,8 +153,8 @@ BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& option
         const Tessellation tessellation =
             tessellate(surface.mesh, out.patchSize, out.elementSize, understood);
         if (!understood)
-            built.warnings.push_back(surface.path +
-                                     ": OpenSubdiv refuses this cage; its polygons are used as they are");
+            built.warnings.push_back(
+                surface.path + ": OpenSubdiv refuses this cage; its polygons are used as they are");
         assembly.add(surface.mesh, tessellation, surface.object);
         addEmitters(surface, tessellation, out);
     }

@@ -10,7 +10,8 @@
 namespace penumbra {
 
 struct MeshingOptions {
-    float patchSize = 0;   ///< longest edge of a patch [m]; 0: follows the scene, see defaultPatchSize()
+    float patchSize =
+        0; ///< longest edge of a patch [m]; 0: follows the scene, see defaultPatchSize()
     float elementSize = 0; ///< longest edge of an element [m]; 0: an eighth of a patch
 };
 
@@ -24,9 +25,9 @@ struct BuiltPatches {
 /// under or inside of something are told from those that lie free, lamps become emitters.
 BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& options = {});
 
-/// sqrt(area / 1650), so that a room has some thousand patches whether it is half a metre wide or ten;
-/// beyond half a metre the number grows before the size does, up to sqrt(area / 6000).
-/// \param area of all surfaces [m^2]
+/// sqrt(area / 1650), so that a room has some thousand patches whether it is half a metre wide or
+/// ten; beyond half a metre the number grows before the size does, up to sqrt(area / 6000). \param
+/// area of all surfaces [m^2]
 float defaultPatchSize(double area);
 
 } // namespace penumbra

@@ -46,14 +46,16 @@ public:
             if (cornerFree[i]) anchor = corner[i], result.free = true;
         if (!result.free) return result;
         for (std::size_t i = 0; i < frame.count; ++i) {
-            if (cornerFree[i] && (corner[i] == anchor || !rays_.occluded(anchor, corner[i]))) continue;
+            if (cornerFree[i] && (corner[i] == anchor || !rays_.occluded(anchor, corner[i])))
+                continue;
             result.moved[i] = true;
             result.position[i] = endOfWay(anchor, corner[i], frame.normal, cover);
         }
         return result;
     }
 
-    /// Where corner i of an element receives light if it is not shared: a hair inside of the element.
+    /// Where corner i of an element receives light if it is not shared: a hair inside of the
+    /// element.
     glm::vec3 cornerOf(const Element& element, std::size_t i) const {
         const Frame frame = frameOf(element);
         return glm::mix(vertex(element, i).position, frame.middle, kPullIn) + skin_ * frame.normal;
@@ -74,7 +76,8 @@ private:
         }
         frame.normal = glm::normalize(frame.normal);
         for (std::size_t i = 0; i < frame.count; ++i)
-            frame.size = std::max(frame.size, glm::distance(frame.middle, vertex(element, i).position));
+            frame.size =
+                std::max(frame.size, glm::distance(frame.middle, vertex(element, i).position));
         return frame;
     }
     const Vertex& vertex(const Element& element, std::size_t i) const {
@@ -148,8 +151,8 @@ void partAtWalls(const RayScene& rays, const ContactResolver& resolver,
     });
 }
 
-/// Moves the receivers of shared vertices towards the mean middle of their elements: not at all inside
-/// of a surface, a hair inwards at its border.
+/// Moves the receivers of shared vertices towards the mean middle of their elements: not at all
+/// inside of a surface, a hair inwards at its border.
 void pullReceiversIn(float skin, const std::vector<Element>& elements, const Fans& fans,
                      const std::vector<ContactResolver::Result>& results,
                      std::vector<Vertex>& vertices) {
@@ -174,8 +177,9 @@ void pullReceiversIn(float skin, const std::vector<Element>& elements, const Fan
 }
 
 /// Gives every moved corner a vertex of its own.
-void makePrivate(const std::vector<ContactResolver::Result>& results, std::vector<Element>& elements,
-                 std::vector<Vertex>& vertices, std::vector<PatchCoordinate>& coordinates) {
+void makePrivate(const std::vector<ContactResolver::Result>& results,
+                 std::vector<Element>& elements, std::vector<Vertex>& vertices,
+                 std::vector<PatchCoordinate>& coordinates) {
     for (std::size_t e = 0; e < elements.size(); ++e) {
         Element& element = elements[e];
         const std::size_t corners = element.isTriangle() ? 3 : 4;
@@ -193,7 +197,9 @@ void makePrivate(const std::vector<ContactResolver::Result>& results, std::vecto
 
 } // namespace
 
-float coverDistance(float elementSize, float skin) { return std::max(kCover * elementSize, 4 * skin); }
+float coverDistance(float elementSize, float skin) {
+    return std::max(kCover * elementSize, 4 * skin);
+}
 
 Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point, glm::vec3 normal,
           float cover) {

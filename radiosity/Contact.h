@@ -10,10 +10,10 @@
 
 namespace penumbra {
 
-/// A corner that is covered by another object (the floor under a cabinet, the wall behind a shelf) or
-/// that lies beyond one (the floor on the other side of a partition) must lend neither its darkness nor
-/// its light to the element's free part. Such an element gets a corner of its own instead: drawn at the
-/// same place, lit where the way from the element's free middle ends.
+/// A corner that is covered by another object (the floor under a cabinet, the wall behind a shelf)
+/// or that lies beyond one (the floor on the other side of a partition) must lend neither its
+/// darkness nor its light to the element's free part. Such an element gets a corner of its own
+/// instead: drawn at the same place, lit where the way from the element's free middle ends.
 ///
 /// Changes `elements` to use such private vertices, which are appended to `vertices` and
 /// `coordinates`, and moves every receiver clear of the edges of its surface.

@@ -18,11 +18,12 @@ constexpr int kProbeRays = 16;  ///< enough to see that a vertex has nothing to 
 constexpr int kIterations = 10; ///< light goes from gathering vertex to gathering vertex
 
 /// Follows rays first ... first + count - 1; returns how many are free up to `reach`.
-int follow(const DrawnSurface& surface, const HemisphereRays& rays, const Receiver& receiver, int first,
-           int count, float reach, std::uint32_t* hits) {
+int follow(const DrawnSurface& surface, const HemisphereRays& rays, const Receiver& receiver,
+           int first, int count, float reach, std::uint32_t* hits) {
     int free = 0;
     for (int i = first; i < first + count; ++i) {
-        const auto hit = surface.nearest(receiver.position, rays.direction(i, receiver.normal), 1e30f);
+        const auto hit =
+            surface.nearest(receiver.position, rays.direction(i, receiver.normal), 1e30f);
         free += !hit.met() || hit.distance > reach;
         hits[i] = hit.met() ? hit.element : Element::kNone;
     }
@@ -35,11 +36,17 @@ double smoothstep(double low, double high, double x) {
 }
 
 /// How far what rays gather takes the place of what patches say, at a vertex of this openness.
-double shutWeight(double openness) { return 1 - smoothstep(0.25, 0.45, openness); }
+double shutWeight(double openness) {
+    return 1 - smoothstep(0.25, 0.45, openness);
+}
 /// The same at a node: what is wrong there spreads over its patches, so patches are believed later.
-double shutNodeWeight(double openness) { return 1 - smoothstep(0.4, 0.85, openness); }
+double shutNodeWeight(double openness) {
+    return 1 - smoothstep(0.4, 0.85, openness);
+}
 
-Rgb toRgb(glm::dvec3 v) { return {float(v.x), float(v.y), float(v.z)}; }
+Rgb toRgb(glm::dvec3 v) {
+    return {float(v.x), float(v.y), float(v.z)};
+}
 
 } // namespace
 
@@ -79,12 +86,13 @@ void DetailGather::traceVertices(const DrawnSurface& surface, const HemisphereRa
             const Receiver& receiver = patches_.vertices[v].receiver;
             const double expected =
                 interpolateNodes<double>(patches_.patches[patch], s, t, nodeOpenness_);
-            int free = follow(surface, rays, receiver, 0, kProbeRays, patches_.patchSize, hits.data());
+            int free =
+                follow(surface, rays, receiver, 0, kProbeRays, patches_.patchSize, hits.data());
             traced += kProbeRays;
             const double guess = double(free) / kProbeRays;
             if (std::abs(guess - expected) < 0.07 && guess > 0.5) continue;
-            free += follow(surface, rays, receiver, kProbeRays, kRays - kProbeRays, patches_.patchSize,
-                           hits.data());
+            free += follow(surface, rays, receiver, kProbeRays, kRays - kProbeRays,
+                           patches_.patchSize, hits.data());
             traced += kRays - kProbeRays;
             const double open = double(free) / kRays;
             const double detail = smoothstep(0.02, 0.08, std::abs(open - expected));

@@ -10,17 +10,17 @@
 
 namespace penumbra {
 
-/// Indirect light is exchanged between patches and interpolated from their nodes to the vertices. That
-/// misses shadows of indirect light that are smaller than a patch. They are found by openness, the
-/// cosine-weighted share of a point's hemisphere that is free of surfaces nearer than a patch's size.
-/// With H the solver's values at the nodes and G what rays over the hemisphere gather,
+/// Indirect light is exchanged between patches and interpolated from their nodes to the vertices.
+/// That misses shadows of indirect light that are smaller than a patch. They are found by openness,
+/// the cosine-weighted share of a point's hemisphere that is free of surfaces nearer than a patch's
+/// size. With H the solver's values at the nodes and G what rays over the hemisphere gather,
 ///
 ///     H_v = interpolated H + w (G_v - interpolated G)
 ///
-/// where w rises from 0 to 1 as the vertex's openness differs from the one interpolated from the nodes.
-/// Vertex and nodes use the same ray directions, so that most of the sampling error cancels. Where so
-/// little is open that near surfaces matter more than patches can tell, G itself is taken. Which
-/// vertices gather, and with which weight, depends on geometry alone.
+/// where w rises from 0 to 1 as the vertex's openness differs from the one interpolated from the
+/// nodes. Vertex and nodes use the same ray directions, so that most of the sampling error cancels.
+/// Where so little is open that near surfaces matter more than patches can tell, G itself is taken.
+/// Which vertices gather, and with which weight, depends on geometry alone.
 class DetailGather {
 public:
     /// Traces the rays. `patches` must outlive this.
@@ -45,7 +45,8 @@ private:
 
     const PatchSet& patches_;
     std::vector<Gatherer> vertices_;
-    std::vector<std::uint32_t> vertexHits_; ///< element that each ray meets, Element::kNone: nothing
+    std::vector<std::uint32_t>
+        vertexHits_; ///< element that each ray meets, Element::kNone: nothing
     std::vector<std::uint32_t> nodeHits_;
     std::vector<double> nodeOpenness_;
     std::uint64_t rayCount_ = 0;

@@ -10,7 +10,9 @@ namespace penumbra {
 
 namespace {
 
-int roundUp(int samples) { return std::max(16, (samples + 15) / 16 * 16); }
+int roundUp(int samples) {
+    return std::max(16, (samples + 15) / 16 * 16);
+}
 
 /// The point of a sphere that the receiver sees behind a point of its tangent disk.
 glm::vec3 ontoSphere(glm::vec3 from, glm::vec3 onDisk, glm::vec3 centre, float radius) {
@@ -27,7 +29,8 @@ EmitterSender::EmitterSender(const Emitter& emitter, int baseSamples, int allSam
     : emitter_(&emitter), base_(roundUp(baseSamples)), all_(std::max(base_, roundUp(allSamples))) {
     const EmitterSamples samples = sampleEmitter(emitter, std::size_t(all_));
     for (const EmitterSamples::Point& point : samples.points) {
-        x_.push_back(point.position.x), y_.push_back(point.position.y), z_.push_back(point.position.z);
+        x_.push_back(point.position.x), y_.push_back(point.position.y),
+            z_.push_back(point.position.z);
         nx_.push_back(point.normal.x), ny_.push_back(point.normal.y), nz_.push_back(point.normal.z);
     }
 }
@@ -37,8 +40,10 @@ float EmitterSender::formFactor(const Receiver& receiver) const {
     switch (emitter_->kind) {
     case Emitter::Kind::disk:
         return diskFormFactor(p, n, emitter_->centre, emitter_->axis, emitter_->radius);
-    case Emitter::Kind::sphere: return sphereFormFactor(p, n, emitter_->centre, emitter_->radius);
-    case Emitter::Kind::polygons: break;
+    case Emitter::Kind::sphere:
+        return sphereFormFactor(p, n, emitter_->centre, emitter_->radius);
+    case Emitter::Kind::polygons:
+        break;
     }
     float sum = 0;
     for (const auto& polygon : emitter_->polygons) sum += polygonFormFactor(p, n, polygon);

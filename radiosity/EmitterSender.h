@@ -10,8 +10,8 @@ namespace penumbra {
 
 /// 16 visibility samples of an emitter as one receiver sees them.
 struct SampleGroup {
-    ShadowRays rays;               ///< to the samples that count
-    alignas(64) float weight[16];  ///< cos cos / d^2, common factors left out; 0: does not count
+    ShadowRays rays;              ///< to the samples that count
+    alignas(64) float weight[16]; ///< cos cos / d^2, common factors left out; 0: does not count
 };
 
 /// An emitter with its visibility samples.
@@ -25,9 +25,9 @@ public:
     int baseSamples() const { return base_; }
     int allSamples() const { return all_; }
 
-    /// What the whole emitter gives to a receiver when nothing stands between them: the closed forms of
-    /// FormFactor.h, summed over polygons. Exact for convex emitters; polygons that shade each other
-    /// are told by the visibility samples.
+    /// What the whole emitter gives to a receiver when nothing stands between them: the closed
+    /// forms of FormFactor.h, summed over polygons. Exact for convex emitters; polygons that shade
+    /// each other are told by the visibility samples.
     float formFactor(const Receiver& receiver) const;
 
     /// Samples first ... first + 15 for a receiver. A sphere is sampled on the part that faces it.

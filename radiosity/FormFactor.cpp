@@ -43,23 +43,23 @@ float cutDiskFormFactor(glm::vec3 p, glm::vec3 n, glm::vec3 centre, glm::vec3 ax
     frameAround(axis, u, v);
     std::array<glm::vec3, kSides> polygon;
     for (int i = 0; i < kSides; ++i)
-        polygon[std::size_t(i)] = centre + reach * (float(std::cos(i * step)) * u +
-                                                    float(std::sin(i * step)) * v);
+        polygon[std::size_t(i)] =
+            centre + reach * (float(std::cos(i * step)) * u + float(std::sin(i * step)) * v);
     return polygonFormFactor(p, n, polygon);
 }
 
-/// Angle between unit vectors over its sine. Up to 90 degrees as acos(c) / sqrt(1 - c^2), which stays
-/// smooth where the angle vanishes, by Abramowitz & Stegun 4.4.46: acos(x) = sqrt(1 - x) p(x) + e,
-/// |e| <= 2e-8. Beyond, the sine itself is needed: the cosine of an edge seen almost straight says
-/// little about it.
+/// Angle between unit vectors over its sine. Up to 90 degrees as acos(c) / sqrt(1 - c^2), which
+/// stays smooth where the angle vanishes, by Abramowitz & Stegun 4.4.46: acos(x) = sqrt(1 - x) p(x)
+/// + e, |e| <= 2e-8. Beyond, the sine itself is needed: the cosine of an edge seen almost straight
+/// says little about it.
 float angleOverSine(float cosine, glm::vec3 cross) {
     if (cosine < 0) {
         const float sine = glm::length(cross);
         return sine > 0 ? std::atan2(sine, cosine) / sine : 0.0f;
     }
     float p = -0.0012624911f;
-    for (const float k : {0.0066700901f, -0.0170881256f, 0.0308918810f, -0.0501743046f, 0.0889789874f,
-                          -0.2145988016f, 1.5707963050f})
+    for (const float k : {0.0066700901f, -0.0170881256f, 0.0308918810f, -0.0501743046f,
+                          0.0889789874f, -0.2145988016f, 1.5707963050f})
         p = p * cosine + k;
     return p / std::sqrt(1 + cosine);
 }
@@ -90,7 +90,8 @@ double pointToPolygonFormFactor(glm::vec3 p, glm::vec3 n, std::span<const glm::v
     double sum = 0.0;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         const glm::dvec3 a = glm::dvec3(polygon[i]) - glm::dvec3(p);
-        const glm::dvec3 b = glm::dvec3(polygon[i + 1 == polygon.size() ? 0 : i + 1]) - glm::dvec3(p);
+        const glm::dvec3 b =
+            glm::dvec3(polygon[i + 1 == polygon.size() ? 0 : i + 1]) - glm::dvec3(p);
         const glm::dvec3 axis = glm::cross(b, a); // length |a||b| sin beta
         const double length = glm::length(axis);
         if (length == 0.0) continue; // p is in line with the edge: it subtends no angle
@@ -140,10 +141,10 @@ float polygonFormFactor(glm::vec3 p, glm::vec3 n, std::span<const glm::vec3> pol
     return count < 3 ? 0.0f : evaluate(std::span(clipped).first(count));
 }
 
-// With the disk in the plane z = h around the axis through the origin of (x, y), and p at distance a
-// from that axis, r(t) = (R cos t - a, R sin t, h) runs along its edge. Lambert's contour integral
-// 1/(2 pi) * integral of (r x dr)/|r|^2 has the two components below, with c = R^2 + a^2 + h^2,
-// d = 2 a R and integrals of (A + B cos t)/(c - d cos t).
+// With the disk in the plane z = h around the axis through the origin of (x, y), and p at distance
+// a from that axis, r(t) = (R cos t - a, R sin t, h) runs along its edge. Lambert's contour
+// integral 1/(2 pi) * integral of (r x dr)/|r|^2 has the two components below, with c = R^2 + a^2 +
+// h^2, d = 2 a R and integrals of (A + B cos t)/(c - d cos t).
 float diskFormFactor(glm::vec3 p, glm::vec3 n, glm::vec3 centre, glm::vec3 axis, float radius) {
     const glm::dvec3 toCentre = glm::dvec3(centre) - glm::dvec3(p);
     const glm::dvec3 up = -glm::dvec3(axis); // from p towards the disk's plane

@@ -15,8 +15,8 @@ namespace penumbra {
 ///     F = 1/(2 pi) * sum_e beta_e (n . gamma_e)
 ///
 /// Edge e of the polygon is seen from p under the angle beta_e [rad]; gamma_e is the unit normal of
-/// the plane through p and e. Exact, so it holds at any distance, unlike the 1/r^2 estimates, and it
-/// closes: over a closed surface of polygons, planar or not, the factors add up to 1.
+/// the plane through p and e. Exact, so it holds at any distance, unlike the 1/r^2 estimates, and
+/// it closes: over a closed surface of polygons, planar or not, the factors add up to 1.
 ///
 /// \param p        point on the receiving area, world space [m]
 /// \param n        unit normal there
@@ -27,8 +27,8 @@ namespace penumbra {
 /// Lambert 1760; for radiosity Baum, Rushmeier & Winget, SIGGRAPH 1989.  [docs/references.md]
 double pointToPolygonFormFactor(glm::vec3 p, glm::vec3 n, std::span<const glm::vec3> polygon);
 
-/// The part of `polygon` above the plane (p, n), by Sutherland & Hodgman (CACM 17(1), 1974). A concave
-/// polygon may come back with coinciding edges, which cancel in pointToPolygonFormFactor().
+/// The part of `polygon` above the plane (p, n), by Sutherland & Hodgman (CACM 17(1), 1974). A
+/// concave polygon may come back with coinciding edges, which cancel in pointToPolygonFormFactor().
 /// \param clipped  receives the vertices; empty if nothing is above
 void clipToHorizon(glm::vec3 p, glm::vec3 n, std::span<const glm::vec3> polygon,
                    std::vector<glm::vec3>& clipped);
@@ -38,16 +38,17 @@ void clipToHorizon(glm::vec3 p, glm::vec3 n, std::span<const glm::vec3> polygon,
 float polygonFormFactor(glm::vec3 p, glm::vec3 n, std::span<const glm::vec3> polygon);
 
 /// The same for a disk, in closed form as long as it is wholly above the horizon: its boundary
-/// integral is elementary in the disk's own frame (Howell's configurations B-12 to B-15 are cases of
-/// it). A disk that the horizon cuts is taken as a regular polygon of the same area.
-/// \param axis    unit normal of the emitting side; 0 is returned behind it
+/// integral is elementary in the disk's own frame (Howell's configurations B-12 to B-15 are cases
+/// of it). A disk that the horizon cuts is taken as a regular polygon of the same area. \param axis
+/// unit normal of the emitting side; 0 is returned behind it
 float diskFormFactor(glm::vec3 p, glm::vec3 n, glm::vec3 centre, glm::vec3 axis, float radius);
 
 /// The same for a sphere: seen from p it is the disk that touches the tangent cone.
 /// It emits outwards: inside of it nothing arrives.
 float sphereFormFactor(glm::vec3 p, glm::vec3 n, glm::vec3 centre, float radius);
 
-/// The disk as which a point outside sees a sphere: the circle in which the cone from `p` touches it.
+/// The disk as which a point outside sees a sphere: the circle in which the cone from `p` touches
+/// it.
 struct TangentDisk {
     glm::vec3 centre;
     glm::vec3 axis; ///< towards p

@@ -7,9 +7,9 @@
 
 namespace penumbra {
 
-/// Directions of equal weight for cosine-weighted means over a hemisphere, well spread, every prefix of
-/// 4, 16, 64 ... too. The same for every point of the same normal, so that what is sampled with them
-/// varies smoothly from point to point.
+/// Directions of equal weight for cosine-weighted means over a hemisphere, well spread, every
+/// prefix of 4, 16, 64 ... too. The same for every point of the same normal, so that what is
+/// sampled with them varies smoothly from point to point.
 class HemisphereRays {
 public:
     explicit HemisphereRays(int count);

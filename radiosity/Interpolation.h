@@ -8,9 +8,9 @@
 namespace penumbra {
 
 /// Value at a place in a patch from the values at its nodes: bilinear between the corners, plus a
-/// bubble that lifts the middle to what is known there and leaves the edges, which neighbours share,
-/// alone. A patch without corner nodes has the value of its middle all over.
-/// \param nodeValues one value a node of the PatchSet
+/// bubble that lifts the middle to what is known there and leaves the edges, which neighbours
+/// share, alone. A patch without corner nodes has the value of its middle all over. \param
+/// nodeValues one value a node of the PatchSet
 template <class Value>
 Value interpolateNodes(const Patch& patch, float s, float t, std::span<const Value> nodeValues) {
     const Value middle = nodeValues[patch.centreNode];

@@ -18,7 +18,8 @@ void addFace(MeshData& mesh, std::initializer_list<int> corners) {
     mesh.faceVertexIndices.insert(mesh.faceVertexIndices.end(), corners.begin(), corners.end());
 }
 
-/// All shapes of lights that lie in the XY plane emit towards -Z: counter-clockwise seen from there.
+/// All shapes of lights that lie in the XY plane emit towards -Z: counter-clockwise seen from
+/// there.
 void addShape(MeshData& mesh, const RectShape& rect) {
     const float x = rect.width / 2, y = rect.height / 2;
     mesh.points = {{-x, -y, 0}, {-x, y, 0}, {x, y, 0}, {x, -y, 0}};
@@ -45,7 +46,9 @@ void addShape(MeshData& mesh, const SphereShape& sphere) {
     const int top = int(mesh.points.size()), bottom = top + 1;
     mesh.points.emplace_back(0, 0, sphere.radius);
     mesh.points.emplace_back(0, 0, -sphere.radius);
-    const auto at = [](int ring, int i) { return (ring - 1) * kSphereSegments + i % kSphereSegments; };
+    const auto at = [](int ring, int i) {
+        return (ring - 1) * kSphereSegments + i % kSphereSegments;
+    };
     for (int i = 0; i < kSphereSegments; ++i) {
         addFace(mesh, {top, at(1, i), at(1, i + 1)});
         for (int ring = 1; ring + 1 < kSphereRings; ++ring)
@@ -89,8 +92,10 @@ Emitter lightEmitter(const Light& light, const glm::dmat4& toWorld) {
     if (disk && keepsShape(toWorld, 2, scale)) {
         emitter.kind = Emitter::Kind::disk;
         emitter.radius = float(disk->radius * scale);
-        glm::dvec3 axis = glm::normalize(glm::cross(glm::dvec3(toWorld[1]), glm::dvec3(toWorld[0])));
-        if (glm::determinant(glm::dmat3(toWorld)) < 0) axis = -axis; // -Z, mirrored along with the rest
+        glm::dvec3 axis =
+            glm::normalize(glm::cross(glm::dvec3(toWorld[1]), glm::dvec3(toWorld[0])));
+        if (glm::determinant(glm::dmat3(toWorld)) < 0)
+            axis = -axis; // -Z, mirrored along with the rest
         emitter.axis = glm::vec3(axis);
         emitter.area = kPi * emitter.radius * emitter.radius;
     } else if (sphere && keepsShape(toWorld, 3, scale)) {

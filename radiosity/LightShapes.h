@@ -12,13 +12,13 @@ namespace penumbra {
 
 class Light;
 
-/// The light's surface in its own frame, black and emitting: a quadrilateral, a disk of 64 corners or
-/// a sphere of 24 x 12 faces. It blocks rays and is drawn; the light it sends is that of the exact
-/// shape, see lightEmitter().
+/// The light's surface in its own frame, black and emitting: a quadrilateral, a disk of 64 corners
+/// or a sphere of 24 x 12 faces. It blocks rays and is drawn; the light it sends is that of the
+/// exact shape, see lightEmitter().
 MeshData lightShapeMesh(const Light& light);
 
-/// The light as a sender, in world space. A disk or sphere that `toWorld` stretches unevenly becomes
-/// polygons.
+/// The light as a sender, in world space. A disk or sphere that `toWorld` stretches unevenly
+/// becomes polygons.
 Emitter lightEmitter(const Light& light, const glm::dmat4& toWorld);
 
 /// Area of a polygon, exact if it is planar [m^2].

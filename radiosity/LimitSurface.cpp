@@ -127,8 +127,8 @@ Far::TopologyRefiner* makeRefiner(const SurfaceMesh& mesh) {
     descriptor.cornerVertexIndices = cornerVertices.data();
     descriptor.cornerWeights = cornerSharpness.data();
 
-    const Sdc::SchemeType scheme = data.scheme == SubdivisionScheme::bilinear ? Sdc::SCHEME_BILINEAR
-                                                                              : Sdc::SCHEME_CATMARK;
+    const Sdc::SchemeType scheme =
+        data.scheme == SubdivisionScheme::bilinear ? Sdc::SCHEME_BILINEAR : Sdc::SCHEME_CATMARK;
     Sdc::Options options;
     options.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER);
     using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
@@ -211,8 +211,8 @@ float FaceSurface::edgeLength(int edge) const {
     glm::vec3 last = at(edgeCoord(edge, 0)).position;
     for (int i = 1; i <= kChords; ++i) {
         // The end of an edge is the start of the next: the domain may jump in between.
-        const glm::vec2 uv = i < kChords ? edgeCoord(edge, float(i) / kChords)
-                                         : vertexCoord((edge + 1) % size_);
+        const glm::vec2 uv =
+            i < kChords ? edgeCoord(edge, float(i) / kChords) : vertexCoord((edge + 1) % size_);
         const glm::vec3 next = at(uv).position;
         length += glm::distance(last, next);
         last = next;
@@ -225,8 +225,8 @@ float FaceSurface::edgeBend(int edge) const {
     float bend = 0;
     glm::vec3 last = at(edgeCoord(edge, 0)).normal;
     for (int i = 1; i <= kChords; ++i) {
-        const glm::vec2 uv = i < kChords ? edgeCoord(edge, float(i) / kChords)
-                                         : vertexCoord((edge + 1) % size_);
+        const glm::vec2 uv =
+            i < kChords ? edgeCoord(edge, float(i) / kChords) : vertexCoord((edge + 1) % size_);
         const glm::vec3 next = at(uv).normal;
         bend += std::acos(std::clamp(glm::dot(last, next), -1.0f, 1.0f));
         last = next;

@@ -42,8 +42,8 @@ public:
     /// \param st receives the coordinates in the sub-face, from 0 at its corner of the face to 1
     int toSubFace(glm::vec2 uv, glm::vec2& st) const;
 
-    /// The domain without its jumps between tiles: the unit square, or a regular polygon in the unit
-    /// circle, on which means can be taken.
+    /// The domain without its jumps between tiles: the unit square, or a regular polygon in the
+    /// unit circle, on which means can be taken.
     glm::vec2 layout(glm::vec2 uv) const;
     int subFaceOfLayout(glm::vec2 point) const;
     /// Coordinates of a layout point in a sub-face, also beyond its borders.

@@ -24,7 +24,7 @@ public:
 struct SurfaceSample {
     std::uint32_t element = 0;
     glm::vec3 position{};
-    glm::vec3 normal{}; ///< unit, interpolated
+    glm::vec3 normal{};   ///< unit, interpolated
     Rgb direct, indirect; ///< interpolated as the renderer does it, on triangles [lux]
     float distance = 0;   ///< along the ray, in units of its direction
 };

@@ -46,7 +46,8 @@ std::atomic<unsigned>& threadLimit() {
 void parallelFor(std::size_t count, std::size_t grain,
                  const std::function<void(std::size_t, std::size_t)>& body) {
     const std::size_t ranges = (count + grain - 1) / grain;
-    const unsigned wanted = threadLimit() ? threadLimit().load() : std::thread::hardware_concurrency();
+    const unsigned wanted =
+        threadLimit() ? threadLimit().load() : std::thread::hardware_concurrency();
     std::atomic<std::size_t> next{0};
     std::exception_ptr failure;
     std::mutex guard;
@@ -68,8 +69,12 @@ void parallelFor(std::size_t count, std::size_t grain,
     if (failure) std::rethrow_exception(failure);
 }
 
-ThreadLimit::ThreadLimit(unsigned threads) : control_(nullptr) { threadLimit() = threads; }
-ThreadLimit::~ThreadLimit() { threadLimit() = 0; }
+ThreadLimit::ThreadLimit(unsigned threads) : control_(nullptr) {
+    threadLimit() = threads;
+}
+ThreadLimit::~ThreadLimit() {
+    threadLimit() = 0;
+}
 
 #else
 
@@ -86,7 +91,9 @@ ThreadLimit::ThreadLimit(unsigned threads)
     : control_(threads == 0 ? nullptr
                             : new tbb::global_control(tbb::global_control::max_allowed_parallelism,
                                                       threads)) {}
-ThreadLimit::~ThreadLimit() { delete static_cast<tbb::global_control*>(control_); }
+ThreadLimit::~ThreadLimit() {
+    delete static_cast<tbb::global_control*>(control_);
+}
 
 #endif
 

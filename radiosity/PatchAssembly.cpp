@@ -39,7 +39,8 @@ std::uint32_t PatchAssembly::materialIndex(const Material& material, bool emits)
     return found->second;
 }
 
-void PatchAssembly::add(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object) {
+void PatchAssembly::add(const SurfaceMesh& mesh, const Tessellation& tessellation,
+                        ObjectId object) {
     addRays(mesh, tessellation, object);
     addSheet(mesh, tessellation, object, false);
     addSheet(mesh, tessellation, object, true);
@@ -137,9 +138,8 @@ void PatchAssembly::addSheet(const SurfaceMesh& mesh, const Tessellation& tessel
 
 void PatchAssembly::finish(const RayScene& rays) {
     out_.vertexCoordinates.resize(out_.vertices.size());
-    const std::vector<std::uint8_t> free =
-        resolveContacts(rays, out_.rayMeshes, out_.skin, out_.elements, out_.vertices,
-                        out_.vertexCoordinates);
+    const std::vector<std::uint8_t> free = resolveContacts(
+        rays, out_.rayMeshes, out_.skin, out_.elements, out_.vertices, out_.vertexCoordinates);
     vertexNode_.assign(out_.vertices.size(), kNone);
     vertexPlaced_.assign(out_.vertices.size(), 0);
 
@@ -158,8 +158,8 @@ void PatchAssembly::finish(const RayScene& rays) {
     }
 }
 
-/// Elements of a cell that hang together form a patch: one patch a cell, unless a contact (a partition
-/// that stands on the floor) parts it.
+/// Elements of a cell that hang together form a patch: one patch a cell, unless a contact (a
+/// partition that stands on the floor) parts it.
 void PatchAssembly::makePatches(std::uint32_t cell, std::vector<std::uint32_t>& elements,
                                 const std::vector<std::uint8_t>& free) {
     std::erase_if(elements, [&](std::uint32_t e) { return !free[e]; });

@@ -18,7 +18,8 @@ class PatchAssembly {
 public:
     explicit PatchAssembly(PatchSet& out) : out_(out) {}
 
-    /// Adds the sides of `mesh` that there are as elements, and its triangles to the object's RayMesh.
+    /// Adds the sides of `mesh` that there are as elements, and its triangles to the object's
+    /// RayMesh.
     void add(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object);
 
     /// Resolves contacts between objects and groups the elements into patches.
@@ -46,7 +47,8 @@ private:
         }
     };
 
-    void addSheet(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object, bool back);
+    void addSheet(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object,
+                  bool back);
     void addRays(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object);
     std::uint32_t materialIndex(const Material& material, bool emits);
     void makePatches(std::uint32_t cell, std::vector<std::uint32_t>& elements,

@@ -31,7 +31,7 @@ struct Vertex {
 /// Where a vertex lies in its patch, for interpolating what is known at the patch's nodes.
 struct PatchCoordinate {
     std::uint32_t patch = 0xffffffffu; ///< this value: in none, covered all round
-    float s = 0, t = 0; ///< in [0, 1]
+    float s = 0, t = 0;                ///< in [0, 1]
 };
 
 /// A fine cell: a quadrilateral, or a triangle when the last two corners are the same.
@@ -46,16 +46,17 @@ struct Element {
 
 /// A coarse cell that sends light, one-sided.
 struct Patch {
-    std::uint32_t firstCorner = 0;  ///< its outline: PatchSet::corners[first ... first + count)
+    std::uint32_t firstCorner = 0; ///< its outline: PatchSet::corners[first ... first + count)
     std::uint32_t cornerCount = 0;
-    std::uint32_t firstElement = 0; ///< its elements: PatchSet::patchElements[first ... first + count)
+    std::uint32_t firstElement =
+        0; ///< its elements: PatchSet::patchElements[first ... first + count)
     std::uint32_t elementCount = 0;
     std::array<std::uint32_t, 4> cornerNodes{}; ///< nodes at its four corners, if hasCornerNodes
     std::uint32_t centreNode = 0;
     bool hasCornerNodes = false;
     glm::vec3 centre{};
-    glm::vec3 normal{};             ///< unit, area-weighted mean
-    float area = 0;                 ///< of its elements [m^2]
+    glm::vec3 normal{}; ///< unit, area-weighted mean
+    float area = 0;     ///< of its elements [m^2]
     std::uint32_t material = 0;
     ObjectId object;
 };
@@ -64,22 +65,23 @@ struct Patch {
 struct Emitter {
     enum class Kind { polygons, disk, sphere };
     Kind kind = Kind::polygons;
-    Rgb exitance;                        ///< E = pi L [lm/m^2]
-    std::vector<std::vector<glm::vec3>> polygons; ///< outlines, counter-clockwise seen from the front
-    glm::vec3 centre{};                  ///< of a disk or sphere
-    glm::vec3 axis{};                    ///< of a disk: unit normal of the emitting side
-    float radius = 0;                    ///< of a disk or sphere [m]
-    double area = 0;                     ///< emitting area [m^2]
+    Rgb exitance; ///< E = pi L [lm/m^2]
+    std::vector<std::vector<glm::vec3>>
+        polygons;       ///< outlines, counter-clockwise seen from the front
+    glm::vec3 centre{}; ///< of a disk or sphere
+    glm::vec3 axis{};   ///< of a disk: unit normal of the emitting side
+    float radius = 0;   ///< of a disk or sphere [m]
+    double area = 0;    ///< emitting area [m^2]
     ObjectId object;
-    std::string path;                    ///< of the light or mesh in the scene
+    std::string path; ///< of the light or mesh in the scene
 };
 
 /// Triangles of one object for tracing rays.
 struct RayMesh {
     std::vector<glm::vec3> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    /// 1 for triangles of a closed surface with nothing lit inside, wound so that its outside is the
-    /// front: a ray that meets it from behind began inside of something solid.
+    /// 1 for triangles of a closed surface with nothing lit inside, wound so that its outside is
+    /// the front: a ray that meets it from behind began inside of something solid.
     std::vector<std::uint8_t> solid;
 };
 
@@ -89,19 +91,19 @@ struct PatchSet {
     std::vector<PatchCoordinate> vertexCoordinates; ///< one a vertex
     std::vector<Element> elements;
     std::vector<Patch> patches;
-    std::vector<glm::vec3> corners;              ///< outlines of the patches
-    std::vector<std::uint32_t> patchElements;    ///< indices into elements, patch by patch
-    std::vector<Receiver> nodes;                 ///< where indirect light is received
+    std::vector<glm::vec3> corners;           ///< outlines of the patches
+    std::vector<std::uint32_t> patchElements; ///< indices into elements, patch by patch
+    std::vector<Receiver> nodes;              ///< where indirect light is received
     std::vector<LitMaterial> materials;
     std::vector<Emitter> emitters;
-    std::vector<RayMesh> rayMeshes;              ///< one an object
-    std::vector<ObjectId> elementObject;         ///< one an element
-    std::vector<std::string> objectPaths;        ///< one an object
+    std::vector<RayMesh> rayMeshes;       ///< one an object
+    std::vector<ObjectId> elementObject;  ///< one an element
+    std::vector<std::string> objectPaths; ///< one an object
     Bounds bounds;
-    double area = 0;                             ///< of all elements [m^2]
-    std::size_t polygons = 0;                    ///< faces of the scene that were meshed
-    float patchSize = 0, elementSize = 0;        ///< as used [m]
-    float skin = 0;                              ///< how far receivers hover over their surface [m]
+    double area = 0;                      ///< of all elements [m^2]
+    std::size_t polygons = 0;             ///< faces of the scene that were meshed
+    float patchSize = 0, elementSize = 0; ///< as used [m]
+    float skin = 0;                       ///< how far receivers hover over their surface [m]
 };
 
 /// Area of an element [m^2], half the cross product of its diagonals.

@@ -14,7 +14,7 @@ constexpr int kShadowSamples = 256;
 /// Patches nearer than this many of their radii are gathered element by element.
 constexpr float kNear = 6;
 constexpr int kManyRays = 1024, kFewRays = 64; ///< over the hemisphere, first and at what is met
-constexpr float kCloseBy = 2; ///< "near" when rays gather, in element sizes
+constexpr float kCloseBy = 2;                  ///< "near" when rays gather, in element sizes
 
 } // namespace
 
@@ -95,11 +95,13 @@ bool PointGather::somethingNear(const Receiver& receiver) const {
 }
 
 Rgb PointGather::indirect(const Receiver& receiver) const {
-    return somethingNear(receiver) ? indirectByRays(receiver, manyRays_, 2) : indirectByForm(receiver);
+    return somethingNear(receiver) ? indirectByRays(receiver, manyRays_, 2)
+                                   : indirectByForm(receiver);
 }
 
 /// \param depth how many times near surfaces are evaluated anew instead of interpolated
-Rgb PointGather::indirectByRays(const Receiver& receiver, const HemisphereRays& rays, int depth) const {
+Rgb PointGather::indirectByRays(const Receiver& receiver, const HemisphereRays& rays,
+                                int depth) const {
     Rgb sum;
     for (int i = 0; i < rays.count(); ++i) {
         const glm::vec3 direction = rays.direction(i, receiver.normal);
@@ -118,8 +120,8 @@ Rgb PointGather::indirectByRays(const Receiver& receiver, const HemisphereRays& 
             light = directFrom(there, 16) + indirectByRays(there, fewRays_, depth - 1);
         } else {
             for (std::size_t k = 0; k < 3; ++k)
-                light += hit.weights[k] * (lighting_.direct[hit.vertices[k]] +
-                                           lighting_.indirect[hit.vertices[k]]);
+                light += hit.weights[k] *
+                         (lighting_.direct[hit.vertices[k]] + lighting_.indirect[hit.vertices[k]]);
         }
         sum += reflectance * light;
     }

@@ -15,8 +15,8 @@ namespace penumbra {
 
 /// Gathers light at single points: from the emitters by closed form and many shadow rays, from the
 /// solved patches (their elements, where they are near) by closed form and rays. Where something is
-/// nearer than elements can tell, in gaps and corners, the hemisphere is sampled by rays instead, and
-/// the near surfaces that they meet are evaluated there in their turn.
+/// nearer than elements can tell, in gaps and corners, the hemisphere is sampled by rays instead,
+/// and the near surfaces that they meet are evaluated there in their turn.
 class PointGather {
 public:
     /// All must outlive this. Element counts as visible if its middle is.

@@ -20,7 +20,9 @@ struct QueryContext {
     std::uint32_t* blocker = nullptr; // where to note who is in the way
     bool frontOnly = false;
 
-    QueryContext() { rtcInitIntersectContext(&context); } // incoherent: COHERENT is slower everywhere
+    QueryContext() {
+        rtcInitIntersectContext(&context);
+    } // incoherent: COHERENT is slower everywhere
 };
 
 /// Notes the object of the hit that ends each ray; the hit itself is accepted.
@@ -38,9 +40,10 @@ void noteBlocker(const RTCFilterFunctionNArguments* args) {
 void rejectBacks(const RTCFilterFunctionNArguments* args) {
     if (!reinterpret_cast<const QueryContext*>(args->context)->frontOnly) return;
     for (unsigned i = 0; i < args->N; ++i) {
-        const float facing = RTCRayN_dir_x(args->ray, args->N, i) * RTCHitN_Ng_x(args->hit, args->N, i) +
-                             RTCRayN_dir_y(args->ray, args->N, i) * RTCHitN_Ng_y(args->hit, args->N, i) +
-                             RTCRayN_dir_z(args->ray, args->N, i) * RTCHitN_Ng_z(args->hit, args->N, i);
+        const float facing =
+            RTCRayN_dir_x(args->ray, args->N, i) * RTCHitN_Ng_x(args->hit, args->N, i) +
+            RTCRayN_dir_y(args->ray, args->N, i) * RTCHitN_Ng_y(args->hit, args->N, i) +
+            RTCRayN_dir_z(args->ray, args->N, i) * RTCHitN_Ng_z(args->hit, args->N, i);
         if (facing >= 0) args->valid[i] = 0;
     }
 }
@@ -53,7 +56,8 @@ struct RayScene::Impl {
 
     Impl() {
         device = rtcNewDevice("threads=1");
-        if (!device) throw Error("ray tracing: Embree can't start on this processor (SSE2 is needed)");
+        if (!device)
+            throw Error("ray tracing: Embree can't start on this processor (SSE2 is needed)");
         scene = rtcNewScene(device);
         // Robust: no ray slips through an edge that two triangles share, which costs a seventh.
         rtcSetSceneFlags(scene, RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST);
@@ -69,13 +73,16 @@ struct RayScene::Impl {
     void add(const RayMesh& mesh, unsigned id) {
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
-        void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                 sizeof(glm::vec3), mesh.vertices.size());
-        void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                3 * sizeof(std::uint32_t), mesh.triangles.size());
+        void* vertices =
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                    sizeof(glm::vec3), mesh.vertices.size());
+        void* indices =
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                    3 * sizeof(std::uint32_t), mesh.triangles.size());
         if (!vertices || !indices) throw Error("ray tracing: not enough memory for the scene");
         std::memcpy(vertices, mesh.vertices.data(), mesh.vertices.size() * sizeof(glm::vec3));
-        std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * 3 * sizeof(std::uint32_t));
+        std::memcpy(indices, mesh.triangles.data(),
+                    mesh.triangles.size() * 3 * sizeof(std::uint32_t));
         rtcSetGeometryOccludedFilterFunction(geometry, noteBlocker);
         rtcSetGeometryIntersectFilterFunction(geometry, rejectBacks);
         rtcCommitGeometry(geometry);
@@ -119,9 +126,9 @@ void RayScene::occluded(ShadowRays& rays) const {
         packet.dir_y[i] = used ? rays.directionY[i] : 0;
         packet.dir_z[i] = used ? rays.directionZ[i] : 1;
         packet.tnear[i] = 0;
-        packet.tfar[i] = reach(std::sqrt(packet.dir_x[i] * packet.dir_x[i] +
-                                         packet.dir_y[i] * packet.dir_y[i] +
-                                         packet.dir_z[i] * packet.dir_z[i]));
+        packet.tfar[i] =
+            reach(std::sqrt(packet.dir_x[i] * packet.dir_x[i] + packet.dir_y[i] * packet.dir_y[i] +
+                            packet.dir_z[i] * packet.dir_z[i]));
         packet.time[i] = 0;
         packet.mask[i] = 0xffffffffu;
         packet.id[i] = unsigned(i);
@@ -134,8 +141,8 @@ void RayScene::occluded(ShadowRays& rays) const {
 
 bool RayScene::occluded(glm::vec3 origin, glm::vec3 target) const {
     const glm::vec3 d = target - origin;
-    RTCRay ray{origin.x, origin.y, origin.z, 0, d.x, d.y, d.z, 0,
-               reach(glm::length(d)), 0xffffffffu, 0, 0};
+    RTCRay ray{origin.x,    origin.y, origin.z, 0, d.x, d.y, d.z, 0, reach(glm::length(d)),
+               0xffffffffu, 0,        0};
     QueryContext context;
     rtcOccluded1(impl_->scene, &context.context, &ray);
     return ray.tfar < 0;
@@ -143,8 +150,8 @@ bool RayScene::occluded(glm::vec3 origin, glm::vec3 target) const {
 
 RayHit RayScene::nearest(glm::vec3 origin, glm::vec3 direction, float reach, Faces faces) const {
     RTCRayHit query{};
-    query.ray = {origin.x, origin.y, origin.z, 0, direction.x, direction.y, direction.z,
-                 0,        reach,    0xffffffffu, 0, 0};
+    query.ray = {origin.x,    origin.y, origin.z, 0,           direction.x, direction.y,
+                 direction.z, 0,        reach,    0xffffffffu, 0,           0};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     QueryContext context;
     context.frontOnly = faces == Faces::front;

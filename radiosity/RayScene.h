@@ -12,13 +12,15 @@
 
 namespace penumbra {
 
-/// Up to 16 segments to be tested for obstacles. Segment i runs from its origin to origin + direction.
+/// Up to 16 segments to be tested for obstacles. Segment i runs from its origin to origin +
+/// direction.
 struct alignas(64) ShadowRays {
     static constexpr int kMost = 16;
     float originX[kMost], originY[kMost], originZ[kMost];
     float directionX[kMost], directionY[kMost], directionZ[kMost];
-    std::uint32_t used = 0;       ///< bit i: segment i is to be tested
-    std::uint32_t blocker[kMost]; ///< result: object that blocks the segment, ObjectId::kNone if free
+    std::uint32_t used = 0; ///< bit i: segment i is to be tested
+    std::uint32_t
+        blocker[kMost]; ///< result: object that blocks the segment, ObjectId::kNone if free
 
     void set(int i, glm::vec3 origin, glm::vec3 target) {
         originX[i] = origin.x, originY[i] = origin.y, originZ[i] = origin.z;
@@ -31,11 +33,11 @@ struct alignas(64) ShadowRays {
 
 /// What a ray met first.
 struct RayHit {
-    float distance = 0;      ///< in units of the ray's direction
-    ObjectId object;         ///< not valid: nothing was met
+    float distance = 0; ///< in units of the ray's direction
+    ObjectId object;    ///< not valid: nothing was met
     std::uint32_t triangle = 0;
-    float u = 0, v = 0;      ///< barycentric, of the triangle's second and third corner
-    glm::vec3 normal{};      ///< of the triangle's front, not unit
+    float u = 0, v = 0; ///< barycentric, of the triangle's second and third corner
+    glm::vec3 normal{}; ///< of the triangle's front, not unit
 
     bool met() const { return object.valid(); }
 };
@@ -44,8 +46,8 @@ struct RayHit {
 /// can be moved by refitting. Tracing is thread-safe.
 class RayScene {
 public:
-    /// A segment is tested up to a hair before its end, for the target's own surface is no obstacle:
-    /// 1e-4 of its length, or 2e-5 of the scene's diagonal if that is more.
+    /// A segment is tested up to a hair before its end, for the target's own surface is no
+    /// obstacle: 1e-4 of its length, or 2e-5 of the scene's diagonal if that is more.
     explicit RayScene(std::span<const RayMesh> objects);
     ~RayScene();
     RayScene(RayScene&&) noexcept;
@@ -55,9 +57,10 @@ public:
     void occluded(ShadowRays& rays) const;
     bool occluded(glm::vec3 origin, glm::vec3 target) const;
     enum class Faces { both, front };
-    /// The nearest triangle, up to `reach` times the length of `direction`; on request only of those
-    /// that show their front.
-    RayHit nearest(glm::vec3 origin, glm::vec3 direction, float reach, Faces faces = Faces::both) const;
+    /// The nearest triangle, up to `reach` times the length of `direction`; on request only of
+    /// those that show their front.
+    RayHit nearest(glm::vec3 origin, glm::vec3 direction, float reach,
+                   Faces faces = Faces::both) const;
 
 private:
     float reach(float length) const;

@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -23,8 +23,14 @@ struct Blocker {
 ///     words:  form factor of each present entry (float) | code of each entry that is not wholly
 ///             visible | side records
 ///     code:   object id, the one that blocks every sample; or 0x80000000 + offset of a side record
-///     side:   visibility (float) | number of blockers | visible samples (2 words) |
-///             for each blocker its object and its samples (3 words)
+///     side, narrow (only samples 0 ... 15 were taken, object ids fit 16 bits):
+///             blockers | visible samples << 16
+///             visibility (float), unless no sample is visible
+///             for each blocker object << 16 | its samples
+///     side, wide:
+///             blockers | 0x8000
+///             visibility (float) | visible samples (2 words)
+///             for each blocker its object | its samples (2 words)
 ///
 /// Receivers that can't face the sender at all have no entry.
 class RowBlock {
@@ -64,8 +70,10 @@ public:
             float factor = std::bit_cast<float>(words_[entry]);
             if (!(visible_ >> receiver & 1)) {
                 const std::uint32_t code = words_[codes + hidden++];
-                if (!(code & kMixed)) continue; // wholly blocked
-                factor *= std::bit_cast<float>(words_[code & ~kMixed]);
+                if (!(code & kMixed)) continue; // blocked by one
+                const std::uint32_t* side = words_.get() + (code & ~kMixed);
+                if ((*side & kWide) == 0 && *side >> 16 == 0) continue; // blocked by several
+                factor *= std::bit_cast<float>(side[1]);
             }
             visit(receiver, factor);
         }
@@ -81,14 +89,18 @@ public:
     Entry entry(int receiver) const;
 
     int entryCount() const { return std::popcount(present_); }
-    std::size_t bytes() const { return sizeof *this + words_.capacity() * sizeof(std::uint32_t); }
+    std::size_t bytes() const { return sizeof *this + wordCount_ * sizeof(std::uint32_t); }
 
 private:
-    static constexpr std::uint32_t kMixed = 0x80000000u;
+    static constexpr std::uint32_t kMixed = 0x80000000u; ///< in a code
+    static constexpr std::uint32_t kWide = 0x8000u;      ///< in a side record's first word
+
+    static void appendSide(const Draft& draft, std::vector<std::uint32_t>& side);
 
     std::uint64_t present_ = 0; ///< receivers that have an entry
     std::uint64_t visible_ = 0; ///< those of them that are wholly visible
-    std::vector<std::uint32_t> words_;
+    std::uint32_t wordCount_ = 0;
+    std::unique_ptr<std::uint32_t[]> words_;
 };
 
 /// A row: one sender's entries, block by block. Blocks are independent of each other.

@@ -89,14 +89,14 @@ void RowBuilder::patchBlock(const PatchSet& set, std::uint32_t patch, const glm:
         if (!(wanted >> r & 1)) continue;
         const glm::vec3 away = receiver.position - sender.centre;
         if (glm::dot(sender.normal, away) <= 0) continue;
-        // From afar the point kernel is as good as the closed form: it errs by (radius / distance)^2.
+        // From afar the point kernel is as good as the closed form: it errs by (radius /
+        // distance)^2.
         const float distance2 = glm::dot(away, away);
         const float facing = -glm::dot(receiver.normal, away);
         const bool small = distance2 > 100 * radius2 && facing > std::sqrt(radius2);
-        const float factor =
-            small ? facing * glm::dot(sender.normal, away) * sender.area /
-                        (std::numbers::pi_v<float> * distance2 * distance2)
-                  : polygonFormFactor(receiver.position, receiver.normal, outline);
+        const float factor = small ? facing * glm::dot(sender.normal, away) * sender.area /
+                                         (std::numbers::pi_v<float> * distance2 * distance2)
+                                   : polygonFormFactor(receiver.position, receiver.normal, outline);
         if (!(factor > 1e-9f)) continue;
         draft.begin(factor);
         draft.visibility = 0;

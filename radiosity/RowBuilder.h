@@ -18,12 +18,12 @@ public:
     explicit RowBuilder(const RayScene& rays) : rays_(rays), drafts_(RowBlock::kSize) {}
 
     /// Direct light: an emitter onto up to 64 receivers.
-    void emitterBlock(const EmitterSender& sender, std::span<const Receiver> receivers, RowBlock& block);
+    void emitterBlock(const EmitterSender& sender, std::span<const Receiver> receivers,
+                      RowBlock& block);
 
-    /// Indirect light: a patch onto up to 64 receivers. The number of samples follows the form factor
-    /// (1, 4 or 16); which ones is a fixed function of the pair.
-    /// \param samples        kPatchSamples points on the patch
-    /// \param wanted         bits: receivers that need an entry
+    /// Indirect light: a patch onto up to 64 receivers. The number of samples follows the form
+    /// factor (1, 4 or 16); which ones is a fixed function of the pair. \param samples
+    /// kPatchSamples points on the patch \param wanted         bits: receivers that need an entry
     /// \param firstReceiver  index of receivers[0], part of the pair's name
     void patchBlock(const PatchSet& set, std::uint32_t patch, const glm::vec3* samples,
                     std::span<const Receiver> receivers, std::uint64_t wanted,

@@ -56,7 +56,8 @@ void samplePolygons(const Emitter& emitter, std::size_t count, EmitterSamples& o
         const auto part = std::find_if(parts.begin(), parts.end() - 1,
                                        [&](const Part& p) { return at < p.upTo; });
         const double from = part == parts.begin() ? 0 : (part - 1)->upTo;
-        u.x = float(std::clamp((at - from) / (part->upTo - from), 0.0, 1.0)); // the same number again
+        u.x =
+            float(std::clamp((at - from) / (part->upTo - from), 0.0, 1.0)); // the same number again
         out.points.push_back({inTriangle(part->corner, u), part->normal});
     }
 }
@@ -68,8 +69,8 @@ glm::vec2 sobol02(std::uint32_t index) {
     std::uint32_t v = 0x80000000u;
     for (std::uint32_t i = index, a = 0x80000000u; i != 0; i >>= 1, a >>= 1, v ^= v >> 1)
         if (i & 1) x ^= a, y ^= v;
-    // Half a cell of the 64-point grid inwards: the points lie in the middle of their strata, none on
-    // the sender's very edge.
+    // Half a cell of the 64-point grid inwards: the points lie in the middle of their strata, none
+    // on the sender's very edge.
     const auto centred = [](std::uint32_t bits) {
         return std::min(float(bits >> 8) * 0x1p-24f + 0x1p-7f, 0x1.fffffep-1f);
     };
@@ -95,8 +96,8 @@ EmitterSamples sampleEmitter(const Emitter& emitter, std::size_t count) {
     }
     glm::vec3 u(1, 0, 0), v(0, 1, 0);
     if (emitter.kind == Emitter::Kind::disk) {
-        const glm::vec3 helper = std::abs(emitter.axis.x) < 0.7f ? glm::vec3(1, 0, 0)
-                                                                 : glm::vec3(0, 1, 0);
+        const glm::vec3 helper =
+            std::abs(emitter.axis.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
         u = emitter.radius * glm::normalize(glm::cross(emitter.axis, helper));
         v = glm::cross(emitter.axis, u);
     }
@@ -112,15 +113,16 @@ EmitterSamples sampleEmitter(const Emitter& emitter, std::size_t count) {
 
 void samplePatch(const PatchSet& set, const Patch& patch, glm::vec3* points) {
     const auto corners = std::span(set.corners).subspan(patch.firstCorner, patch.cornerCount);
-    const auto elements = std::span(set.patchElements).subspan(patch.firstElement, patch.elementCount);
+    const auto elements =
+        std::span(set.patchElements).subspan(patch.firstElement, patch.elementCount);
     for (std::size_t i = 0; i < kPatchSamples; ++i) {
         const std::size_t quarter = i / 4, within = i % 4;
         const glm::vec2 st((float(quarter % 2) * 2 + float(within % 2) + 0.5f) / 4,
                            (float(quarter / 2) * 2 + float(within / 2) + 0.5f) / 4);
         glm::vec3 p;
         if (corners.size() == 4) {
-            p = glm::mix(glm::mix(corners[0], corners[1], st.x), glm::mix(corners[3], corners[2], st.x),
-                         st.y);
+            p = glm::mix(glm::mix(corners[0], corners[1], st.x),
+                         glm::mix(corners[3], corners[2], st.x), st.y);
         } else { // a fan of triangles around the middle, gone round once for the 16 samples
             const std::size_t n = corners.size();
             const float around = st.x * float(n);

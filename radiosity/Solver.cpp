@@ -1,8 +1,8 @@
-// After [Cohen1988] (progressive refinement) in the form of Southwell's relaxation (Gortler, Cohen &
-// Slusallek, IEEE CG&A 14(6), 1994). Departures: senders shoot in batches of a fixed size, so that
-// receivers can be worked on side by side; a patch receives at its middle and its corners; its first
-// shot sends more than it owes, by what the ambient estimate says will come (Shao & Badler 1993, Xu & Fussell 1994
-// call this overshooting).
+// After [Cohen1988] (progressive refinement) in the form of Southwell's relaxation (Gortler, Cohen
+// & Slusallek, IEEE CG&A 14(6), 1994). Departures: senders shoot in batches of a fixed size, so
+// that receivers can be worked on side by side; a patch receives at its middle and its corners; its
+// first shot sends more than it owes, by what the ambient estimate says will come (Shao & Badler
+// 1993, Xu & Fussell 1994 call this overshooting).
 #include "radiosity/Solver.h"
 
 #include "importance/WorkOrder.h"
@@ -22,8 +22,8 @@ namespace penumbra {
 namespace {
 
 constexpr std::size_t kBatch = 32; ///< senders shot at a time
-/// Mean over a patch from its middle and its four corners: Simpson's rule in two dimensions with the
-/// edge points left out, exact for quadratics.
+/// Mean over a patch from its middle and its four corners: Simpson's rule in two dimensions with
+/// the edge points left out, exact for quadratics.
 constexpr double kMiddleWeight = 2.0 / 3.0;
 
 double seconds() {
@@ -31,9 +31,15 @@ double seconds() {
     return duration<double>(steady_clock::now().time_since_epoch()).count();
 }
 
-glm::dvec3 toDouble(Rgb c) { return {c.r, c.g, c.b}; }
-Rgb toRgb(glm::dvec3 v) { return {float(v.x), float(v.y), float(v.z)}; }
-double largest(glm::dvec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+glm::dvec3 toDouble(Rgb c) {
+    return {c.r, c.g, c.b};
+}
+Rgb toRgb(glm::dvec3 v) {
+    return {float(v.x), float(v.y), float(v.z)};
+}
+double largest(glm::dvec3 v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
 
 std::size_t blockCount(std::size_t receivers) {
     return (receivers + RowBlock::kSize - 1) / RowBlock::kSize;
@@ -41,8 +47,8 @@ std::size_t blockCount(std::size_t receivers) {
 
 std::span<const Receiver> blockOf(const std::vector<Receiver>& receivers, std::size_t block) {
     const std::size_t first = block * RowBlock::kSize;
-    return std::span(receivers).subspan(first,
-                                        std::min<std::size_t>(RowBlock::kSize, receivers.size() - first));
+    return std::span(receivers).subspan(
+        first, std::min<std::size_t>(RowBlock::kSize, receivers.size() - first));
 }
 
 } // namespace
@@ -56,7 +62,8 @@ Solver::Solver(const PatchSet& patches, const RayScene& rays, const SolverOption
     for (const Emitter& emitter : set_.emitters) {
         const int base = std::min(options.samples, RowBlock::kSize);
         emitters_.emplace_back(emitter, base, std::min(4 * base, RowBlock::kSize));
-        statistics_.brightest = std::max<double>(statistics_.brightest, maxChannel(emitter.exitance));
+        statistics_.brightest =
+            std::max<double>(statistics_.brightest, maxChannel(emitter.exitance));
     }
     receivers_.reserve(set_.vertices.size());
     for (const Vertex& vertex : set_.vertices) receivers_.push_back(vertex.receiver);
@@ -70,7 +77,8 @@ Solver::Solver(const PatchSet& patches, const RayScene& rays, const SolverOption
 void Solver::solveDirect(const Progress& progress) {
     const double start = seconds();
     const std::size_t blocks = blockCount(receivers_.size());
-    emitterRows_.assign(emitters_.size(), Row(blocks));
+    emitterRows_.clear();
+    for (std::size_t e = 0; e < emitters_.size(); ++e) emitterRows_.emplace_back(blocks);
     std::atomic<std::uint64_t> rayCount{0};
     std::atomic<std::size_t> done{0};
     parallelFor(blocks, 16, [&](std::size_t first, std::size_t last) {
@@ -119,9 +127,9 @@ void Solver::averageDirect() {
     }
 }
 
-/// Form factors are exact, but visibility is sampled, so that a node's factors may add up to a little
-/// more than the whole hemisphere: what is too much is taken off in proportion. This also bounds the
-/// certificate.
+/// Form factors are exact, but visibility is sampled, so that a node's factors may add up to a
+/// little more than the whole hemisphere: what is too much is taken off in proportion. This also
+/// bounds the certificate.
 glm::dvec3 Solver::nodeIndirect(std::uint32_t node) const {
     return nodeIndirect_[node] / std::max(1.0, nodeRowSum_[node]);
 }
@@ -183,7 +191,8 @@ void Solver::shoot(const std::vector<std::uint32_t>& senders) {
     for (std::size_t i = 0; i < senders.size(); ++i) {
         Row& row = patchRows_[senders[i]];
         fresh[i] = !rowKnown_[senders[i]];
-        // The first time send at once what is sure to come later; too much is taken back in its turn.
+        // The first time send at once what is sure to come later; too much is taken back in its
+        // turn.
         sent[i] = residual_[senders[i]];
         if (fresh[i])
             sent[i] +=
@@ -203,10 +212,9 @@ void Solver::shoot(const std::vector<std::uint32_t>& senders) {
                 Row& row = patchRows_[senders[i]];
                 RowBlock& block = row.empty() ? passing : row[b];
                 if (build[i]) {
-                    builder.patchBlock(set_, senders[i],
-                                       patchSamples_.data() + senders[i] * kPatchSamples,
-                                       blockOf(set_.nodes, b), nodeReached_[b], std::uint32_t(base),
-                                       block);
+                    builder.patchBlock(
+                        set_, senders[i], patchSamples_.data() + senders[i] * kPatchSamples,
+                        blockOf(set_.nodes, b), nodeReached_[b], std::uint32_t(base), block);
                     if (!row.empty()) added += block.bytes();
                 }
                 const glm::dvec3 light = sent[i];
@@ -241,7 +249,8 @@ void Solver::findReached() {
         for (std::size_t n = first; n < last; ++n)
             for (int r = 0; r < kRays; ++r) {
                 const Receiver& node = set_.nodes[n];
-                const auto hit = surface.nearest(node.position, rays.direction(r, node.normal), 1e30f);
+                const auto hit =
+                    surface.nearest(node.position, rays.direction(r, node.normal), 1e30f);
                 seen[n * kRays + std::size_t(r)] =
                     hit.met() ? set_.elements[hit.element].patch : Element::kNone;
             }

@@ -16,13 +16,15 @@
 namespace penumbra {
 
 struct SolverOptions {
-    int samples = 16;         ///< visibility samples of an emitter and a receiver that agree
-    /// Relax until the certificate is below this share of the brightest emitter's exitance; 0: until it
-    /// is below 1 % of the mean radiosity of the surfaces, which is what the eye compares with.
+    int samples = 16; ///< visibility samples of an emitter and a receiver that agree
+    /// Relax until the certificate is below this share of the brightest emitter's exitance; 0:
+    /// until it is below 1 % of the mean radiosity of the surfaces, which is what the eye compares
+    /// with.
     double residual = 0;
     bool directOnly = false;
-    std::uint64_t mostShots = 0;        ///< 0: no limit
-    std::size_t rowMemory = 2'000'000'000; ///< for rows of patches [bytes]; beyond it they are not kept
+    std::uint64_t mostShots = 0; ///< 0: no limit
+    std::size_t rowMemory =
+        2'000'000'000; ///< for rows of patches [bytes]; beyond it they are not kept
 };
 
 /// Called now and then with the phase's name and the share done in [0, 1].
@@ -31,9 +33,9 @@ using Progress = std::function<void(const char* phase, double done)>;
 struct SolveStatistics {
     std::uint64_t shots = 0;
     std::uint64_t directRays = 0, indirectRays = 0;
-    double residual = 0;    ///< max |R| over patches and channels [lm/m^2]
-    double certificate = 0; ///< bound of |B_exact - B| for the meshed scene [lm/m^2]
-    double brightest = 0;   ///< largest exitance of an emitter [lm/m^2]
+    double residual = 0;      ///< max |R| over patches and channels [lm/m^2]
+    double certificate = 0;   ///< bound of |B_exact - B| for the meshed scene [lm/m^2]
+    double brightest = 0;     ///< largest exitance of an emitter [lm/m^2]
     double meanRadiosity = 0; ///< area-weighted, of reflecting surfaces [lm/m^2]
     std::size_t rows = 0, entries = 0, bytes = 0; ///< of the SFFL
     double directSeconds = 0, indirectSeconds = 0;
@@ -52,9 +54,9 @@ Rgb elementMean(const Element& element, const Lighting& lighting);
 ///
 ///     R = E + rho F S - S      residual: what is received but not yet sent
 ///
-/// always holds; each shot sends the largest |R| * area and adds it to S. Emitters light the elements
-/// directly, through rows of their own; what patches reflect travels between patches' nodes. The
-/// result is the same for any number of threads.
+/// always holds; each shot sends the largest |R| * area and adds it to S. Emitters light the
+/// elements directly, through rows of their own; what patches reflect travels between patches'
+/// nodes. The result is the same for any number of threads.
 class Solver {
 public:
     /// All three must outlive the solver.
@@ -64,7 +66,8 @@ public:
     /// Relaxes until the options' limit is met. \pre solveDirect() was called
     void solveIndirect(const Progress& progress = {});
 
-    /// What the vertices receive. What is still owed is added as an ambient term (Cohen et al. 1988).
+    /// What the vertices receive. What is still owed is added as an ambient term (Cohen et al.
+    /// 1988).
     Lighting lighting() const;
     /// Indirect illuminance at the nodes, the ambient term included [lux].
     std::vector<glm::dvec3> nodeIlluminance() const;
@@ -94,13 +97,13 @@ private:
     std::vector<Receiver> receivers_;     ///< of the vertices
     std::vector<glm::vec3> patchSamples_; ///< kPatchSamples a patch
 
-    std::vector<Rgb> vertexDirect_;       ///< [lux]
-    std::vector<glm::dvec3> patchDirect_; ///< mean over the patch [lux]
-    std::vector<glm::dvec3> nodeIndirect_; ///< [lux]
-    std::vector<double> nodeRowSum_;      ///< sum of F V over the senders whose rows are known
+    std::vector<Rgb> vertexDirect_;          ///< [lux]
+    std::vector<glm::dvec3> patchDirect_;    ///< mean over the patch [lux]
+    std::vector<glm::dvec3> nodeIndirect_;   ///< [lux]
+    std::vector<double> nodeRowSum_;         ///< sum of F V over the senders whose rows are known
     std::vector<std::uint64_t> nodeReached_; ///< bits: nodes from which anything lit can be seen
-    std::vector<glm::dvec3> shot_;        ///< S [lm/m^2]
-    std::vector<glm::dvec3> residual_;    ///< R [lm/m^2]
+    std::vector<glm::dvec3> shot_;           ///< S [lm/m^2]
+    std::vector<glm::dvec3> residual_;       ///< R [lm/m^2]
     std::vector<Row> emitterRows_, patchRows_;
     std::vector<std::uint8_t> rowKnown_;
     std::size_t knownRows_ = 0, rowBytes_ = 0;

@@ -76,8 +76,8 @@ std::vector<Component> connectedComponents(const SurfaceMesh& mesh) {
         }
     }
     for (std::size_t i = 0; i < components.size(); ++i)
-        components[i].closed =
-            std::all_of(edges[i].begin(), edges[i].end(), [](auto& edge) { return edge.second == 0; });
+        components[i].closed = std::all_of(edges[i].begin(), edges[i].end(),
+                                           [](auto& edge) { return edge.second == 0; });
     return components;
 }
 
@@ -127,8 +127,9 @@ bool usable(const SurfaceMesh& mesh, std::span<const std::uint32_t> corners) {
     }
     double longest = 0;
     for (std::size_t i = 0; i < corners.size(); ++i)
-        longest = std::max<double>(longest, glm::distance(mesh.points[corners[i]],
-                                                          mesh.points[corners[(i + 1) % corners.size()]]));
+        longest = std::max<double>(
+            longest,
+            glm::distance(mesh.points[corners[i]], mesh.points[corners[(i + 1) % corners.size()]]));
     return glm::length(newellNormal(mesh.points, corners)) > 1e-7 * longest * longest;
 }
 
@@ -176,10 +177,9 @@ SurfaceMesh placeSurface(const MeshData& data, const glm::dmat4& toWorld) {
 
 void chooseSides(SurfaceMesh& mesh, std::span<const glm::vec3> lightPoints) {
     for (const Component& component : connectedComponents(mesh)) {
-        const bool solid =
-            component.closed && component.volume != 0 &&
-            std::none_of(lightPoints.begin(), lightPoints.end(),
-                         [&](glm::vec3 p) { return contains(mesh, component, p); });
+        const bool solid = component.closed && component.volume != 0 &&
+                           std::none_of(lightPoints.begin(), lightPoints.end(),
+                                        [&](glm::vec3 p) { return contains(mesh, component, p); });
         const bool twoSided = mesh.data->doubleSided;
         for (std::uint32_t f : component.faces) {
             SurfaceFace& face = mesh.faces[f];

@@ -16,20 +16,20 @@ namespace penumbra {
 struct SurfaceFace {
     std::uint32_t firstCorner = 0; ///< SurfaceMesh::corners[first ... first + count)
     std::uint32_t cornerCount = 0;
-    std::uint32_t source = 0;      ///< face of the scene's mesh that it comes from
-    bool front = true;             ///< whether its front and its back receive light
+    std::uint32_t source = 0; ///< face of the scene's mesh that it comes from
+    bool front = true;        ///< whether its front and its back receive light
     bool back = false;
-    bool solid = false;            ///< belongs to a closed surface with nothing lit inside
+    bool solid = false; ///< belongs to a closed surface with nothing lit inside
 };
 
 /// Faces in world space. Concave and twisted polygons are triangulated (not in subdivision cages).
 struct SurfaceMesh {
     const MeshData* data = nullptr;
-    std::vector<glm::vec3> points;       ///< [m, world]
-    std::vector<std::uint32_t> corners;  ///< indices into points, face by face
+    std::vector<glm::vec3> points;      ///< [m, world]
+    std::vector<std::uint32_t> corners; ///< indices into points, face by face
     std::vector<SurfaceFace> faces;
-    std::size_t skipped = 0;             ///< faces that can't be used
-    std::size_t used = 0;                ///< faces of the scene's mesh that were used
+    std::size_t skipped = 0; ///< faces that can't be used
+    std::size_t used = 0;    ///< faces of the scene's mesh that were used
 
     std::span<const std::uint32_t> cornersOf(const SurfaceFace& face) const {
         return std::span(corners).subspan(face.firstCorner, face.cornerCount);
@@ -45,9 +45,9 @@ struct SurfaceMesh {
 SurfaceMesh placeSurface(const MeshData& data, const glm::dmat4& toWorld);
 
 /// Decides which sides of the faces there are. Of a closed connected surface that contains none of
-/// `lightPoints` only the outside is ever lit. An open two-sided surface, or a closed one with a light
-/// inside, has both sides; a one-sided surface has its front.
-/// \param lightPoints a point on every emitter [m, world]
+/// `lightPoints` only the outside is ever lit. An open two-sided surface, or a closed one with a
+/// light inside, has both sides; a one-sided surface has its front. \param lightPoints a point on
+/// every emitter [m, world]
 void chooseSides(SurfaceMesh& mesh, std::span<const glm::vec3> lightPoints);
 
 /// Normal of a polygon, its length twice the area (Newell's method; sound for twisted polygons).

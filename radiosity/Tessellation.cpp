@@ -34,7 +34,8 @@ private:
         const std::uint64_t key = std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
         const auto [found, fresh] = rates_.try_emplace(key);
         if (fresh)
-            found->second = cut(face.edgeLength(edge), mesh_.subdivided() ? face.edgeBend(edge) : 0);
+            found->second =
+                cut(face.edgeLength(edge), mesh_.subdivided() ? face.edgeBend(edge) : 0);
         return found->second;
     }
     /// By length, and so that the normal turns by no more than kMostBend within an element.
@@ -53,7 +54,8 @@ private:
     std::vector<int> facetRates(const std::vector<EdgeRate>& edges) const;
     void addCells(std::uint32_t index, const FaceSurface& face, const std::vector<EdgeRate>& edges);
     Facet placeFacet(const FaceSurface& face, const DomainPattern& pattern,
-                     const std::array<int, 4>& source, std::span<const std::uint32_t> vertices) const;
+                     const std::array<int, 4>& source,
+                     std::span<const std::uint32_t> vertices) const;
     std::uint32_t boundaryVertex(std::uint64_t key, std::uint32_t along, const SurfacePoint& point);
     std::vector<std::uint32_t> addVertices(std::uint32_t index, const FaceSurface& face,
                                            const std::vector<EdgeRate>& edges,
@@ -109,8 +111,8 @@ void Tessellator::addCells(std::uint32_t index, const FaceSurface& face,
         for (int j = 0; j < cellsV_; ++j)
             for (int i = 0; i < cellsU_; ++i) {
                 const auto uv = [&](int a, int b) {
-                    return face.fromSubFace(sub, {float(i + a) / float(cellsU_),
-                                                  float(j + b) / float(cellsV_)});
+                    return face.fromSubFace(
+                        sub, {float(i + a) / float(cellsU_), float(j + b) / float(cellsV_)});
                 };
                 add(std::array{uv(0, 0), uv(1, 0), uv(1, 1), uv(0, 1)});
             }
@@ -192,8 +194,8 @@ Facet Tessellator::placeFacet(const FaceSurface& face, const DomainPattern& patt
     const int j = std::clamp(int(scaled.y), 0, cellsV_ - 1);
     facet.cell = firstCell_ + std::uint32_t((sub * cellsV_ + j) * cellsU_ + i);
     for (std::size_t k = 0; k < 4; ++k)
-        facet.st[k] = glm::clamp(face.subFaceCoordinate(sub, place[k]) * cells - glm::vec2(i, j),
-                                 0.0f, 1.0f);
+        facet.st[k] =
+            glm::clamp(face.subFaceCoordinate(sub, place[k]) * cells - glm::vec2(i, j), 0.0f, 1.0f);
     return facet;
 }
 

@@ -16,8 +16,9 @@ namespace penumbra {
 struct Cell {
     std::uint32_t face = 0;        ///< of the SurfaceMesh
     std::uint32_t firstCorner = 0; ///< outline: Tessellation::outline[first ... first + count)
-    std::uint32_t cornerCount = 0; ///< 4 for a parametric cell (s, t in corner order (0,0) (1,0) (1,1) (0,1))
-    bool whole = false;            ///< a small face that was not cut: its outline is the face's own
+    std::uint32_t cornerCount =
+        0;              ///< 4 for a parametric cell (s, t in corner order (0,0) (1,0) (1,1) (0,1))
+    bool whole = false; ///< a small face that was not cut: its outline is the face's own
 };
 
 /// A small quadrilateral or triangle (last two corners the same) of one cell.
@@ -39,9 +40,10 @@ struct Tessellation {
 
 /// \param patchSize    longest cell edge [m]
 /// \param elementSize  longest facet edge [m], about; the real size divides the edge evenly
-/// Subdivision surfaces are evaluated on the limit surface. A cage that OpenSubdiv refuses is taken as
-/// plain polygons.
-/// \return             the tessellation, and whether the subdivision surface was understood
-Tessellation tessellate(const SurfaceMesh& mesh, float patchSize, float elementSize, bool& understood);
+/// Subdivision surfaces are evaluated on the limit surface. A cage that OpenSubdiv refuses is taken
+/// as plain polygons. \return             the tessellation, and whether the subdivision surface was
+/// understood
+Tessellation tessellate(const SurfaceMesh& mesh, float patchSize, float elementSize,
+                        bool& understood);
 
 } // namespace penumbra

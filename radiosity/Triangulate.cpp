@@ -64,7 +64,8 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const glm::vec3>
         if (turn(flat[a], flat[b], flat[c]) <= 0) return false;
         for (std::uint32_t other : left) {
             if (other == a || other == b || other == c) continue;
-            if (flat[other] == flat[a] || flat[other] == flat[b] || flat[other] == flat[c]) continue;
+            if (flat[other] == flat[a] || flat[other] == flat[b] || flat[other] == flat[c])
+                continue;
             if (insideTriangle(flat[other], flat[a], flat[b], flat[c])) return false;
         }
         return true;

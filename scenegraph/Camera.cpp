@@ -21,7 +21,9 @@ glm::dmat4 withoutScale(glm::dmat4 matrix) {
 
 } // namespace
 
-void Camera::accept(Visitor& visitor) const { visitor.visit(*this); }
+void Camera::accept(Visitor& visitor) const {
+    visitor.visit(*this);
+}
 
 View makeView(const Lens& lens, const glm::dmat4& cameraToWorld, int width, int height) {
     View view;

@@ -7,9 +7,9 @@
 
 namespace penumbra {
 
-/// Lens and film of a camera that looks along -Z with +Y up in its own frame. Apertures, offsets and
-/// focal length share one unit, a tenth of the camera's own (local) unit; only in an orthographic view
-/// does more than their ratios matter.
+/// Lens and film of a camera that looks along -Z with +Y up in its own frame. Apertures, offsets
+/// and focal length share one unit, a tenth of the camera's own (local) unit; only in an
+/// orthographic view does more than their ratios matter.
 struct Lens {
     float focalLength = 50;
     float horizontalAperture = 20.955f;
@@ -46,9 +46,10 @@ struct View {
 };
 
 /// The view of `lens` placed by `cameraToWorld` for a picture of `width` x `height` pixels. The
-/// horizontal field of view is the lens's own; the vertical one follows the picture's shape, as USD's
-/// conformance "expand vertically / crop" does for renderers that keep the width. Scale in
-/// `cameraToWorld` is taken out of the axes. A near plane of 0 or less is moved to a small positive.
+/// horizontal field of view is the lens's own; the vertical one follows the picture's shape, as
+/// USD's conformance "expand vertically / crop" does for renderers that keep the width. Scale in
+/// `cameraToWorld` is taken out of the axes. A near plane of 0 or less is moved to a small
+/// positive.
 View makeView(const Lens& lens, const glm::dmat4& cameraToWorld, int width, int height);
 
 /// A view that shows the whole of a box from a corner above it: for scenes without a camera.

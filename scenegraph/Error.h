@@ -1,4 +1,5 @@
-// The one exception family of Penumbra: what went wrong outside (file, option, peer, disk, display).
+// The one exception family of Penumbra: what went wrong outside (file, option, peer, disk,
+// display).
 #pragma once
 
 #include <cstddef>

@@ -7,7 +7,9 @@
 
 namespace penumbra {
 
-void Group::accept(Visitor& visitor) const { visitor.visit(*this); }
+void Group::accept(Visitor& visitor) const {
+    visitor.visit(*this);
+}
 
 void Group::add(NodePtr child) {
     assert(child && child.get() != this);
@@ -23,7 +25,9 @@ bool Group::remove(const NodePtr& child) {
     return true;
 }
 
-void Switch::accept(Visitor& visitor) const { visitor.visit(*this); }
+void Switch::accept(Visitor& visitor) const {
+    visitor.visit(*this);
+}
 
 void Switch::setVisible(bool visible) {
     if (visible == visible_) return;

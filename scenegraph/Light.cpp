@@ -4,7 +4,9 @@
 
 namespace penumbra {
 
-void Light::accept(Visitor& visitor) const { visitor.visit(*this); }
+void Light::accept(Visitor& visitor) const {
+    visitor.visit(*this);
+}
 
 Bounds Light::bounds() const {
     struct Half {

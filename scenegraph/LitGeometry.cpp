@@ -12,7 +12,9 @@ LitGeometry::LitGeometry(std::string name, ObjectId object, LitMeshData data)
     for (glm::vec3 position : data_.positions) bounds_.add(position);
 }
 
-void LitGeometry::accept(Visitor& visitor) const { visitor.visit(*this); }
+void LitGeometry::accept(Visitor& visitor) const {
+    visitor.visit(*this);
+}
 
 void LitGeometry::setIlluminance(std::vector<Rgb> direct, std::vector<Rgb> indirect) {
     assert(direct.size() == data_.positions.size() && indirect.size() == data_.positions.size());

@@ -22,11 +22,11 @@ struct LitMaterial {
 /// Flat arrays of lit triangles, one-sided: front is counter-clockwise. The luminance of a point is
 /// rho / pi * (direct + indirect) + emission.
 struct LitMeshData {
-    std::vector<glm::vec3> positions;          ///< [m, local frame]
-    std::vector<glm::vec3> normals;            ///< unit
-    std::vector<Rgb> direct;                   ///< illuminance from emitters [lux]
-    std::vector<Rgb> indirect;                 ///< illuminance by interreflection [lux]
-    std::vector<std::uint32_t> indices;        ///< three a triangle
+    std::vector<glm::vec3> positions;            ///< [m, local frame]
+    std::vector<glm::vec3> normals;              ///< unit
+    std::vector<Rgb> direct;                     ///< illuminance from emitters [lux]
+    std::vector<Rgb> indirect;                   ///< illuminance by interreflection [lux]
+    std::vector<std::uint32_t> indices;          ///< three a triangle
     std::vector<std::uint32_t> triangleMaterial; ///< index into materials, one a triangle
     std::vector<LitMaterial> materials;
 };

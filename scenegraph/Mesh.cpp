@@ -12,6 +12,8 @@ Mesh::Mesh(std::string name, MeshData data) : Node(std::move(name)), data_(std::
     for (glm::vec3 point : data_.points) bounds_.add(point);
 }
 
-void Mesh::accept(Visitor& visitor) const { visitor.visit(*this); }
+void Mesh::accept(Visitor& visitor) const {
+    visitor.visit(*this);
+}
 
 } // namespace penumbra

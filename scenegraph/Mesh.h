@@ -18,8 +18,9 @@ enum class SubdivisionScheme { none, bilinear, catmullClark, loop };
 
 /// A crease: a chain of vertices along which a subdivision surface is kept sharp.
 struct Crease {
-    std::vector<std::int32_t> vertices; ///< at least two point indices, consecutive ones share an edge
-    float sharpness = 10;               ///< 0 smooth ... 10 infinitely sharp (OpenSubdiv's scale)
+    std::vector<std::int32_t>
+        vertices;         ///< at least two point indices, consecutive ones share an edge
+    float sharpness = 10; ///< 0 smooth ... 10 infinitely sharp (OpenSubdiv's scale)
 };
 
 /// A corner: one vertex of a subdivision surface that is kept sharp.
@@ -42,7 +43,7 @@ struct MeshData {
     bool doubleSided = false;        ///< both sides reflect and are drawn
 
     std::vector<std::shared_ptr<Material>> materials; ///< at least one
-    std::vector<std::uint16_t> faceMaterial;          ///< index into materials; empty: all faces use 0
+    std::vector<std::uint16_t> faceMaterial; ///< index into materials; empty: all faces use 0
 };
 
 /// A mesh of the scene; its geometry is immutable, its materials may be edited.

@@ -22,7 +22,8 @@ public:
     virtual void accept(Visitor& visitor) const = 0;
     const std::string& name() const { return name_; }
 
-    /// Rises each time this node, not its children, is edited. Readers keep the last value they saw.
+    /// Rises each time this node, not its children, is edited. Readers keep the last value they
+    /// saw.
     std::uint64_t revision() const { return revision_; }
 
 protected:

@@ -16,11 +16,11 @@ class Mesh;
 class Light;
 class Camera;
 
-/// A rigid piece of the scene: one Transform with what is below it, until the next Transform that is
-/// movable. What stands beside all of them belongs to the object at the root, path "/".
+/// A rigid piece of the scene: one Transform with what is below it, until the next Transform that
+/// is movable. What stands beside all of them belongs to the object at the root, path "/".
 struct Object {
-    std::string path;           ///< of the transform that begins it
-    glm::dmat4 toWorld{1.0};    ///< its frame
+    std::string path;        ///< of the transform that begins it
+    glm::dmat4 toWorld{1.0}; ///< its frame
     bool movable = false;
 };
 
@@ -42,9 +42,9 @@ struct PlacedScene {
     Bounds bounds; ///< of meshes and lights [m, world]
 };
 
-/// Lists a scene. An object begins at a movable Transform and, outside of any object, at a Transform
-/// that directly holds a mesh or a light (through plain groups, not through further Transforms).
-/// Objects without geometry are not listed.
+/// Lists a scene. An object begins at a movable Transform and, outside of any object, at a
+/// Transform that directly holds a mesh or a light (through plain groups, not through further
+/// Transforms). Objects without geometry are not listed.
 PlacedScene placeScene(const Scene& scene);
 
 } // namespace penumbra

@@ -19,9 +19,9 @@ struct Pick {
     glm::vec3 position{}; ///< world space [m]
 };
 
-/// The nearest polygon (or light shape) in front of `origin` along `direction`. Subdivision surfaces
-/// are met as their cages. Meshes are rejected by their bounds first; made for a click, not for light.
-/// \param direction need not be unit; must not be zero
+/// The nearest polygon (or light shape) in front of `origin` along `direction`. Subdivision
+/// surfaces are met as their cages. Meshes are rejected by their bounds first; made for a click,
+/// not for light. \param direction need not be unit; must not be zero
 std::optional<Pick> pick(const PlacedScene& scene, glm::vec3 origin, glm::vec3 direction);
 
 } // namespace penumbra

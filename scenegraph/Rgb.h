@@ -1,4 +1,5 @@
-// Three linear Rec. 709 channels: a type of its own, so that a colour is never taken for a position.
+// Three linear Rec. 709 channels: a type of its own, so that a colour is never taken for a
+// position.
 #pragma once
 
 #include <algorithm>
@@ -26,9 +27,15 @@ struct Rgb {
 };
 
 /// Photometric weight of the three channels, Rec. ITU-R BT.709-6 item 3.2.
-constexpr float luminance(Rgb c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
-constexpr float maxChannel(Rgb c) { return std::max({c.r, c.g, c.b}); }
-constexpr float minChannel(Rgb c) { return std::min({c.r, c.g, c.b}); }
+constexpr float luminance(Rgb c) {
+    return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
+}
+constexpr float maxChannel(Rgb c) {
+    return std::max({c.r, c.g, c.b});
+}
+constexpr float minChannel(Rgb c) {
+    return std::min({c.r, c.g, c.b});
+}
 constexpr Rgb absolute(Rgb c) {
     return {c.r < 0 ? -c.r : c.r, c.g < 0 ? -c.g : c.g, c.b < 0 ? -c.b : c.b};
 }

@@ -4,7 +4,9 @@
 
 namespace penumbra {
 
-void Transform::accept(Visitor& visitor) const { visitor.visit(*this); }
+void Transform::accept(Visitor& visitor) const {
+    visitor.visit(*this);
+}
 
 void Transform::setMatrix(const glm::dmat4& matrix) {
     matrix_ = matrix;

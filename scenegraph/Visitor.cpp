@@ -4,7 +4,9 @@
 
 namespace penumbra {
 
-void Visitor::visit(const Group& group) { traverse(group); }
+void Visitor::visit(const Group& group) {
+    traverse(group);
+}
 
 void Visitor::visit(const Switch& node) {
     if (node.visible()) traverse(node);

@@ -18,8 +18,8 @@ class Camera;
 class LitGeometry;
 
 /// Walks a graph depth first, children in order, skipping what a Switch hides. It carries its own
-/// transform stack and path, since nodes know neither their parents nor their place. Override what you
-/// want to see and call traverse() to go on below.
+/// transform stack and path, since nodes know neither their parents nor their place. Override what
+/// you want to see and call traverse() to go on below.
 class Visitor {
 public:
     virtual ~Visitor() = default;
@@ -36,8 +36,8 @@ protected:
     /// Visits the children of `group`; inside them path() ends with the child's name.
     void traverse(const Group& group);
 
-    /// Local frame of the node being visited to the root's frame (column vectors). A Transform's own
-    /// matrix comes on top of it when its children are visited.
+    /// Local frame of the node being visited to the root's frame (column vectors). A Transform's
+    /// own matrix comes on top of it when its children are visited.
     const glm::dmat4& toWorld() const { return matrices_.back(); }
     /// Names from below the root to the node being visited, e.g. "/World/Seat/Cushion".
     std::string path() const;

@@ -1,9 +1,9 @@
 #include "io/UsdScene.h"
+#include "radiosity/LightShapes.h"
 #include "scenegraph/Camera.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Mesh.h"
 #include "scenegraph/Objects.h"
-#include "radiosity/LightShapes.h"
 #include "tools/Commands.h"
 #include "tools/SceneSolution.h"
 
@@ -77,8 +77,8 @@ void run(const InfoCommand& command) {
 
 void addInfoCommand(CLI::App& app) {
     auto command = std::make_shared<InfoCommand>();
-    CLI::App* const info = app.add_subcommand(
-        "info", "What is in a scene, and what of it was not understood.");
+    CLI::App* const info =
+        app.add_subcommand("info", "What is in a scene, and what of it was not understood.");
     info->add_option("SCENE", command->scene, "USD text file (.usda)")->required();
     info->add_option("--frame", command->frame, "Time code to look at (default: its start)");
     info->add_flag("--verbose", command->verbose, "List objects and everything that was skipped");

@@ -11,7 +11,9 @@ namespace penumbra {
 ProgressBar::ProgressBar(When when)
     : on_(when == When::always || (when == When::terminal && isatty(STDERR_FILENO))) {}
 
-ProgressBar::~ProgressBar() { clear(); }
+ProgressBar::~ProgressBar() {
+    clear();
+}
 
 void ProgressBar::show(const std::string& phase, double done) {
     if (!on_) return;
@@ -23,8 +25,8 @@ void ProgressBar::show(const std::string& phase, double done) {
     lastShown_ = now;
     constexpr int kWidth = 40;
     const int filled = int(std::clamp(done, 0.0, 1.0) * kWidth);
-    const std::string bar = std::string(std::size_t(filled), '#') +
-                            std::string(std::size_t(kWidth - filled), '.');
+    const std::string bar =
+        std::string(std::size_t(filled), '#') + std::string(std::size_t(kWidth - filled), '.');
     std::fprintf(stderr, "\r%-16s [%s] %3d %%", phase.c_str(), bar.c_str(),
                  int(100 * std::clamp(done, 0.0, 1.0)));
     std::fflush(stderr);

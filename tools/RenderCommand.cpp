@@ -43,16 +43,17 @@ const Placed<Camera>* chooseCamera(const PlacedScene& placed, const std::string&
     if (found != placed.cameras.end()) return &*found;
     std::string known;
     for (const auto& camera : placed.cameras) known += (known.empty() ? "" : ", ") + camera.path;
-    throw SceneFileError({file}, fmt::format("no camera '{}' ({})", path,
-                                             known.empty() ? "the file has none" : "it has " + known));
+    throw SceneFileError({file},
+                         fmt::format("no camera '{}' ({})", path,
+                                     known.empty() ? "the file has none" : "it has " + known));
 }
 
 /// \param command its height is set from the camera's film if it was not given
 View chooseView(RenderCommand& command, const SceneSolution& solution) {
     const auto* const camera = chooseCamera(solution.placed(), command.camera, command.solve.scene);
     if (command.height == 0) {
-        const Lens lens = camera ? camera->node->lens() : Lens{.horizontalAperture = 16,
-                                                               .verticalAperture = 9};
+        const Lens lens =
+            camera ? camera->node->lens() : Lens{.horizontalAperture = 16, .verticalAperture = 9};
         const float shape = lens.verticalAperture / lens.horizontalAperture;
         command.height = std::clamp(int(std::lround(float(command.width) * shape)), 1, 16384);
     }
@@ -116,8 +117,7 @@ void run(RenderCommand command) {
         return writeExr(command.output, frame, view, metadata(command, solution), options);
     });
     if (clamped > 0 && !command.solve.quiet)
-        fmt::print(stderr,
-                   "{}: {} values above 65504 were clamped: --pixels float keeps them\n",
+        fmt::print(stderr, "{}: {} values above 65504 were clamped: --pixels float keeps them\n",
                    command.output, clamped);
     if (!command.png.empty()) writePng(command.png, frame);
     if (!command.solve.stats.empty()) writeStatistics(command.solve.stats, solution);

@@ -23,22 +23,26 @@ double now() {
 void addSolveOptions(CLI::App& command, SolveSettings& settings) {
     command.add_option("SCENE", settings.scene, "USD text file (.usda) to light")->required();
     const auto positive = CLI::Range(1e-6, 1e6);
-    command.add_option("--patch-size", settings.meshing.patchSize,
-                       "Longest edge of a patch, which sends light [m]\n"
-                       "(default: follows the scene, sqrt(surface area / 1650))")
+    command
+        .add_option("--patch-size", settings.meshing.patchSize,
+                    "Longest edge of a patch, which sends light [m]\n"
+                    "(default: follows the scene, sqrt(surface area / 1650) up to 0.5 m)")
         ->check(positive);
-    command.add_option("--element-size", settings.meshing.elementSize,
-                       "Longest edge of an element, which receives and shows light [m]\n"
-                       "(default: an eighth of a patch)")
+    command
+        .add_option("--element-size", settings.meshing.elementSize,
+                    "Longest edge of an element, which receives and shows light [m]\n"
+                    "(default: an eighth of a patch)")
         ->check(positive);
-    command.add_option("--samples", settings.solver.samples,
-                       "Visibility samples of a lamp and a point; four times as many in penumbrae")
+    command
+        .add_option("--samples", settings.solver.samples,
+                    "Visibility samples of a lamp and a point; four times as many in penumbrae")
         ->capture_default_str()
         ->check(CLI::Range(1, 64));
-    command.add_option("--residual", settings.solver.residual,
-                       "Relax until the certificate, the bound of what the picture may still be\n"
-                       "wrong by, is below this share of the brightest emitter's exitance\n"
-                       "(default: until it is below 1 % of the mean radiosity)")
+    command
+        .add_option("--residual", settings.solver.residual,
+                    "Relax until the certificate, the bound of what the picture may still be\n"
+                    "wrong by, is below this share of the brightest emitter's exitance\n"
+                    "(default: until it is below 1 % of the mean radiosity)")
         ->check(CLI::Range(1e-9, 1.0));
     command.add_flag("--direct-only", settings.solver.directOnly,
                      "Light straight from the emitters, no interreflection");
@@ -64,7 +68,9 @@ void reportDiagnostics(const std::vector<Diagnostic>& diagnostics, bool verbose)
 }
 
 SceneSolution::PhaseTimer::PhaseTimer(double& sum) : sum_(sum), start_(now()) {}
-SceneSolution::PhaseTimer::~PhaseTimer() { sum_ += now() - start_; }
+SceneSolution::PhaseTimer::~PhaseTimer() {
+    sum_ += now() - start_;
+}
 
 SceneSolution::SceneSolution(const SolveSettings& settings)
     : progress_(settings.quiet      ? ProgressBar::When::never
@@ -80,7 +86,8 @@ SceneSolution::SceneSolution(const SolveSettings& settings)
     if (!settings.quiet) reportDiagnostics(loaded_.diagnostics, settings.verbose);
     placed_ = placeScene(*loaded_.scene);
     if (placed_.meshes.empty() && placed_.lights.empty())
-        throw SceneFileError({settings.scene}, "nothing to light: no visible mesh that can be read");
+        throw SceneFileError({settings.scene},
+                             "nothing to light: no visible mesh that can be read");
 
     progress_.show("meshing", 0);
     built_ = timed("mesh", [&] { return buildPatches(placed_, settings.meshing); });

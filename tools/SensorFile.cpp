@@ -25,7 +25,8 @@ std::vector<std::string_view> cells(std::string_view line) {
     for (;;) {
         const std::size_t comma = line.find(',');
         std::string_view cell = line.substr(0, comma);
-        while (!cell.empty() && (cell.front() == ' ' || cell.front() == '\t')) cell.remove_prefix(1);
+        while (!cell.empty() && (cell.front() == ' ' || cell.front() == '\t'))
+            cell.remove_prefix(1);
         while (!cell.empty() && (cell.back() == ' ' || cell.back() == '\r')) cell.remove_suffix(1);
         cells.push_back(cell);
         if (comma == std::string_view::npos) return cells;
@@ -53,10 +54,13 @@ std::vector<Receiver> readSensors(const std::string& path) {
     std::array<std::size_t, 6> column;
     const auto header = cells(line);
     for (std::size_t i = 0; i < 6; ++i) {
-        column[i] = std::size_t(std::find(header.begin(), header.end(), kColumns[i]) - header.begin());
+        column[i] =
+            std::size_t(std::find(header.begin(), header.end(), kColumns[i]) - header.begin());
         if (column[i] == header.size())
-            throw SceneFileError({path, 1}, fmt::format("no column '{}' (the header of a sensor list is "
-                                                        "x,y,z,nx,ny,nz)", kColumns[i]));
+            throw SceneFileError({path, 1},
+                                 fmt::format("no column '{}' (the header of a sensor list is "
+                                             "x,y,z,nx,ny,nz)",
+                                             kColumns[i]));
     }
     std::vector<Receiver> sensors;
     for (std::size_t row = 2; std::getline(file, line); ++row) {
@@ -65,7 +69,8 @@ std::vector<Receiver> readSensors(const std::string& path) {
         std::array<float, 6> v;
         for (std::size_t i = 0; i < 6; ++i) {
             if (column[i] >= fields.size())
-                throw SceneFileError({path, row}, fmt::format("too few values: no '{}'", kColumns[i]));
+                throw SceneFileError({path, row},
+                                     fmt::format("too few values: no '{}'", kColumns[i]));
             v[i] = number(fields[column[i]], {path, row});
         }
         const glm::vec3 normal(v[3], v[4], v[5]);
@@ -80,11 +85,12 @@ void writeValues(const std::string& path, std::span<const Receiver> sensors,
     std::string text = "x,y,z,nx,ny,nz,r,g,b\n";
     for (std::size_t i = 0; i < sensors.size(); ++i) {
         const auto& [p, n] = sensors[i];
-        text += fmt::format("{},{},{},{},{},{},{},{},{}\n", p.x, p.y, p.z, n.x, n.y, n.z, values[i].r,
-                            values[i].g, values[i].b);
+        text += fmt::format("{},{},{},{},{},{},{},{},{}\n", p.x, p.y, p.z, n.x, n.y, n.z,
+                            values[i].r, values[i].g, values[i].b);
     }
     if (path == "-") {
-        if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+        if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||
+            std::fflush(stdout) != 0)
             throw Error("standard output: error: can't be written");
         return;
     }

@@ -23,9 +23,9 @@ struct SolveCommand {
     bool gather = false;
 };
 
-/// What the sensors read: of the drawn surface under them, or evaluated where they are. A sensor with
-/// no surface under it, or on one that something else lies on so that nobody can see it, is always
-/// evaluated.
+/// What the sensors read: of the drawn surface under them, or evaluated where they are. A sensor
+/// with no surface under it, or on one that something else lies on so that nobody can see it, is
+/// always evaluated.
 std::vector<Rgb> readSensorValues(SceneSolution& solution, const std::vector<Receiver>& sensors,
                                   bool gather, bool directOnly) {
     const LitSurface surface(solution.patches(), solution.lighting());
@@ -36,8 +36,8 @@ std::vector<Rgb> readSensorValues(SceneSolution& solution, const std::vector<Rec
             const PatchSet& patches = solution.patches();
             Receiver lifted = sensors[i];
             lifted.position += patches.skin * lifted.normal;
-            const Lie lie = lieOf(solution.rays(), patches.rayMeshes, lifted.position, lifted.normal,
-                                  coverDistance(patches.elementSize, patches.skin));
+            const Lie lie = lieOf(solution.rays(), patches.rayMeshes, lifted.position,
+                                  lifted.normal, coverDistance(patches.elementSize, patches.skin));
             if (lie == Lie::buried) continue; // no light gets there
             if (!gather && lie == Lie::free) {
                 const auto drawn = surface.under(sensors[i].position, sensors[i].normal);
@@ -69,12 +69,13 @@ void run(const SolveCommand& command) {
     if (command.solve.quiet || command.values == "-") return;
     const SolveStatistics s = solution.solver().statistics();
     const PatchSet& patches = solution.patches();
-    fmt::print(stderr,
-               "{} patches, {} elements, {} emitters; {:.1f} M rays, {} shots in {:.1f} s; the light is "
-               "exact to {:.3g} lm/m2 (mean {:.3g})\n",
-               patches.patches.size(), patches.elements.size(), patches.emitters.size(),
-               double(s.directRays + s.indirectRays) * 1e-6, s.shots,
-               s.directSeconds + s.indirectSeconds, s.certificate, s.meanRadiosity);
+    fmt::print(
+        stderr,
+        "{} patches, {} elements, {} emitters; {:.1f} M rays, {} shots in {:.1f} s; the light is "
+        "exact to {:.3g} lm/m2 (mean {:.3g})\n",
+        patches.patches.size(), patches.elements.size(), patches.emitters.size(),
+        double(s.directRays + s.indirectRays) * 1e-6, s.shots, s.directSeconds + s.indirectSeconds,
+        s.certificate, s.meanRadiosity);
 }
 
 } // namespace
@@ -85,9 +86,9 @@ void addSolveCommand(CLI::App& app) {
         "solve", "The lighting itself: values at sensors, statistics.\n"
                  "Example: penumbra solve room.usda --sensors points.csv --values lux.csv");
     addSolveOptions(*solve, command->solve);
-    CLI::Option* const sensors = solve->add_option(
-        "--sensors", command->sensors,
-        "CSV with the header x,y,z,nx,ny,nz (metres, scene frame, unit normal)");
+    CLI::Option* const sensors =
+        solve->add_option("--sensors", command->sensors,
+                          "CSV with the header x,y,z,nx,ny,nz (metres, scene frame, unit normal)");
     CLI::Option* const values =
         solve->add_option("--values", command->values,
                           "Where to write the sensors with r,g,b added, illuminance in lux\n"

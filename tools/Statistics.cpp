@@ -19,16 +19,12 @@ void writeStatistics(const std::string& path, const SceneSolution& solution) {
     const PatchSet& patches = solution.patches();
     const SolveStatistics s = solution.solver().statistics();
     nlohmann::ordered_json json;
-    json["scene"] = {{"objects", patches.objectPaths.size()},
-                     {"polygons", patches.polygons},
-                     {"patches", patches.patches.size()},
-                     {"elements", patches.elements.size()},
-                     {"vertices", patches.vertices.size()},
-                     {"emitters", patches.emitters.size()},
-                     {"nodes", patches.nodes.size()},
-                     {"area", patches.area},
-                     {"patch_size", patches.patchSize},
-                     {"element_size", patches.elementSize}};
+    json["scene"] = {
+        {"objects", patches.objectPaths.size()}, {"polygons", patches.polygons},
+        {"patches", patches.patches.size()},     {"elements", patches.elements.size()},
+        {"vertices", patches.vertices.size()},   {"emitters", patches.emitters.size()},
+        {"nodes", patches.nodes.size()},         {"area", patches.area},
+        {"patch_size", patches.patchSize},       {"element_size", patches.elementSize}};
     json["solve"] = {{"shots", s.shots},
                      {"residual", s.residual},
                      {"certificate", s.certificate},

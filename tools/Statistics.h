@@ -7,8 +7,8 @@ namespace penumbra {
 
 class SceneSolution;
 
-/// Writes what a solution cost: scene, solve, sffl, memory, phases. Keys may be added, never renamed.
-/// \throws Error if the file can't be written
+/// Writes what a solution cost: scene, solve, sffl, memory, phases. Keys may be added, never
+/// renamed. \throws Error if the file can't be written
 void writeStatistics(const std::string& path, const SceneSolution& solution);
 
 /// Largest resident size of this process so far [bytes].

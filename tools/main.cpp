@@ -15,8 +15,9 @@ int main(int argc, char** argv) {
                  "penumbra"};
     app.set_version_flag("--version", "penumbra " PENUMBRA_VERSION);
     app.require_subcommand(1);
-    app.footer("Each command explains itself: penumbra render --help\n"
-               "Exit codes: 0 done; 1 it failed, and one line says why; 2 the command line was wrong.");
+    app.footer(
+        "Each command explains itself: penumbra render --help\n"
+        "Exit codes: 0 done; 1 it failed, and one line says why; 2 the command line was wrong.");
     penumbra::addRenderCommand(app);
     penumbra::addSolveCommand(app);
     penumbra::addInfoCommand(app);

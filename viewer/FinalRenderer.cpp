@@ -17,7 +17,7 @@ constexpr int kShadowSamples = 64; ///< an emitter and pixel
 /// What one primary ray sees.
 struct RaySample {
     bool met = false;
-    Rgb emission, direct, indirect;           ///< [nit]
+    Rgb emission, direct, indirect; ///< [nit]
     Rgb albedo, illuminance;
     glm::vec3 position{}, normal{};
     ObjectId object;
@@ -116,7 +116,8 @@ FrameLayers traceFrame(const PatchSet& patches, const RayScene& rays, const Ligh
     std::atomic<int> rows{0};
     parallelFor(std::size_t(height), 2, [&](std::size_t first, std::size_t last) {
         for (std::size_t y = first; y < last; ++y)
-            for (int x = 0; x < width; ++x) tracer.tracePixel(x, int(y), options.raysPerSide, frame);
+            for (int x = 0; x < width; ++x)
+                tracer.tracePixel(x, int(y), options.raysPerSide, frame);
         rows += int(last - first);
         if (options.progress) options.progress(double(rows) / height);
     });

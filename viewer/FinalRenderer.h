@@ -17,8 +17,8 @@ struct FinalOptions {
 };
 
 /// Traces a view of the solved scene: in every pixel direct light by closed form times stratified
-/// shadow rays, indirect light interpolated from the solution. Layers as Renderer::render() fills them.
-/// The same picture for any number of threads.
+/// shadow rays, indirect light interpolated from the solution. Layers as Renderer::render() fills
+/// them. The same picture for any number of threads.
 FrameLayers traceFrame(const PatchSet& patches, const RayScene& rays, const Lighting& lighting,
                        const View& view, int width, int height, const FinalOptions& options = {});
 
