@@ -152,6 +152,9 @@ SurfaceMesh placeSurface(const MeshData& data, const glm::dmat4& toWorld) {
         mesh.points.emplace_back(glm::vec3(toWorld * glm::dvec4(glm::dvec3(point), 1.0)));
     const bool mirrored = glm::determinant(glm::dmat3(toWorld)) < 0;
 
+    // A cage's topology is its indices; polygons meet where their points are the same.
+    const std::vector<std::uint32_t> weld =
+        mesh.subdivided() ? std::vector<std::uint32_t>() : weldPositions(mesh.points);
     std::vector<std::uint32_t> corners;
     std::size_t first = 0;
     std::vector<bool> hole(data.faceVertexCounts.size());
@@ -164,6 +167,8 @@ SurfaceMesh placeSurface(const MeshData& data, const glm::dmat4& toWorld) {
                        data.faceVertexIndices.begin() + std::ptrdiff_t(first + count));
         first += count;
         if (hole[f]) continue;
+        if (!weld.empty())
+            for (std::uint32_t& corner : corners) corner = weld[corner];
         if (mirrored) std::reverse(corners.begin(), corners.end());
         if (usable(mesh, corners)) {
             addPolygon(mesh, corners, f);

@@ -22,12 +22,15 @@ DOORS = (   # boxes of air through the walls: low and high corner in plan
 
 
 def wall_pieces(low, high, height, openings):
-    """Rectangles (from, to, z0, z1) of a wall along one axis, doors left out."""
+    """Rectangles (from, to, z0, z1) of a wall along one axis, doors left out. Every wall is cut at
+    door height, so that neighbours meet corner to corner and no pinhole opens between them."""
     pieces, start = [], low
-    for a, b in sorted(openings):
-        pieces += [(start, a, 0, height), (a, b, DOOR_H, height)]
+    for a, b in sorted(openings) + [(high, high)]:
+        pieces += [(start, a, 0, DOOR_H), (start, a, DOOR_H, height)]
+        if b > a:
+            pieces.append((a, b, DOOR_H, height))
         start = b
-    return pieces + [(start, high, 0, height)]
+    return pieces
 
 
 def shell(scene):
