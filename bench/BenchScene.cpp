@@ -1,0 +1,56 @@
+#include "bench/BenchScene.h"
+
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+
+namespace penumbra {
+
+namespace {
+
+double wallClock() {
+    using namespace std::chrono;
+    return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+double cpuClock() {
+    return double(std::clock()) / CLOCKS_PER_SEC;
+}
+
+} // namespace
+
+BenchScene::BenchScene(const std::string& name)
+    : loaded_(
+          loadUsdScene(std::filesystem::path(PENUMBRA_SOURCE_DIR) / "scenes" / (name + ".usda"))),
+      placed_(placeScene(*loaded_.scene)) {}
+
+BuiltPatches BenchScene::mesh(float elementSize) const {
+    MeshingOptions options;
+    options.elementSize = elementSize;
+    return buildPatches(placed_, options);
+}
+
+Stopwatch::Stopwatch() : wallStart_(wallClock()), cpuStart_(cpuClock()) {}
+double Stopwatch::wall() const {
+    return wallClock() - wallStart_;
+}
+double Stopwatch::cpu() const {
+    return cpuClock() - cpuStart_;
+}
+
+double peakMemory() {
+    // Not getrusage(): its figure survives exec() and so may be that of the starting program.
+    std::ifstream status("/proc/self/status");
+    for (std::string word; status >> word;) {
+        double kilobytes = 0;
+        if (word == "VmHWM:" && status >> kilobytes) return kilobytes * 1024;
+    }
+    return 0;
+}
+
+void resetPeakMemory() {
+    std::ofstream("/proc/self/clear_refs") << "5\n";
+}
+
+} // namespace penumbra

@@ -1,0 +1,45 @@
+// What the benchmarks of whole scenes share: a scene on the way to its patches, clocks, peak
+// memory.
+#pragma once
+
+#include "io/UsdScene.h"
+#include "radiosity/BuildPatches.h"
+#include "scenegraph/Objects.h"
+
+#include <string>
+
+namespace penumbra {
+
+/// One of scenes/*.usda, read but not yet meshed.
+class BenchScene {
+public:
+    /// \param name of the file in scenes/, without its ending
+    explicit BenchScene(const std::string& name);
+
+    /// \param elementSize longest edge of an element [m]; 0: the default. The patch size is always
+    ///                    the scene's default.
+    BuiltPatches mesh(float elementSize) const;
+
+private:
+    LoadedScene loaded_;
+    PlacedScene placed_;
+};
+
+/// Wall and processor time since it was made.
+class Stopwatch {
+public:
+    Stopwatch();
+    double wall() const; ///< [s]
+    double cpu() const;  ///< of all threads of the process [s]
+
+private:
+    double wallStart_, cpuStart_;
+};
+
+/// Peak resident memory of this process since the last reset (Linux) [bytes].
+double peakMemory();
+/// Where the kernel refuses, the peak since the start of the process stays; run.py gives each case
+/// a process of its own.
+void resetPeakMemory();
+
+} // namespace penumbra

@@ -1,0 +1,69 @@
+// Indirect light and its detail, at the scenes' default sizes.
+#include "bench/BenchScene.h"
+#include "radiosity/DetailGather.h"
+#include "radiosity/RayScene.h"
+#include "radiosity/Solver.h"
+
+#include <benchmark/benchmark.h>
+
+#include <string>
+
+namespace penumbra {
+
+namespace {
+
+void indirect(benchmark::State& state, const std::string& name) {
+    const BenchScene scene(name);
+    for (auto _ : state) {
+        resetPeakMemory();
+        const BuiltPatches built = scene.mesh(0);
+        const RayScene rays(built.patches.rayMeshes);
+        Solver solver(built.patches, rays, {});
+        solver.solveDirect();
+
+        const Stopwatch relaxing;
+        solver.solveIndirect();
+        const double seconds = relaxing.wall();
+        state.SetIterationTime(seconds);
+
+        RowSize size;
+        for (const Row& row : solver.patchRows()) {
+            const RowSize one = sizeOf(row);
+            size.entries += one.entries;
+            size.bytes += one.bytes;
+        }
+        Lighting lighting = solver.lighting();
+        const Stopwatch detailing;
+        DetailGather detail(built.patches);
+        detail.apply(solver.nodeIlluminance(), lighting);
+
+        const SolveStatistics statistics = solver.statistics();
+        auto& counters = state.counters;
+        counters["detail_s"] = detailing.wall();
+        counters["detail_rays"] = double(detail.rayCount());
+        counters["patches"] = double(built.patches.patches.size());
+        counters["nodes"] = double(built.patches.nodes.size());
+        counters["elements"] = double(built.patches.elements.size());
+        counters["shots"] = double(statistics.shots);
+        counters["indirect_s"] = seconds;
+        counters["rays"] = double(statistics.indirectRays);
+        counters["Mrays_per_s"] = double(statistics.indirectRays) * 1e-6 / seconds;
+        counters["entries"] = double(size.entries);
+        counters["bytes_per_entry"] = double(size.bytes) / double(size.entries);
+        counters["rows_MB"] = double(size.bytes) * 1e-6;
+        counters["peak_MB"] = peakMemory() * 1e-6;
+    }
+}
+
+const bool registered = [] {
+    for (const std::string name : {"chamber", "office", "gallery"})
+        benchmark::RegisterBenchmark(("indirect/" + name).c_str(), indirect, name)
+            ->UseManualTime()
+            ->Iterations(1)
+            ->Unit(benchmark::kSecond);
+    return true;
+}();
+
+} // namespace
+
+} // namespace penumbra

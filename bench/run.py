@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+"""Runs every benchmark in a process of its own, so that peak memory is that of the case alone.
+
+Usage: bench/run.py PROGRAM [--out FILE.json] [--filter REGEX]
+PROGRAM is penumbra_bench of a release build. All results go to FILE.json in Google Benchmark's
+format; tables for people go to standard output, as in docs/performance.md."""
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+DIRECT = ["elements", "lamps", "mesh_s", "direct_s", "rays", "Mrays_per_s", "bare_s", "direct_over_bare",
+          "direct_over_bare_cpu", "direct_over_bare_embree", "outside_embree_share", "entries",
+          "bytes_per_entry", "ns_per_element_lamp", "row_bytes_per_element_lamp",
+          "peak_bytes_per_element_lamp", "peak_MB"]
+INDIRECT = ["patches", "nodes", "shots", "indirect_s", "rays", "Mrays_per_s", "entries",
+            "bytes_per_entry", "rows_MB", "detail_s", "detail_rays", "peak_MB"]
+
+
+def figure(value):
+    if value == "":
+        return ""
+    if value >= 1e6:
+        return f"{value / 1e6:.3g} M"
+    return f"{value:.0f}" if value >= 1000 else f"{value:.3g}"
+
+
+def table(results, prefix, columns):
+    rows = [r for r in results if r["name"].startswith(prefix) and not r.get("error_occurred")]
+    if not rows:
+        return
+    names = [r["name"].removeprefix(prefix).split("/iterations")[0] for r in rows]
+    print("\n| | " + " | ".join(names) + " |\n| --- |" + " ---: |" * len(rows))
+    for column in columns:
+        print(f"| {column} | " + " | ".join(figure(r.get(column, "")) for r in rows) + " |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program", type=pathlib.Path)
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("penumbra_bench.json"))
+    parser.add_argument("--filter", default=".")
+    options = parser.parse_args()
+    program = options.program.resolve()
+    listed = subprocess.run([program, "--benchmark_list_tests", f"--benchmark_filter={options.filter}"],
+                            check=True, capture_output=True, text=True).stdout.split()
+    merged, failed = {"benchmarks": []}, False
+    with tempfile.TemporaryDirectory() as folder:
+        for name in listed:
+            print(name, file=sys.stderr, flush=True)
+            out = pathlib.Path(folder) / "one.json"
+            subprocess.run([program, f"--benchmark_filter=^{name}$", f"--benchmark_out={out}"],
+                           check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            one = json.loads(out.read_text())
+            merged.setdefault("context", one["context"])
+            merged["benchmarks"] += one["benchmarks"]
+            for result in one["benchmarks"]:
+                if result.get("error_occurred"):
+                    print(f"{name}: {result['error_message']}", file=sys.stderr)
+                    failed = True
+    options.out.write_text(json.dumps(merged, indent=2) + "\n")
+    table(merged["benchmarks"], "direct/", DIRECT)
+    table(merged["benchmarks"], "indirect/", INDIRECT)
+    print()
+    for result in merged["benchmarks"]:
+        if result["name"].startswith(("formFactor/", "occluded/")):
+            rate = f", {result['Mrays_per_s']:.3g} Mrays/s" if "Mrays_per_s" in result else ""
+            print(f"{result['name']}: {result['real_time']:.3g} {result['time_unit']}{rate}")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
