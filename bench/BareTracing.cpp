@@ -141,13 +141,14 @@ BareTracing::Seconds BareTracing::measure() const {
             for (ShadowRays& rays : chunk[b]) rays_.occluded(rays);
         });
         sum.rayScene += wall, sum.rayCpu += cpu;
-        sum.embree += inParallel([&](std::size_t b) {
-                          for (EmbreePacket& packet : bare[b]) {
-                              RTCIntersectContext context;
-                              rtcInitIntersectContext(&context);
-                              rtcOccluded16(packet.valid, embree_->scene, &context, &packet.rays);
-                          }
-                      }).first;
+        const auto [bareWall, bareCpu] = inParallel([&](std::size_t b) {
+            for (EmbreePacket& packet : bare[b]) {
+                RTCIntersectContext context;
+                rtcInitIntersectContext(&context);
+                rtcOccluded16(packet.valid, embree_->scene, &context, &packet.rays);
+            }
+        });
+        sum.embree += bareWall, sum.embreeCpu += bareCpu;
     }
     return sum;
 }

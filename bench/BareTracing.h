@@ -19,9 +19,8 @@ namespace penumbra {
 class BareTracing {
 public:
     struct Seconds {
-        double rayScene = 0; ///< wall time in RayScene::occluded()
-        double rayCpu = 0;   ///< the same as processor time
-        double embree = 0; ///< wall time in rtcOccluded16() alone: packets ready, no blocker noted
+        double rayScene = 0, rayCpu = 0;  ///< in RayScene::occluded(): wall, processor time
+        double embree = 0, embreeCpu = 0; ///< in rtcOccluded16() alone: packets ready, no filter
         std::uint64_t rays = 0;
     };
 

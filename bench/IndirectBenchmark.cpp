@@ -24,6 +24,7 @@ void indirect(benchmark::State& state, const std::string& name) {
         const Stopwatch relaxing;
         solver.solveIndirect();
         const double seconds = relaxing.wall();
+        state.counters["indirect_cpu_s"] = relaxing.cpu();
         state.SetIterationTime(seconds);
 
         RowSize size;
@@ -40,6 +41,7 @@ void indirect(benchmark::State& state, const std::string& name) {
         const SolveStatistics statistics = solver.statistics();
         auto& counters = state.counters;
         counters["detail_s"] = detailing.wall();
+        counters["detail_cpu_s"] = detailing.cpu();
         counters["detail_rays"] = double(detail.rayCount());
         counters["patches"] = double(built.patches.patches.size());
         counters["nodes"] = double(built.patches.nodes.size());

@@ -11,12 +11,14 @@ import subprocess
 import sys
 import tempfile
 
-DIRECT = ["elements", "lamps", "mesh_s", "direct_s", "rays", "Mrays_per_s", "bare_s", "direct_over_bare",
-          "direct_over_bare_cpu", "direct_over_bare_embree", "outside_embree_share", "entries",
-          "bytes_per_entry", "ns_per_element_lamp", "row_bytes_per_element_lamp",
-          "peak_bytes_per_element_lamp", "peak_MB"]
-INDIRECT = ["patches", "nodes", "shots", "indirect_s", "rays", "Mrays_per_s", "entries",
-            "bytes_per_entry", "rows_MB", "detail_s", "detail_rays", "peak_MB"]
+DIRECT = ["elements", "lamps", "mesh_s", "direct_s", "direct_cpu_s", "rays", "Mrays_per_s",
+          "direct_over_bare", "direct_over_bare_cpu", "direct_over_bare_embree",
+          "direct_over_bare_embree_cpu", "outside_embree_share", "entries", "bytes_per_entry",
+          "cpu_ns_per_element_lamp", "row_bytes_per_element_lamp", "peak_bytes_per_element_lamp",
+          "peak_MB"]
+INDIRECT = ["patches", "nodes", "shots", "indirect_s", "indirect_cpu_s", "rays", "Mrays_per_s",
+            "entries", "bytes_per_entry", "rows_MB", "detail_s", "detail_cpu_s", "detail_rays",
+            "peak_MB"]
 
 
 def figure(value):
