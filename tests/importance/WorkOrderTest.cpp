@@ -26,12 +26,14 @@ TEST(MostValuable, LeavesOutWhatIsWorthNothing) {
     EXPECT_TRUE(mostValuable(std::vector<double>{1, 2}, 0).empty());
 }
 
-RC_GTEST_PROP(MostValuable, IsTheBeginningOfTheSortedList, (const std::vector<unsigned char>& bytes)) {
+RC_GTEST_PROP(MostValuable, IsTheBeginningOfTheSortedList,
+              (const std::vector<unsigned char>& bytes)) {
     const std::vector<double> worth(bytes.begin(), bytes.end());
     Order sorted;
     for (std::uint32_t i = 0; i < worth.size(); ++i)
         if (worth[i] > 0) sorted.push_back(i);
-    std::stable_sort(sorted.begin(), sorted.end(), [&](auto a, auto b) { return worth[a] > worth[b]; });
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [&](auto a, auto b) { return worth[a] > worth[b]; });
     sorted.resize(std::min<std::size_t>(sorted.size(), 5));
     RC_ASSERT(mostValuable(worth, 5) == sorted);
 }

@@ -76,7 +76,8 @@ RC_GTEST_PROP(Closure, HoldsAMillionthOfAWallFromItsEdgesAndCorners, ()) {
 }
 
 RC_GTEST_PROP(Closure, HoldsCloseToTheEdgesAndCornersOfATurnedBox, ()) {
-    // Here the point lies off its wall by rounding, 1e-6 m; a thousandth of a wall is 0.2 mm or more.
+    // Here the point lies off its wall by rounding, 1e-6 m; a thousandth of a wall is 0.2 mm or
+    // more.
     const std::vector<Polygon> faces = facesOf(anyBox());
     const Polygon& wall = faces[*rc::gen::inRange<std::size_t>(0, 6)];
     RC_ASSERT(std::abs(sumOver(faces, nearEdge(wall, 3), normalOf(wall)) - 1) < 5e-3);
@@ -104,8 +105,8 @@ RC_GTEST_PROP(FormFactor, OfAPolygonIsTheSumOverItsParts, ()) {
     Polygon whole;
     for (int i = 0; i < sides; ++i) {
         const double angle = phase + 2 * std::numbers::pi * i / sides;
-        whole.push_back(centre +
-                        glm::vec3(turn * glm::dvec3(std::cos(angle), squeeze * std::sin(angle), 0)));
+        whole.push_back(
+            centre + glm::vec3(turn * glm::dvec3(std::cos(angle), squeeze * std::sin(angle), 0)));
     }
     const int chord = *rc::gen::inRange(2, sides - 1);
     const Polygon first(whole.begin(), whole.begin() + chord + 1);
@@ -145,19 +146,20 @@ RC_GTEST_PROP(FormFactor, ObeysReciprocityBetweenRectangles, ()) {
 }
 
 RC_GTEST_PROP(FormFactor, OfADiskIsThatOfAPolygonOfManySides, ()) {
-    // 2000 sides: their error is below 1e-5. A disk that the horizon cuts is itself taken as a polygon,
-    // of 48 sides; close to such a disk's rim that shows in the fourth digit.
+    // 2000 sides: their error is below 1e-5. A disk that the horizon cuts is itself taken as a
+    // polygon, of 48 sides; close to such a disk's rim that shows in the fourth digit.
     const glm::vec3 centre(number(-2, 2), number(-2, 2), number(-0.5, 2));
     const glm::vec3 axis(direction());
     const float radius = float(number(0.1, 1.5));
-    const glm::vec3 u = glm::normalize(glm::cross(
-        axis, std::abs(axis.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0)));
+    const glm::vec3 u = glm::normalize(
+        glm::cross(axis, std::abs(axis.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0)));
     const glm::vec3 v = glm::cross(axis, u);
     constexpr int kSides = 2000;
     Polygon polygon;
     for (int i = 0; i < kSides; ++i) {
         const double angle = 2 * std::numbers::pi * i / kSides;
-        polygon.push_back(centre + radius * (float(std::cos(angle)) * u + float(std::sin(angle)) * v));
+        polygon.push_back(centre +
+                          radius * (float(std::cos(angle)) * u + float(std::sin(angle)) * v));
     }
     const float expected = polygonFormFactor({0, 0, 0}, {0, 0, 1}, polygon);
     const bool cut = centre.z < radius * std::sqrt(1 - axis.z * axis.z);

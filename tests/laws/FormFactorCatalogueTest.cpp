@@ -1,10 +1,10 @@
 // Closed form factors against the analytic cases of tests/data/formfactors (Howell's catalogue, and
 // integrals whose inner part is exact; each case says where its number comes from).
+#include "io/UsdScene.h"
 #include "radiosity/BuildPatches.h"
 #include "radiosity/EmitterSender.h"
 #include "radiosity/FormFactor.h"
 #include "radiosity/RayScene.h"
-#include "io/UsdScene.h"
 #include "scenegraph/Objects.h"
 #include "tests/support/Reference.h"
 
@@ -23,7 +23,9 @@ using Polygon = std::vector<glm::vec3>;
 
 constexpr double kTolerance = 1e-4; // relative
 
-glm::vec3 vectorOf(const Json& json) { return {json[0], json[1], json[2]}; }
+glm::vec3 vectorOf(const Json& json) {
+    return {json[0], json[1], json[2]};
+}
 
 Polygon polygonOf(const Json& json) {
     Polygon polygon;
@@ -39,7 +41,9 @@ std::map<std::string, Json> cases() {
     return byName;
 }
 
-double valueOf(const Json& entry) { return std::stod(entry["value"].get<std::string>()); }
+double valueOf(const Json& entry) {
+    return std::stod(entry["value"].get<std::string>());
+}
 
 /// Gauss-Legendre quadrature on [0, 1].
 struct Node {
@@ -93,9 +97,8 @@ TEST(FormFactorCatalogue, OfPolygonToPolygonIsMetByQuadratureOfTheClosedForm) {
         const Json& geometry = entry["geometry"];
         if (!geometry.contains("A1") || geometry.contains("blocker")) continue;
         const Polygon from = polygonOf(geometry["A1"]), to = polygonOf(geometry["A2"]);
-        const double mean = meanOver(from, [&](glm::vec3 p) {
-            return polygonFormFactor(p, normalOf(from), to);
-        });
+        const double mean =
+            meanOver(from, [&](glm::vec3 p) { return polygonFormFactor(p, normalOf(from), to); });
         EXPECT_NEAR(mean, valueOf(entry), kTolerance * valueOf(entry)) << name;
         ++checked;
     }
@@ -112,8 +115,8 @@ TEST(FormFactorCatalogue, OfElementToRectangleIsTheClosedFormItself) {
         // The table does not care which way the rectangle faces: show its front.
         if (glm::dot(normalOf(rectangle), rectangle[0] - p) > 0)
             std::reverse(rectangle.begin(), rectangle.end());
-        EXPECT_NEAR(polygonFormFactor(p, n, rectangle), valueOf(entry),
-                    kTolerance * valueOf(entry)) << name;
+        EXPECT_NEAR(polygonFormFactor(p, n, rectangle), valueOf(entry), kTolerance * valueOf(entry))
+            << name;
         ++checked;
     }
     EXPECT_EQ(checked, 5);
@@ -127,7 +130,8 @@ TEST(FormFactorCatalogue, OfElementToDiskIsTheClosedFormItself) {
         const glm::vec3 n = vectorOf(geometry["normal"]);
         EXPECT_NEAR(diskFormFactor(vectorOf(geometry["element"]), n,
                                    vectorOf(geometry["disk_centre"]), -n, geometry["disk_r"]),
-                    valueOf(entry), kTolerance * valueOf(entry)) << name;
+                    valueOf(entry), kTolerance * valueOf(entry))
+            << name;
         ++checked;
     }
     EXPECT_EQ(checked, 6);
@@ -139,8 +143,8 @@ double meanOverDisk(double r, const std::function<double(double)>& f) {
 }
 
 TEST(FormFactorCatalogue, OfCoaxialDisksIsTheMeanOverTheFirst) {
-    for (const char* name : {"coaxial_disks_1_1_h1", "coaxial_disks_1_2_h1",
-                             "coaxial_disks_0.3_1_h2"}) {
+    for (const char* name :
+         {"coaxial_disks_1_1_h1", "coaxial_disks_1_2_h1", "coaxial_disks_0.3_1_h2"}) {
         const Json entry = cases().at(name);
         const double r1 = entry["geometry"]["r1"], r2 = entry["geometry"]["r2"];
         const double h = entry["geometry"]["h"];
@@ -156,7 +160,8 @@ TEST(FormFactorCatalogue, OfElementFacingASphereIsTheSquareOfRadiusOverDistance)
         const Json entry = cases().at(name);
         const float h = entry["geometry"]["h"];
         EXPECT_NEAR(sphereFormFactor({0, 0, 0}, {0, 0, 1}, {0, 0, h}, entry["geometry"]["r"]),
-                    valueOf(entry), kTolerance * valueOf(entry)) << name;
+                    valueOf(entry), kTolerance * valueOf(entry))
+            << name;
     }
 }
 
@@ -169,7 +174,8 @@ TEST(FormFactorCatalogue, OfSphereToCoaxialDiskFollowsByReciprocityForAnySphere)
                 return sphereFormFactor({x, 0, 0}, {0, 0, 1}, {0, 0, h}, float(sphere));
             });
             EXPECT_NEAR(toSphere * r * r / (4 * sphere * sphere), valueOf(entry),
-                        kTolerance * valueOf(entry)) << name << ", sphere of radius " << sphere;
+                        kTolerance * valueOf(entry))
+                << name << ", sphere of radius " << sphere;
         }
     }
 }
@@ -195,10 +201,13 @@ TEST(FormFactorCatalogue, OfSquaresWithABlockerIsMetBySampledVisibility) {
         Emitter emitter;
         emitter.polygons = {polygonOf(geometry["A2"])};
         const EmitterSender sender(emitter, 1024, 1024);
-        const double mean = meanOver(from, [&](glm::vec3 p) {
-            const Receiver receiver{p, normalOf(from)};
-            return sender.formFactor(receiver) * sender.visibility(rays, receiver, 0, 1024);
-        }, 16);
+        const double mean = meanOver(
+            from,
+            [&](glm::vec3 p) {
+                const Receiver receiver{p, normalOf(from)};
+                return sender.formFactor(receiver) * sender.visibility(rays, receiver, 0, 1024);
+            },
+            16);
         EXPECT_NEAR(mean, valueOf(entry), 0.005 * 0.1998) << name;
     }
 }
@@ -212,8 +221,8 @@ TEST(FormFactorCatalogue, DirectLightInTheEmptyBoxIsTheClosedForm) {
     const EmitterSender sender(lamp, 16, 16);
     for (const auto& row : readCsv(dataFile("formfactors/emptybox_direct_analytic.csv"))) {
         const auto number = [&](const char* column) { return std::stof(row.at(column)); };
-        const float factor = sender.formFactor({{number("x"), number("y"), number("z")},
-                                                {number("nx"), number("ny"), number("nz")}});
+        const float factor = sender.formFactor(
+            {{number("x"), number("y"), number("z")}, {number("nx"), number("ny"), number("nz")}});
         const float expected = number("form_factor_to_lamp");
         EXPECT_NEAR(factor, expected, kTolerance * expected);
         EXPECT_NEAR(factor * lamp.exitance.r, number("Edir_r"), kTolerance * number("Edir_r"));

@@ -17,8 +17,7 @@ namespace {
 Scene furnace(const std::string& file, float rho) {
     const Scene scene = *loadUsdScene(dataFile(file)).scene;
     for (const Placed<Mesh>& mesh : placeScene(scene).meshes)
-        for (const auto& material : mesh.node->data().materials)
-            material->setReflectance(Rgb(rho));
+        for (const auto& material : mesh.node->data().materials) material->setReflectance(Rgb(rho));
     return scene;
 }
 
@@ -31,8 +30,8 @@ Deviation deviation(const Solution& solution, float rho) {
     const double expected = 1 / (1 - double(rho));
     Deviation result;
     for (std::size_t v = 0; v < solution.patches().vertices.size(); ++v)
-        result.vertices = std::max(
-            result.vertices, std::abs((1 + rho * double(solution.at(v).g)) / expected - 1));
+        result.vertices = std::max(result.vertices,
+                                   std::abs((1 + rho * double(solution.at(v).g)) / expected - 1));
     for (Rgb reflected : solution.solver.radiosity())
         result.patches =
             std::max(result.patches, std::abs((1 + double(reflected.g)) / expected - 1));
@@ -67,12 +66,12 @@ INSTANTIATE_TEST_SUITE_P(Rho, Furnace, testing::Values(0.2f, 0.5f, 0.8f), [](con
 TEST(Furnace, WithAnObjectInsideIsEvenlyBrightOnTheObjectToo) {
     // A block that emits and reflects like the walls changes nothing.
     const auto walls = paint(Rgb(0.5f), Rgb(1 / std::numbers::pi_v<float>));
-    const Solution solution(
-        sceneOf({object("room", boxData({-1, -1, -1}, {1, 1, 1}, true, walls)),
-                 object("block", boxData({-0.4f, -0.3f, -0.5f}, {0.2f, 0.5f, 0.3f}, false, walls))}),
-        {.patchSize = 0.25f, .elementSize = 0.0625f}, {.residual = 1e-6});
-    // Visibility is sampled, 64 times a point for direct light and 16 times for patches: single points
-    // are off by some percent, their mean by one.
+    const Solution solution(sceneOf({object("room", boxData({-1, -1, -1}, {1, 1, 1}, true, walls)),
+                                     object("block", boxData({-0.4f, -0.3f, -0.5f},
+                                                             {0.2f, 0.5f, 0.3f}, false, walls))}),
+                            {.patchSize = 0.25f, .elementSize = 0.0625f}, {.residual = 1e-6});
+    // Visibility is sampled, 64 times a point for direct light and 16 times for patches: single
+    // points are off by some percent, their mean by one.
     const Deviation found = deviation(solution, 0.5f);
     EXPECT_LT(found.vertices, 0.1);
     EXPECT_LT(found.patches, 0.05);

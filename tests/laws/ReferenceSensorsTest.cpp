@@ -19,7 +19,9 @@ struct Room {
     float patchSize, elementSize; ///< coarser than the defaults, for the time's sake [m]
 };
 
-std::ostream& operator<<(std::ostream& out, const Room& room) { return out << room.scene; }
+std::ostream& operator<<(std::ostream& out, const Room& room) {
+    return out << room.scene;
+}
 
 class ReferenceRoom : public testing::TestWithParam<Room> {
 protected:

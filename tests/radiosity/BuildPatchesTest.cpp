@@ -41,8 +41,8 @@ TEST(BuildPatches, GivesLightThatDoesNotDependOnTheScale) {
     const MeshingOptions coarse{.patchSize = 0.5f, .elementSize = 0.25f};
     const Solution metres(room(1), coarse);
     for (double scale : {0.01, 100.0}) {
-        const Solution other(room(scale), {.patchSize = float(0.5 * scale),
-                                           .elementSize = float(0.25 * scale)});
+        const Solution other(room(scale),
+                             {.patchSize = float(0.5 * scale), .elementSize = float(0.25 * scale)});
         ASSERT_EQ(other.patches().vertices.size(), metres.patches().vertices.size());
         double sum = 0, difference = 0;
         for (std::size_t v = 0; v < metres.patches().vertices.size(); ++v) {

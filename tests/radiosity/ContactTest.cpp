@@ -38,17 +38,18 @@ class BoxOnFloor : public testing::Test {
 protected:
     /// A low box whose footprint lies askew to the floor's elements of 5 cm.
     BoxOnFloor()
-        : solution(sceneOf({floorOf(1), ceilingLamp({0, 0, 2}, 3, 3),
-                            object("box", boxData({low.x, low.y, 0}, {high.x, high.y, 0.1f}, false))}),
-                   {.patchSize = 0.4f, .elementSize = 0.05f}, kDirect) {}
+        : solution(
+              sceneOf({floorOf(1), ceilingLamp({0, 0, 2}, 3, 3),
+                       object("box", boxData({low.x, low.y, 0}, {high.x, high.y, 0.1f}, false))}),
+              {.patchSize = 0.4f, .elementSize = 0.05f}, kDirect) {}
 
     static constexpr glm::vec2 low{-0.23f, -0.31f}, high{0.37f, 0.17f};
     Solution solution;
 };
 
 TEST_F(BoxOnFloor, SmearsNoDarknessOutwards) {
-    // A floor element whose middle is free shows the light that falls on its free part: no corner is
-    // darker or brighter than the free floor around it.
+    // A floor element whose middle is free shows the light that falls on its free part: no corner
+    // is darker or brighter than the free floor around it.
     const PointGather gather(solution.patches(), solution.rays, solution.lighting);
     int checked = 0;
     forFloor(solution, [&](const Element& element, glm::vec3 middle) {
@@ -89,8 +90,8 @@ TEST_F(BoxOnFloor, HasNoLightOnItsBottom) {
     }
 }
 
-/// A closed room of 2 x 2 x 1 m in two halves, parted by a sheet without thickness at x; the lamp is in
-/// the half x < 0.
+/// A closed room of 2 x 2 x 1 m in two halves, parted by a sheet without thickness at x; the lamp
+/// is in the half x < 0.
 class PartedRoom : public testing::TestWithParam<float> {
 protected:
     PartedRoom()
@@ -109,9 +110,9 @@ protected:
 };
 
 TEST_P(PartedRoom, LeaksNoLightToTheDarkSide) {
-    // Elements that lie behind the sheet with all their corners; those that the sheet cuts belong to
-    // the side of their middle. Indirect light may be what an estimate of what is still owed puts
-    // everywhere, and what is seen of the elements that are cut.
+    // Elements that lie behind the sheet with all their corners; those that the sheet cuts belong
+    // to the side of their middle. Indirect light may be what an estimate of what is still owed
+    // puts everywhere, and what is seen of the elements that are cut.
     double dark = 0, bright = 0;
     int behind = 0, before = 0;
     for (const Element& element : solution.patches().elements) {

@@ -14,7 +14,8 @@ NodePtr room(float rho) {
     return object("room", boxData({-1, -1, -1}, {1, 1, 1}, true, paint(Rgb(rho))));
 }
 
-/// Mean indirect light of the vertices of the wall x = -1 that lie within `radius` of its middle [lux].
+/// Mean indirect light of the vertices of the wall x = -1 that lie within `radius` of its middle
+/// [lux].
 double onWall(const Solution& solution, const Lighting& lighting, glm::vec3 middle, float radius) {
     double sum = 0;
     int count = 0;
@@ -28,10 +29,12 @@ double onWall(const Solution& solution, const Lighting& lighting, glm::vec3 midd
 }
 
 TEST(DetailGather, DarkensTheGapBehindABoard) {
-    // A board of 1 x 1 m hangs 3 cm in front of a wall: on the wall behind its middle little is left,
-    // on the wall beside it nothing changes.
-    MeshData board = polygonData({{-0.97f, -0.5f, -0.5f}, {-0.97f, 0.5f, -0.5f},
-                                  {-0.97f, 0.5f, 0.5f}, {-0.97f, -0.5f, 0.5f}});
+    // A board of 1 x 1 m hangs 3 cm in front of a wall: on the wall behind its middle little is
+    // left, on the wall beside it nothing changes.
+    MeshData board = polygonData({{-0.97f, -0.5f, -0.5f},
+                                  {-0.97f, 0.5f, -0.5f},
+                                  {-0.97f, 0.5f, 0.5f},
+                                  {-0.97f, -0.5f, 0.5f}});
     board.doubleSided = true;
     const Solution solution(
         sceneOf({room(0.5f), object("board", board), ceilingLamp({0, 0, 0.99f}, 0.8f, 0.8f)}),
@@ -43,7 +46,8 @@ TEST(DetailGather, DarkensTheGapBehindABoard) {
 }
 
 TEST(DetailGather, LeavesAnEvenlyLitRoomAsItIs) {
-    const Solution solution(sceneOf({room(0.5f), ceilingLamp({0, 0, 0.99f}, 0.8f, 0.8f)}), kMeshing);
+    const Solution solution(sceneOf({room(0.5f), ceilingLamp({0, 0, 0.99f}, 0.8f, 0.8f)}),
+                            kMeshing);
     const Lighting raw = solution.solver.lighting();
     EXPECT_NEAR(onWall(solution, solution.lighting, {-1, 0, 0}, 0.5f),
                 onWall(solution, raw, {-1, 0, 0}, 0.5f), 0.01);
@@ -53,8 +57,9 @@ TEST(DetailGather, LeavesAnEvenlyLitRoomAsItIs) {
 
 TEST(DetailGather, ChoosesVerticesByGeometryAlone) {
     const auto chosen = [](float rho, Rgb nits) {
-        const Scene scene = sceneOf({room(rho), object("box", boxData({-0.5f, -0.5f, -1}, {0, 0, 0}, false)),
-                                     ceilingLamp({0, 0, 0.99f}, 0.8f, 0.8f, nits)});
+        const Scene scene =
+            sceneOf({room(rho), object("box", boxData({-0.5f, -0.5f, -1}, {0, 0, 0}, false)),
+                     ceilingLamp({0, 0, 0.99f}, 0.8f, 0.8f, nits)});
         return DetailGather(meshed(scene, kMeshing).patches).vertexCount();
     };
     EXPECT_GT(chosen(0.5f, Rgb(1.0f)), 0u);

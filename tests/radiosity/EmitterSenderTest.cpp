@@ -15,8 +15,8 @@ namespace {
 /// Emitters of each kind one metre above the origin, facing down.
 std::vector<Emitter> emitters() {
     std::vector<Emitter> list;
-    for (const LightShape& shape :
-         {LightShape(RectShape{0.8f, 0.6f}), LightShape(DiskShape{0.4f}), LightShape(SphereShape{0.3f})})
+    for (const LightShape& shape : {LightShape(RectShape{0.8f, 0.6f}), LightShape(DiskShape{0.4f}),
+                                    LightShape(SphereShape{0.3f})})
         list.push_back(lightEmitter(Light("lamp", shape, Rgb(1.0f)), moved(0, 0, 1)));
     return list;
 }

@@ -21,7 +21,8 @@ RC_GTEST_PROP(HemisphereRays, AreUnitAndAboveTheHorizonOfAnyNormal, ()) {
 }
 
 RC_GTEST_PROP(HemisphereRays, HaveTheMeansOfTheCosine, ()) {
-    // Weighted by the cosine, the mean direction is 2/3 of the normal, and the mean of cos^2 is 1/2.
+    // Weighted by the cosine, the mean direction is 2/3 of the normal, and the mean of cos^2 is
+    // 1/2.
     const glm::vec3 normal(direction());
     const HemisphereRays rays(64);
     glm::vec3 mean(0);
@@ -36,7 +37,8 @@ RC_GTEST_PROP(HemisphereRays, HaveTheMeansOfTheCosine, ()) {
 }
 
 TEST(HemisphereRays, AreSpreadInEveryPrefixOfFourAndSixteen) {
-    // The first four lie in the four quarters of the hemisphere; four times as many, in 4 x 4 strata.
+    // The first four lie in the four quarters of the hemisphere; four times as many, in 4 x 4
+    // strata.
     const HemisphereRays rays(64);
     std::set<std::pair<bool, bool>> quarters;
     glm::vec3 mean(0);

@@ -1,6 +1,6 @@
 // Lamps as senders: area, flux, direction.
-#include "radiosity/FormFactor.h"
 #include "radiosity/LightShapes.h"
+#include "radiosity/FormFactor.h"
 #include "tests/support/Scenes.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,8 @@ TEST(LightShapes, HaveTheExitanceOfALambertianLamp) {
 }
 
 TEST(LightShapes, ShineAlongMinusZInAnyFrameMirroredOnesIncluded) {
-    const glm::dmat4 turned = moved(1, 2, 3) * glm::rotate(glm::dmat4(1.0), 0.5, glm::dvec3(1, 0, 0));
+    const glm::dmat4 turned =
+        moved(1, 2, 3) * glm::rotate(glm::dmat4(1.0), 0.5, glm::dvec3(1, 0, 0));
     for (const glm::dmat4& frame :
          {glm::dmat4(1.0), turned, turned * stretched(-1, 1, 1), turned * stretched(1, 1, -1)}) {
         const glm::vec3 centre(frame[3]);
@@ -71,7 +72,8 @@ TEST(LightShapes, AreMeshesThatFaceWhereTheyShine) {
     for (const LightShape& shape : {LightShape(RectShape{}), LightShape(DiskShape{})}) {
         const MeshData mesh = lightShapeMesh(Light("lamp", shape, Rgb(1.0f)));
         std::vector<glm::vec3> outline;
-        for (std::int32_t i : mesh.faceVertexIndices) outline.push_back(mesh.points[std::size_t(i)]);
+        for (std::int32_t i : mesh.faceVertexIndices)
+            outline.push_back(mesh.points[std::size_t(i)]);
         EXPECT_GT(polygonFormFactor({0, 0, -1}, {0, 0, 1}, outline), 0);
         EXPECT_EQ(mesh.materials[0]->reflectance(), Rgb());
         EXPECT_EQ(mesh.materials[0]->emission(), Rgb(1.0f));
@@ -90,7 +92,8 @@ TEST(LightShapes, AreMeshesThatFaceWhereTheyShine) {
 TEST(PolygonArea, IsExactForAnyPlanarPolygon) {
     EXPECT_DOUBLE_EQ(polygonArea(std::vector<glm::vec3>{{0, 0, 1}, {2, 0, 1}, {0, 3, 1}}), 3);
     EXPECT_DOUBLE_EQ(polygonArea(std::vector<glm::vec3>{
-                         {0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}}), 5);
+                         {0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}}),
+                     5);
 }
 
 } // namespace

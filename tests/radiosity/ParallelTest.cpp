@@ -19,7 +19,8 @@ TEST(ParallelFor, VisitsEveryIndexOnce) {
         parallelFor(count, 7, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) ++visits[i];
         });
-        EXPECT_TRUE(std::all_of(visits.begin(), visits.end(), [](const auto& v) { return v == 1; }));
+        EXPECT_TRUE(
+            std::all_of(visits.begin(), visits.end(), [](const auto& v) { return v == 1; }));
     }
 }
 

@@ -1,6 +1,6 @@
 // Light evaluated at a point instead of interpolated.
-#include "radiosity/FormFactor.h"
 #include "radiosity/PointGather.h"
+#include "radiosity/FormFactor.h"
 #include "tests/support/Scenes.h"
 
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@ TEST(PointGather, HasTheClosedFormOfALampThatNothingHides) {
         kMeshing);
     const PointGather gather(solution.patches(), solution.rays, solution.lighting);
     const Receiver point{{0.3f, 0.1f, 0.01f}, {0, 0, 1}};
-    const float factor = polygonFormFactor(point.position, point.normal,
-                                           solution.patches().emitters[0].polygons[0]);
+    const float factor =
+        polygonFormFactor(point.position, point.normal, solution.patches().emitters[0].polygons[0]);
     EXPECT_FLOAT_EQ(gather.direct(point).r, std::numbers::pi_v<float> * factor);
 }
 
@@ -31,9 +31,11 @@ TEST(PointGather, InAFurnaceFindsTheSameLightEverywhere) {
         sceneOf({object("room", boxData({-1, -1, -1}, {1, 1, 1}, true, walls))}), kMeshing,
         {.residual = 1e-6});
     const PointGather gather(solution.patches(), solution.rays, solution.lighting);
-    for (const glm::vec3 p : {glm::vec3(0.1f, 0.2f, -0.999f), glm::vec3(0.31f, 0.2f, 0.1f)}) {
+    for (const glm::vec3 p :
+         {glm::vec3(0.1f, 0.2f, -0.999f), glm::vec3(0.31f, 0.2f, 0.1f),
+          glm::vec3(0.9f, -0.97f, -0.999f), glm::vec3(0.99f, -0.99f, -0.999f)}) {
         EXPECT_NEAR(gather.direct({p, {0, 0, 1}}).r, 1, 1e-3);
-        EXPECT_NEAR(gather.indirect({p, {0, 0, 1}}).r, 1, 5e-3);
+        EXPECT_NEAR(gather.indirect({p, {0, 0, 1}}).r, 1, 1e-2);
     }
 }
 

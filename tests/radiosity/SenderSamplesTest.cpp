@@ -1,6 +1,6 @@
 // Where senders are sampled: stratified, on the sender, each point for the same share of it.
-#include "radiosity/LightShapes.h"
 #include "radiosity/SenderSamples.h"
+#include "radiosity/LightShapes.h"
 #include "tests/support/Scenes.h"
 
 #include <gtest/gtest.h>
@@ -131,8 +131,8 @@ TEST(PatchSamples, LieInFourQuartersOfThePatch) {
 TEST(PatchSamples, OfACurvedPatchLieOnItsElements) {
     MeshData cage = boxData({-1, -1, -1}, {1, 1, 1}, false);
     cage.scheme = SubdivisionScheme::catmullClark;
-    const BuiltPatches built =
-        meshed(sceneOf({object("ball", std::move(cage))}), {.patchSize = 0.5f, .elementSize = 0.05f});
+    const BuiltPatches built = meshed(sceneOf({object("ball", std::move(cage))}),
+                                      {.patchSize = 0.5f, .elementSize = 0.05f});
     float lowest = 1e30f;
     for (const Vertex& vertex : built.patches.vertices)
         lowest = std::min(lowest, glm::length(vertex.position));

@@ -14,10 +14,11 @@ namespace {
 const MeshingOptions kCoarse{.patchSize = 0.25f, .elementSize = 0.125f};
 
 Scene furnished() {
-    return sceneOf({object("room", boxData({-1, -1, -1}, {1, 1, 1}, true, paint({0.7f, 0.5f, 0.3f}))),
-                    object("box", boxData({-0.5f, -0.3f, -1}, {0.1f, 0.4f, -0.2f}, false)),
-                    object("board", floorData(0.3f, 0.9f, -0.5f, 0.5f, 0.1f)),
-                    ceilingLamp({0, 0, 0.99f}, 0.8f, 0.6f, {10, 9, 8})});
+    return sceneOf(
+        {object("room", boxData({-1, -1, -1}, {1, 1, 1}, true, paint({0.7f, 0.5f, 0.3f}))),
+         object("box", boxData({-0.5f, -0.3f, -1}, {0.1f, 0.4f, -0.2f}, false)),
+         object("board", floorData(0.3f, 0.9f, -0.5f, 0.5f, 0.1f)),
+         ceilingLamp({0, 0, 0.99f}, 0.8f, 0.6f, {10, 9, 8})});
 }
 
 bool sameBits(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {

@@ -95,7 +95,8 @@ TEST(PlaceSurface, KeepsFrontsFrontsInAMirror) {
     const SurfaceMesh mesh = placeSurface(box(false, false), mirror);
     for (const SurfaceFace& face : mesh.faces) {
         const auto corners = mesh.cornersOf(face);
-        const glm::dvec3 outwards = glm::dvec3(mesh.points[corners[0]]) - glm::dvec3(-0.5, 0.5, 0.5);
+        const glm::dvec3 outwards =
+            glm::dvec3(mesh.points[corners[0]]) - glm::dvec3(-0.5, 0.5, 0.5);
         EXPECT_GT(glm::dot(newellNormal(mesh.points, corners), outwards), 0);
     }
 }

@@ -22,7 +22,9 @@ Tessellation cut(const MeshData& data, float patchSize, float elementSize) {
     return result;
 }
 
-std::size_t cornersOf(const Facet& facet) { return facet.vertices[2] == facet.vertices[3] ? 3 : 4; }
+std::size_t cornersOf(const Facet& facet) {
+    return facet.vertices[2] == facet.vertices[3] ? 3 : 4;
+}
 
 /// Edges that are not gone along once each way, told by the positions of their ends.
 int cracks(const Tessellation& t) {
@@ -34,8 +36,10 @@ int cracks(const Tessellation& t) {
     for (const Facet& facet : t.facets)
         for (std::size_t k = 0, n = cornersOf(facet); k < n; ++k) {
             const Place a = place(facet.vertices[k]), b = place(facet.vertices[(k + 1) % n]);
-            if (a < b) edges[{a, b}] += 1;
-            else edges[{b, a}] += 1000;
+            if (a < b)
+                edges[{a, b}] += 1;
+            else
+                edges[{b, a}] += 1000;
         }
     int count = 0;
     for (const auto& [edge, uses] : edges) count += uses != 1001;
@@ -66,10 +70,26 @@ MeshData meshOf(std::vector<glm::vec3> points, std::vector<std::vector<int>> fac
 
 /// An L of 2 x 2 x 1 m with a square of 1 m missing, its ends concave hexagons: area 14.
 MeshData lBlock() {
-    return meshOf({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0},
-                   {0, 0, 1}, {2, 0, 1}, {2, 1, 1}, {1, 1, 1}, {1, 2, 1}, {0, 2, 1}},
-                  {{5, 4, 3, 2, 1, 0}, {6, 7, 8, 9, 10, 11}, {0, 1, 7, 6}, {1, 2, 8, 7},
-                   {2, 3, 9, 8}, {3, 4, 10, 9}, {4, 5, 11, 10}, {5, 0, 6, 11}});
+    return meshOf({{0, 0, 0},
+                   {2, 0, 0},
+                   {2, 1, 0},
+                   {1, 1, 0},
+                   {1, 2, 0},
+                   {0, 2, 0},
+                   {0, 0, 1},
+                   {2, 0, 1},
+                   {2, 1, 1},
+                   {1, 1, 1},
+                   {1, 2, 1},
+                   {0, 2, 1}},
+                  {{5, 4, 3, 2, 1, 0},
+                   {6, 7, 8, 9, 10, 11},
+                   {0, 1, 7, 6},
+                   {1, 2, 8, 7},
+                   {2, 3, 9, 8},
+                   {3, 4, 10, 9},
+                   {4, 5, 11, 10},
+                   {5, 0, 6, 11}});
 }
 
 /// A prism over a pentagon, one of its sides in two triangles.
@@ -79,8 +99,14 @@ MeshData pentagonPrism() {
         const double angle = 2 * 3.14159265358979 * (i % 5) / 5;
         points.emplace_back(std::cos(angle), std::sin(angle), i / 5);
     }
-    return meshOf(points, {{4, 3, 2, 1, 0}, {5, 6, 7, 8, 9}, {0, 1, 6}, {0, 6, 5}, {1, 2, 7, 6},
-                           {2, 3, 8, 7}, {3, 4, 9, 8}, {4, 0, 5, 9}});
+    return meshOf(points, {{4, 3, 2, 1, 0},
+                           {5, 6, 7, 8, 9},
+                           {0, 1, 6},
+                           {0, 6, 5},
+                           {1, 2, 7, 6},
+                           {2, 3, 8, 7},
+                           {3, 4, 9, 8},
+                           {4, 0, 5, 9}});
 }
 
 MeshData cubeCage() {
@@ -162,15 +188,15 @@ TEST(Tessellation, OfACageWithAllEdgesSharpIsTheCageItself) {
     MeshData cage = cubeCage();
     for (const auto& face : kBoxFacesInwards)
         for (std::size_t k = 0; k < 4; ++k)
-            cage.creases.push_back(
-                {{std::int32_t(face[k]), std::int32_t(face[(k + 1) % 4])}, 10});
+            cage.creases.push_back({{std::int32_t(face[k]), std::int32_t(face[(k + 1) % 4])}, 10});
     EXPECT_NEAR(areaOf(cut(cage, 0.5f, 0.25f)), 24, 1e-4);
 }
 
 TEST(Tessellation, SharesVerticesWhereTheSurfaceIsSmoothOnly) {
     // A flat sheet in two faces is one grid; a box keeps three vertices at each corner.
-    const MeshData sheet = meshOf({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}},
-                                  {{0, 1, 4, 3}, {1, 2, 5, 4}});
+    const MeshData sheet =
+        meshOf({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}},
+               {{0, 1, 4, 3}, {1, 2, 5, 4}});
     EXPECT_EQ(cut(sheet, 1, 0.5f).vertices.size(), 5u * 3);
     EXPECT_EQ(cut(boxData({0, 0, 0}, {1, 1, 1}, false), 1, 1).vertices.size(), 24u);
     const Tessellation smooth = cut(cubeCage(), 1, 0.2f);

@@ -1,7 +1,7 @@
 // Polygons in triangles: the same area, nothing twice.
+#include "radiosity/Triangulate.h"
 #include "radiosity/LightShapes.h"
 #include "radiosity/SurfaceMesh.h"
-#include "radiosity/Triangulate.h"
 #include "tests/scenegraph/RandomParts.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,8 @@ std::vector<std::uint32_t> allOf(const Points& points) {
 
 /// Sum of the triangles' areas, each counted along the polygon's normal: less than the sum of their
 /// sizes if one is turned over.
-double signedArea(const Points& points, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+double signedArea(const Points& points,
+                  const std::vector<std::array<std::uint32_t, 3>>& triangles) {
     const glm::dvec3 normal = glm::normalize(newellNormal(points, allOf(points)));
     double area = 0;
     for (const auto& t : triangles) area += 0.5 * glm::dot(normal, newellNormal(points, t));
@@ -50,7 +51,8 @@ void expectWhole(const Points& points) {
 }
 
 const Points kL{{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}};
-const Points kU{{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {2, 3, 0}, {2, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}};
+const Points kU{{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {2, 3, 0},
+                {2, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}};
 // A square with a square hole, joined by a bridge that is gone along twice.
 const Points kHole{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0},
                    {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}};
@@ -114,7 +116,8 @@ TEST(IsConvex, TellsConvexFromConcaveAndTwiceRound) {
     EXPECT_FALSE(isConvex(kU, allOf(kU)));
     Points star;
     for (int i = 0; i < 5; ++i) // a pentagram turns left at every corner, but twice round
-        star.emplace_back(std::cos(4 * std::numbers::pi * i / 5), std::sin(4 * std::numbers::pi * i / 5), 0);
+        star.emplace_back(std::cos(4 * std::numbers::pi * i / 5),
+                          std::sin(4 * std::numbers::pi * i / 5), 0);
     EXPECT_FALSE(isConvex(star, allOf(star)));
 }
 

@@ -26,9 +26,12 @@ inline std::vector<std::string> csvCells(const std::string& line) {
     std::vector<std::string> cells(1);
     bool quoted = false;
     for (char c : line) {
-        if (c == '"') quoted = !quoted;
-        else if (c == ',' && !quoted) cells.emplace_back();
-        else if (c != '\r') cells.back() += c;
+        if (c == '"')
+            quoted = !quoted;
+        else if (c == ',' && !quoted)
+            cells.emplace_back();
+        else if (c != '\r')
+            cells.back() += c;
     }
     return cells;
 }
@@ -59,11 +62,11 @@ inline std::vector<TruthSensor> readTruth(const std::string& name) {
     std::vector<TruthSensor> sensors;
     for (const auto& row : readCsv(dataFile(name))) {
         const auto number = [&](const char* column) { return std::stof(row.at(column)); };
-        sensors.push_back({{{number("x"), number("y"), number("z")},
-                            {number("nx"), number("ny"), number("nz")}},
-                           {number("r"), number("g"), number("b")},
-                           {number("direct_r"), number("direct_g"), number("direct_b")},
-                           row.at("object")});
+        sensors.push_back(
+            {{{number("x"), number("y"), number("z")}, {number("nx"), number("ny"), number("nz")}},
+             {number("r"), number("g"), number("b")},
+             {number("direct_r"), number("direct_g"), number("direct_b")},
+             row.at("object")});
     }
     return sensors;
 }

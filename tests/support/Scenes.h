@@ -103,7 +103,8 @@ struct Solution {
         solver.solveDirect();
         if (!options.directOnly) solver.solveIndirect();
         lighting = solver.lighting();
-        if (!options.directOnly) DetailGather(built.patches).apply(solver.nodeIlluminance(), lighting);
+        if (!options.directOnly)
+            DetailGather(built.patches).apply(solver.nodeIlluminance(), lighting);
     }
     Solution(const Solution&) = delete;
     Solution& operator=(const Solution&) = delete;

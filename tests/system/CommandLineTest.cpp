@@ -1,0 +1,80 @@
+// The command line: help, exit codes, where words go.
+#include "Program.h"
+
+#include <gmock/gmock.h>
+
+namespace penumbra {
+
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(CommandLine, HelpSaysTheCommandsAndTheExitCodes) {
+    const Outcome help = runPenumbra({"--help"});
+    EXPECT_EQ(help.exitCode, 0);
+    for (const char* word : {"render", "solve", "info", "Exit codes"})
+        EXPECT_THAT(help.out, HasSubstr(word));
+    EXPECT_THAT(help.err, IsEmpty());
+}
+
+TEST(CommandLine, HelpOfACommandSaysItsOptions) {
+    const Outcome render = runPenumbra({"render", "--help"});
+    EXPECT_EQ(render.exitCode, 0);
+    for (const char* word :
+         {"--output", "--patch-size", "--element-size", "--samples", "--residual", "--direct-only",
+          "--threads", "--frame", "--camera", "--stats", "--quality", "--png"})
+        EXPECT_THAT(render.out, HasSubstr(word));
+    const Outcome solve = runPenumbra({"solve", "--help"});
+    EXPECT_EQ(solve.exitCode, 0);
+    for (const char* word : {"--sensors", "--values", "--gather", "--stats"})
+        EXPECT_THAT(solve.out, HasSubstr(word));
+}
+
+TEST(CommandLine, VersionIsOneLine) {
+    const Outcome version = runPenumbra({"--version"});
+    EXPECT_EQ(version.exitCode, 0);
+    EXPECT_THAT(version.out, testing::MatchesRegex("penumbra [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+TEST(CommandLine, ThatIsWrongExitsWithTwoAndPrintsNothingToStandardOutput) {
+    const Workplace here;
+    const std::string room = here.write("room.usda", smallRoom());
+    const std::vector<std::vector<std::string>> wrong{
+        {},
+        {"paint"},
+        {"solve"},
+        {"render", room}, // no -o
+        {"solve", room, "--patch-size", "-1"},
+        {"solve", room, "--patch-size", "wide"},
+        {"solve", room, "--samples", "0"},
+        {"solve", room, "--residual", "2"},
+        {"solve", room, "--threads", "0"},
+        {"solve", room, "--sensors", "a.csv"}, // no --values
+        {"solve", room, "--gather"},           // no --sensors
+        {"solve", room, "--no-such-option"},
+        {"render", room, "-o", here.path("a.exr"), "--quality", "best"},
+        {"render", room, "-o", here.path("a.exr"), "--width", "0"},
+    };
+    for (const auto& arguments : wrong) {
+        const Outcome outcome = runPenumbra(arguments);
+        const std::string line = testing::PrintToString(arguments);
+        EXPECT_EQ(outcome.exitCode, 2) << line;
+        EXPECT_THAT(outcome.out, IsEmpty()) << line;
+        EXPECT_THAT(outcome.err, testing::Not(IsEmpty())) << line;
+    }
+    EXPECT_THAT(here.files(), testing::ElementsAre("room.usda"));
+}
+
+TEST(CommandLine, InfoSaysWhatIsInAScene) {
+    const Workplace here;
+    const Outcome info = runPenumbra({"info", here.write("room.usda", smallRoom())});
+    EXPECT_EQ(info.exitCode, 0);
+    for (const char* word : {"up axis Z", "2 meshes", "1 lamps", "/Lamp", "1 cameras", "/Eye"})
+        EXPECT_THAT(info.out, HasSubstr(word));
+    EXPECT_THAT(info.err, IsEmpty());
+}
+
+} // namespace
+
+} // namespace penumbra
