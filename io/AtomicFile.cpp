@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 constexpr int kMostLinks = 40; ///< followed one after another, as Linux itself does
 
 [[noreturn]] void fail(const std::string& path, int errorNumber) {
-    throw Error(path + ": can't write: " + std::generic_category().message(errorNumber));
+    throw Error(path + ": error: can't write: " + std::generic_category().message(errorNumber));
 }
 
 /// A file descriptor that closes itself.

@@ -161,7 +161,7 @@ std::size_t writeExr(const std::string& path, const FrameLayers& frame, const Vi
         file.setFrameBuffer(pixels);
         file.writePixels(frame.height);
     } catch (const std::exception& exception) {
-        throw Error(path + ": can't write as OpenEXR: " + exception.what());
+        throw Error(path + ": error: can't write as OpenEXR: " + exception.what());
     }
     writeFileAtomically(path, stream.bytes());
     return clamped;

@@ -113,7 +113,7 @@ void writePng(const std::string& path, const FrameLayers& frame, const ToneOptio
     png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
     std::vector<std::byte> file(size);
     if (!png_image_write_to_memory(&image, file.data(), &size, 0, pixels.data(), 0, nullptr))
-        throw Error(path + ": can't write as PNG: " + image.message);
+        throw Error(path + ": error: can't write as PNG: " + image.message);
     file.resize(size);
     writeFileAtomically(path, std::span<const std::byte>(file));
 }

@@ -6,6 +6,7 @@
 #include "radiosity/RayScene.h"
 #include "radiosity/SurfaceMesh.h"
 #include "radiosity/Tessellation.h"
+#include "scenegraph/Error.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Mesh.h"
 
@@ -71,40 +72,91 @@ double litArea(const std::vector<Surface>& surfaces) {
     return area;
 }
 
-/// Emissive faces of one mesh and material are one emitter, in bundles that stay cheap to evaluate.
+/// Collects emissive polygons as emitters. Small ones that lie close together, like the faces of a
+/// bulb, are one; large ones are cut, so that each is seen mildly by most of what it lights.
+class EmitterCollector {
+public:
+    EmitterCollector(const Surface& surface, float patchSize, double emissiveArea, PatchSet& out)
+        : surface_(surface), small_(2 * patchSize),
+          large_(std::max(2 * patchSize, float(std::sqrt(emissiveArea / 32)))), out_(out) {}
+
+    void add(const Material& material, const std::vector<glm::vec3>& outline) {
+        if (outline.size() != 4) return addPiece(material, outline);
+        const auto parts = [&](float a, float b) {
+            return std::max(1, int(std::ceil(std::max(a, b) / large_ - 1e-3f)));
+        };
+        const auto& q = outline;
+        const int nu = parts(glm::distance(q[0], q[1]), glm::distance(q[3], q[2]));
+        const int nv = parts(glm::distance(q[0], q[3]), glm::distance(q[1], q[2]));
+        const auto at = [&](int i, int j) {
+            const float s = float(i) / float(nu), t = float(j) / float(nv);
+            return glm::mix(glm::mix(q[0], q[1], s), glm::mix(q[3], q[2], s), t);
+        };
+        for (int j = 0; j < nv; ++j)
+            for (int i = 0; i < nu; ++i)
+                addPiece(material, {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+
+private:
+    void addPiece(const Material& material, std::vector<glm::vec3> outline) {
+        constexpr std::size_t kMostPolygons = 64;
+        const double area = polygonArea(outline);
+        if (!(area > 0)) return;
+        Group& group = groups_[&material];
+        Bounds grown = group.bounds;
+        for (glm::vec3 point : outline) grown.add(point);
+        const bool fits =
+            group.count > 0 && group.count < kMostPolygons && grown.diagonal() <= small_;
+        if (!fits) {
+            group = {out_.emitters.size(), 0, {}};
+            for (glm::vec3 point : outline) group.bounds.add(point);
+            Emitter emitter;
+            emitter.exitance = std::numbers::pi_v<float> * material.emission();
+            emitter.object = surface_.object;
+            emitter.path = surface_.path;
+            out_.emitters.push_back(std::move(emitter));
+        } else {
+            group.bounds = grown;
+        }
+        ++group.count;
+        Emitter& emitter = out_.emitters[group.emitter];
+        emitter.area += area;
+        emitter.polygons.push_back(std::move(outline));
+    }
+
+    struct Group {
+        std::size_t emitter = 0, count = 0;
+        Bounds bounds;
+    };
+    const Surface& surface_;
+    float small_, large_; ///< [m]
+    PatchSet& out_;
+    std::map<const Material*, Group> groups_;
+};
+
 void addEmitters(const Surface& surface, const Tessellation& tessellation, PatchSet& out) {
     if (surface.light) {
         if (maxChannel(surface.light->luminance()) <= 0) return;
         Emitter emitter = lightEmitter(*surface.light, surface.toWorld);
+        if (!(emitter.area > 0)) return;
         emitter.object = surface.object;
         emitter.path = surface.path;
         out.emitters.push_back(std::move(emitter));
         return;
     }
-    constexpr std::size_t kMostPolygons = 64;
-    std::map<const Material*, std::size_t> open;
-    const auto emit = [&](const Material& material, std::vector<glm::vec3> outline) {
-        const auto [found, fresh] = open.try_emplace(&material, out.emitters.size());
-        if (fresh || out.emitters[found->second].polygons.size() >= kMostPolygons) {
-            Emitter emitter;
-            emitter.exitance = std::numbers::pi_v<float> * material.emission();
-            emitter.object = surface.object;
-            emitter.path = surface.path;
-            found->second = out.emitters.size();
-            out.emitters.push_back(std::move(emitter));
-        }
-        Emitter& emitter = out.emitters[found->second];
-        emitter.area += polygonArea(outline);
-        emitter.polygons.push_back(std::move(outline));
-    };
     const SurfaceMesh& mesh = surface.mesh;
+    double area = 0;
+    for (const SurfaceFace& face : mesh.faces)
+        if (materialOf(mesh, face).emissive())
+            area += 0.5 * glm::length(newellNormal(mesh.points, mesh.cornersOf(face)));
+    EmitterCollector collector(surface, out.patchSize, area, out);
     if (!mesh.subdivided()) {
         for (const SurfaceFace& face : mesh.faces) {
             if (!materialOf(mesh, face).emissive()) continue;
             std::vector<glm::vec3> outline;
             for (std::uint32_t corner : mesh.cornersOf(face))
                 outline.push_back(mesh.points[corner]);
-            emit(materialOf(mesh, face), std::move(outline));
+            collector.add(materialOf(mesh, face), outline);
         }
         return;
     }
@@ -112,8 +164,20 @@ void addEmitters(const Surface& surface, const Tessellation& tessellation, Patch
         const Material& material = materialOf(mesh, mesh.faces[cell.face]);
         if (!material.emissive()) continue;
         const auto first = tessellation.outline.begin() + cell.firstCorner;
-        emit(material, {first, first + cell.cornerCount});
+        collector.add(material, {first, first + cell.cornerCount});
     }
+}
+
+/// Stops before a slip of a digit fills the memory or overflows the ray tracer's single precision.
+void refuseTooMuch(const PatchSet& set, double area) {
+    constexpr double kWidest = 1e7; // [m]
+    constexpr double kMostElements = 5e7;
+    if (!(set.bounds.diagonal() < kWidest))
+        throw Error("the scene is more than 10,000 km wide (check its points and metersPerUnit)");
+    const double elements = area / (double(set.elementSize) * set.elementSize);
+    if (elements > kMostElements)
+        throw Error("this would make some " + std::to_string(std::int64_t(elements / 1e6)) +
+                    " million elements (choose a larger --element-size)");
 }
 
 } // namespace
@@ -143,6 +207,7 @@ BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& option
     out.patchSize = options.patchSize > 0 ? options.patchSize : defaultPatchSize(litArea(surfaces));
     out.elementSize = options.elementSize > 0 ? options.elementSize : out.patchSize / 8;
     out.patchSize = std::max(out.patchSize, out.elementSize);
+    refuseTooMuch(out, litArea(surfaces));
     out.skin = std::max(1e-5f * out.bounds.diagonal(), 1e-7f);
     out.rayMeshes.resize(scene.objects.size());
     for (const Object& object : scene.objects) out.objectPaths.push_back(object.path);

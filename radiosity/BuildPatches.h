@@ -23,6 +23,7 @@ struct BuiltPatches {
 
 /// Meshes what is visible in `scene`: surfaces are cut into patches and elements, corners that lie
 /// under or inside of something are told from those that lie free, lamps become emitters.
+/// \throws Error if the scene is too wide to trace rays in, or would make too many elements
 BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& options = {});
 
 /// sqrt(area / 1650), so that a room has some thousand patches whether it is half a metre wide or

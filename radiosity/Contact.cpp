@@ -16,6 +16,8 @@ constexpr float kPullIn = 0.02f;
 constexpr float kCover = 0.05f;
 /// Steps of the search for the end of the free way from the middle to a corner.
 constexpr int kBisections = 6;
+/// Points a side that are tried when neither the middle nor a corner of an element is free.
+constexpr int kGrid = 5;
 
 class ContactResolver {
 public:
@@ -44,6 +46,13 @@ public:
         result.free = isFree(anchor, frame.normal, cover);
         for (std::size_t i = 0; !result.free && i < frame.count; ++i)
             if (cornerFree[i]) anchor = corner[i], result.free = true;
+        for (int i = 0; !result.free && i < kGrid * kGrid;
+             ++i) { // a slit between things that lie on it
+            const glm::vec3 p = pointOf(element, (float(i % kGrid) + 0.5f) / kGrid,
+                                        (float(i / kGrid) + 0.5f) / kGrid) +
+                                skin_ * frame.normal;
+            if (isFree(p, frame.normal, cover)) anchor = p, result.free = true;
+        }
         if (!result.free) return result;
         for (std::size_t i = 0; i < frame.count; ++i) {
             if (cornerFree[i] && (corner[i] == anchor || !rays_.occluded(anchor, corner[i])))
@@ -79,6 +88,12 @@ private:
             frame.size =
                 std::max(frame.size, glm::distance(frame.middle, vertex(element, i).position));
         return frame;
+    }
+    /// Bilinear; of a triangle, whose last two corners are the same, it is a point of the triangle
+    /// too.
+    glm::vec3 pointOf(const Element& element, float s, float t) const {
+        return glm::mix(glm::mix(vertex(element, 0).position, vertex(element, 1).position, s),
+                        glm::mix(vertex(element, 3).position, vertex(element, 2).position, s), t);
     }
     const Vertex& vertex(const Element& element, std::size_t i) const {
         return vertices_[element.vertices[i]];

@@ -135,6 +135,19 @@ Far::TopologyRefiner* makeRefiner(const SurfaceMesh& mesh) {
     return Factory::Create(descriptor, Factory::Options(scheme, options));
 }
 
+constexpr std::uint32_t kMostValence = 100; ///< OpenSubdiv's effort grows with its cube
+
+std::uint32_t highestValence(const SurfaceMesh& mesh) {
+    std::vector<std::uint32_t> valence(mesh.points.size());
+    std::uint32_t highest = 0;
+    for (const SurfaceFace& face : mesh.faces) {
+        highest = std::max(highest, face.cornerCount);
+        for (std::uint32_t corner : mesh.cornersOf(face))
+            highest = std::max(highest, ++valence[corner]);
+    }
+    return highest;
+}
+
 /// Keeps OpenSubdiv's complaints off standard error: the caller says it in one line of its own.
 void ignoreFarMessage(Far::ErrorType, const char*) {}
 void ignoreFarWarning(const char*) {}
@@ -265,6 +278,10 @@ struct LimitSurface::Refined {
 
 LimitSurface::LimitSurface(const SurfaceMesh& mesh) : mesh_(mesh) {
     if (!mesh.subdivided() || mesh.faces.empty()) return;
+    if (highestValence(mesh) > kMostValence) {
+        understood_ = false;
+        return;
+    }
     Far::SetErrorCallback(ignoreFarMessage);
     Far::SetWarningCallback(ignoreFarWarning);
     if (Far::TopologyRefiner* refiner = makeRefiner(mesh))

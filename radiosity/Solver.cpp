@@ -171,8 +171,17 @@ double Solver::target() const {
 
 bool Solver::settled() const {
     if (statistics_.residual == 0) return true;
-    if (options_.mostShots > 0 && statistics_.shots >= options_.mostShots) return true;
     return statistics_.certificate <= target();
+}
+
+/// A shot visits every node: the limit keeps shots times nodes in bounds.
+bool Solver::spent() const {
+    constexpr std::uint64_t kMostVisits = 3'000'000'000;
+    std::uint64_t most = options_.mostShots;
+    if (most == 0 && options_.residual == 0)
+        most = std::max<std::uint64_t>(2000,
+                                       kMostVisits / std::max<std::size_t>(1, set_.nodes.size()));
+    return most > 0 && statistics_.shots >= most;
 }
 
 std::vector<std::uint32_t> Solver::chooseSenders() const {
@@ -282,7 +291,7 @@ void Solver::solveIndirect(const Progress& progress) {
     const double start = seconds();
     findReached();
     double first = 0;
-    while (!settled()) {
+    while (!settled() && !spent()) {
         const std::vector<std::uint32_t> senders = chooseSenders();
         if (senders.empty()) break;
         shoot(senders);
@@ -293,6 +302,7 @@ void Solver::solveIndirect(const Progress& progress) {
         progress("indirect light",
                  span > 0 ? std::log(first / statistics_.certificate) / span : 1.0);
     }
+    statistics_.settled = settled();
     statistics_.indirectSeconds = seconds() - start;
 }
 

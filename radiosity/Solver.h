@@ -22,7 +22,8 @@ struct SolverOptions {
     /// with.
     double residual = 0;
     bool directOnly = false;
-    std::uint64_t mostShots = 0; ///< 0: no limit
+    /// 0: no limit if `residual` is given, else what keeps a scene of very many patches to minutes.
+    std::uint64_t mostShots = 0;
     std::size_t rowMemory =
         2'000'000'000; ///< for rows of patches [bytes]; beyond it they are not kept
 };
@@ -32,6 +33,7 @@ using Progress = std::function<void(const char* phase, double done)>;
 
 struct SolveStatistics {
     std::uint64_t shots = 0;
+    bool settled = false; ///< whether the limit was met, or relaxation stopped before
     std::uint64_t directRays = 0, indirectRays = 0;
     double residual = 0;      ///< max |R| over patches and channels [lm/m^2]
     double certificate = 0;   ///< bound of |B_exact - B| for the meshed scene [lm/m^2]
@@ -82,6 +84,7 @@ private:
     glm::dvec3 received(std::uint32_t patch) const;
     void updateResiduals();
     bool settled() const;
+    bool spent() const;
     std::vector<std::uint32_t> chooseSenders() const;
     void shoot(const std::vector<std::uint32_t>& senders);
     void averageDirect();

@@ -1,6 +1,7 @@
 #include "io/UsdScene.h"
 #include "radiosity/LightShapes.h"
 #include "scenegraph/Camera.h"
+#include "scenegraph/Error.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Mesh.h"
 #include "scenegraph/Objects.h"
@@ -69,7 +70,8 @@ void run(const InfoCommand& command) {
         for (std::size_t i = 0; i < placed.objects.size(); ++i)
             fmt::print("  object {:>4} {}{}\n", i, placed.objects[i].path,
                        placed.objects[i].movable ? " (movable)" : "");
-    std::fflush(stdout);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout))
+        throw Error("standard output: error: can't be written");
     reportDiagnostics(loaded.diagnostics, command.verbose);
 }
 

@@ -80,16 +80,6 @@ ExrMetadata metadata(const RenderCommand& command, const SceneSolution& solution
     return data;
 }
 
-/// Fails early when the picture could not be written in the end.
-void checkOutput(const std::string& path) {
-    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    if (!folder.empty() && !std::filesystem::is_directory(folder))
-        throw Error(fmt::format("{}: error: can't write: no folder '{}' (create it first)", path,
-                                folder.string()));
-    if (std::filesystem::is_directory(path))
-        throw Error(fmt::format("{}: error: can't write: is a folder (name a file)", path));
-}
-
 FrameLayers draw(const RenderCommand& command, SceneSolution& solution, const View& view) {
     if (command.quality == "final") {
         FinalOptions options;
@@ -105,8 +95,7 @@ FrameLayers draw(const RenderCommand& command, SceneSolution& solution, const Vi
 
 void run(RenderCommand command) {
     const ThreadLimit limit(command.solve.threads);
-    checkOutput(command.output);
-    if (!command.png.empty()) checkOutput(command.png);
+    checkOutputs(command.solve.scene, {command.output, command.png, command.solve.stats});
     SceneSolution solution(command.solve);
     const View view = chooseView(command, solution);
     const FrameLayers frame = solution.timed("draw", [&] { return draw(command, solution, view); });

@@ -6,8 +6,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 
 namespace penumbra {
 
@@ -22,7 +24,13 @@ double now() {
 
 void addSolveOptions(CLI::App& command, SolveSettings& settings) {
     command.add_option("SCENE", settings.scene, "USD text file (.usda) to light")->required();
-    const auto positive = CLI::Range(1e-6, 1e6);
+    const auto number = CLI::Validator( // CLI::Range lets nan pass
+        [](std::string& text) {
+            return text.find_first_of("nN") == std::string::npos ? ""
+                                                                 : "'" + text + "' is no number";
+        },
+        "");
+    const auto positive = number & CLI::Range(1e-6, 1e6);
     command
         .add_option("--patch-size", settings.meshing.patchSize,
                     "Longest edge of a patch, which sends light [m]\n"
@@ -43,11 +51,13 @@ void addSolveOptions(CLI::App& command, SolveSettings& settings) {
                     "Relax until the certificate, the bound of what the picture may still be\n"
                     "wrong by, is below this share of the brightest emitter's exitance\n"
                     "(default: until it is below 1 % of the mean radiosity)")
-        ->check(CLI::Range(1e-9, 1.0));
+        ->check(number & CLI::Range(1e-9, 1.0));
     command.add_flag("--direct-only", settings.solver.directOnly,
                      "Light straight from the emitters, no interreflection");
-    command.add_option("--frame", settings.frame,
-                       "Time code of the file's animation to show (default: its start)");
+    command
+        .add_option("--frame", settings.frame,
+                    "Time code of the file's animation to show (default: its start)")
+        ->check(number);
     command.add_option("--threads", settings.threads, "Threads to use (default: one a core)")
         ->check(CLI::Range(1u, 1024u));
     command.add_option("--stats", settings.stats, "Write counts and times to this file, as JSON");
@@ -55,6 +65,25 @@ void addSolveOptions(CLI::App& command, SolveSettings& settings) {
     command.add_flag("--progress", settings.progress,
                      "Show progress even when standard error is no terminal");
     command.add_flag("--quiet", settings.quiet, "Show neither progress nor a summary");
+}
+
+void checkOutputs(const std::string& scene, const std::vector<std::string>& outputs) {
+    namespace fs = std::filesystem;
+    std::vector<fs::path> taken{fs::weakly_canonical(scene)};
+    for (const std::string& output : outputs) {
+        if (output.empty() || output == "-") continue;
+        const fs::path folder = fs::path(output).parent_path();
+        if (!folder.empty() && !fs::is_directory(folder))
+            throw Error(fmt::format("{}: error: can't write: no folder '{}' (create it first)",
+                                    output, folder.string()));
+        if (fs::is_directory(output))
+            throw Error(fmt::format("{}: error: can't write: is a folder (name a file)", output));
+        const fs::path place = fs::weakly_canonical(output);
+        if (std::find(taken.begin(), taken.end(), place) != taken.end() &&
+            fs::path(output) != "/dev/null")
+            throw CLI::ValidationError(output, "would overwrite the scene or another result");
+        taken.push_back(place);
+    }
 }
 
 void reportDiagnostics(const std::vector<Diagnostic>& diagnostics, bool verbose) {
@@ -90,7 +119,14 @@ SceneSolution::SceneSolution(const SolveSettings& settings)
                              "nothing to light: no visible mesh that can be read");
 
     progress_.show("meshing", 0);
-    built_ = timed("mesh", [&] { return buildPatches(placed_, settings.meshing); });
+    built_ = timed("mesh", [&] {
+        try {
+            return buildPatches(placed_, settings.meshing);
+        } catch (const Error& error) {
+            progress_.clear();
+            throw SceneFileError({settings.scene}, error.what());
+        }
+    });
     progress_.clear();
     if (!settings.quiet)
         for (const std::string& warning : built_.warnings)
@@ -110,6 +146,14 @@ SceneSolution::SceneSolution(const SolveSettings& settings)
             DetailGather(built_.patches).apply(solver_->nodeIlluminance(), lighting_);
         });
     progress_.clear();
+    const SolveStatistics s = solver_->statistics();
+    if (!settings.quiet && !settings.solver.directOnly && !s.settled)
+        std::fprintf(
+            stderr,
+            "%s: warning: so many patches (%zu) that relaxation was stopped after %llu shots; an "
+            "ambient estimate stands for the rest (--residual goes on to the end)\n",
+            settings.scene.c_str(), built_.patches.patches.size(),
+            static_cast<unsigned long long>(s.shots));
 }
 
 } // namespace penumbra

@@ -37,6 +37,11 @@ struct SolveSettings {
 /// Adds the shared options to a command; `settings` must outlive the parsing.
 void addSolveOptions(CLI::App& command, SolveSettings& settings);
 
+/// Fails before the work when a result could not be written after it: no such folder, a folder in
+/// its place; or when it would take the place of the scene or of another result (a wrong command
+/// line). \param outputs paths, empty ones are left out \throws Error, CLI::ValidationError
+void checkOutputs(const std::string& scene, const std::vector<std::string>& outputs);
+
 /// Prints to standard error what the reader had to say: one summary line, or every line.
 void reportDiagnostics(const std::vector<Diagnostic>& diagnostics, bool verbose);
 

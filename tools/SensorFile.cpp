@@ -51,6 +51,7 @@ std::vector<Receiver> readSensors(const std::string& path) {
     if (!file) throw SceneFileError({path}, "can't be read (does it exist?)");
     std::string line;
     std::getline(file, line);
+    if (line.starts_with("\xef\xbb\xbf")) line.erase(0, 3); // what some spreadsheets begin with
     std::array<std::size_t, 6> column;
     const auto header = cells(line);
     for (std::size_t i = 0; i < 6; ++i) {
@@ -73,6 +74,8 @@ std::vector<Receiver> readSensors(const std::string& path) {
                                      fmt::format("too few values: no '{}'", kColumns[i]));
             v[i] = number(fields[column[i]], {path, row});
         }
+        if (std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])}) > 1e7f)
+            throw SceneFileError({path, row}, "the sensor is more than 10,000 km away");
         const glm::vec3 normal(v[3], v[4], v[5]);
         if (!(glm::length(normal) > 0)) throw SceneFileError({path, row}, "the normal is zero");
         sensors.push_back({{v[0], v[1], v[2]}, glm::normalize(normal)});

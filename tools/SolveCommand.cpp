@@ -41,7 +41,7 @@ std::vector<Rgb> readSensorValues(SceneSolution& solution, const std::vector<Rec
             if (lie == Lie::buried) continue; // no light gets there
             if (!gather && lie == Lie::free) {
                 const auto drawn = surface.under(sensors[i].position, sensors[i].normal);
-                if (drawn) {
+                if (drawn && patches.elements[drawn->element].patch != Element::kNone) {
                     values[i] = drawn->direct + drawn->indirect;
                     continue;
                 }
@@ -55,6 +55,7 @@ std::vector<Rgb> readSensorValues(SceneSolution& solution, const std::vector<Rec
 
 void run(const SolveCommand& command) {
     const ThreadLimit limit(command.solve.threads);
+    checkOutputs(command.solve.scene, {command.sensors, command.values, command.solve.stats});
     std::vector<Receiver> sensors; // read first: a wrong list should not cost a solution
     if (!command.sensors.empty()) sensors = readSensors(command.sensors);
     SceneSolution solution(command.solve);

@@ -61,14 +61,14 @@ TEST(AtomicFile, LeavesTheOldFileAndNothingElseWhenTheDiskIsFull) {
         const FileSizeLimit limit(1000);
         error = errorOf(path, std::string(5000, 'x'));
     }
-    EXPECT_THAT(error, AllOf(StartsWith(path + ": can't write: "), Not(HasSubstr("\n"))));
+    EXPECT_THAT(error, AllOf(StartsWith(path + ": error: can't write: "), Not(HasSubstr("\n"))));
     EXPECT_EQ(contentOf(path), "precious");
     EXPECT_EQ(folder.fileCount(), 1);
 }
 
 TEST(AtomicFile, SaysThatTheFolderIsMissing) {
     EXPECT_EQ(errorOf("/nonexistent/a.txt", "x"),
-              "/nonexistent/a.txt: can't write: No such file or directory");
+              "/nonexistent/a.txt: error: can't write: No such file or directory");
 }
 
 TEST(AtomicFile, SaysThatTheFolderMayNotBeWritten) {
@@ -87,7 +87,7 @@ TEST(AtomicFile, RefusesAFolderAsTarget) {
 
 TEST(AtomicFile, NeverReplacesADevice) {
     // /dev/full takes no byte: writing to it fails as a full disk does.
-    EXPECT_EQ(errorOf("/dev/full", "x"), "/dev/full: can't write: No space left on device");
+    EXPECT_EQ(errorOf("/dev/full", "x"), "/dev/full: error: can't write: No space left on device");
     EXPECT_EQ(errorOf("/dev/null", "x"), "");
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }

@@ -182,7 +182,7 @@ TEST(ExrWriter, ErrorsAreOneLineAndBeginWithTheFile) {
         writeExr("/nonexistent/a.exr", sampleFrame(), sampleView());
         FAIL();
     } catch (const Error& error) {
-        EXPECT_STREQ(error.what(), "/nonexistent/a.exr: can't write: No such file or directory");
+        EXPECT_STREQ(error.what(), "/nonexistent/a.exr: error: can't write: No such file or directory");
     }
     const TemporaryFolder folder;
     ExrMetadata clash; // an attribute that OpenEXR itself needs, with another type

@@ -153,7 +153,7 @@ TEST_F(BadInput, ASceneOfNothingIsRefused) {
 }
 
 TEST_F(BadInput, HugeAndTinyScenesAreLitOrRefusedButDoNotCrash) {
-    for (const char* size : {"1e-30", "1e-12", "1e12"}) {
+    for (const char* size : {"1e-30", "1e-12", "1e12", "1e30", "3e38"}) {
         const std::string s = size;
         const Outcome outcome = runPenumbra(
             {"solve",

@@ -49,6 +49,8 @@ TEST(CommandLine, ThatIsWrongExitsWithTwoAndPrintsNothingToStandardOutput) {
         {"solve", room, "--patch-size", "wide"},
         {"solve", room, "--samples", "0"},
         {"solve", room, "--residual", "2"},
+        {"solve", room, "--residual", "nan"},
+        {"solve", room, "--patch-size", "nan"},
         {"solve", room, "--threads", "0"},
         {"solve", room, "--sensors", "a.csv"}, // no --values
         {"solve", room, "--gather"},           // no --sensors
