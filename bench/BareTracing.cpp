@@ -25,7 +25,8 @@ struct EmbreePacket {
 } // namespace
 
 struct BareTracing::EmbreeScene {
-    RTCDevice device = rtcNewDevice("threads=1");
+    // Not "threads=1": Embree on TBB then limits every parallel loop of the process to one thread.
+    RTCDevice device = rtcNewDevice(nullptr);
     RTCScene scene = rtcNewScene(device);
     float margin = 0; ///< segments end this much before their target [m], as RayScene's do
 
