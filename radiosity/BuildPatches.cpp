@@ -78,7 +78,7 @@ class EmitterCollector {
 public:
     EmitterCollector(const Surface& surface, float patchSize, double emissiveArea, PatchSet& out)
         : surface_(surface), small_(2 * patchSize),
-          large_(std::max(2 * patchSize, float(std::sqrt(emissiveArea / 32)))), out_(out) {}
+          large_(std::max(4 * patchSize, float(std::sqrt(emissiveArea / 32)))), out_(out) {}
 
     void add(const Material& material, const std::vector<glm::vec3>& outline) {
         if (outline.size() != 4) return addPiece(material, outline);

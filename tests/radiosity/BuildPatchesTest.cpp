@@ -103,14 +103,24 @@ TEST(BuildPatches, MakesEmittersOfLampsAndOfGlowingFaces) {
     MeshData glowing = boxData({0, 0, 0}, {1, 1, 1}, false, paint(Rgb(0.0f)));
     glowing.materials.push_back(paint(Rgb(0.5f), {2, 2, 2}));
     glowing.faceMaterial = {0, 1, 0, 0, 1, 0}; // two faces of 1 m^2
-    const PatchSet set =
-        meshed(sceneOf({object("glow", glowing), ceilingLamp({0, 0, 3}, 1, 2)})).patches;
-    ASSERT_EQ(set.emitters.size(), 2u);
-    EXPECT_EQ(set.emitters[0].polygons.size(), 2u);
-    EXPECT_NEAR(set.emitters[0].area, 2, 1e-6);
-    EXPECT_FLOAT_EQ(set.emitters[0].exitance.r, 2 * std::numbers::pi_v<float>);
-    EXPECT_EQ(set.emitters[0].path, "/glow/mesh");
-    EXPECT_NEAR(set.emitters[1].area, 2, 1e-6);
+    const auto scene = sceneOf({object("glow", glowing), ceilingLamp({0, 0, 3}, 1, 2)});
+
+    // With large patches the two faces are one emitter, like those of a bulb.
+    const PatchSet coarse = meshed(scene, {.patchSize = 1, .elementSize = 0.5f}).patches;
+    ASSERT_EQ(coarse.emitters.size(), 2u);
+    EXPECT_EQ(coarse.emitters[0].polygons.size(), 2u);
+    EXPECT_NEAR(coarse.emitters[0].area, 2, 1e-6);
+    EXPECT_FLOAT_EQ(coarse.emitters[0].exitance.r, 2 * std::numbers::pi_v<float>);
+    EXPECT_EQ(coarse.emitters[0].path, "/glow/mesh");
+    EXPECT_NEAR(coarse.emitters[1].area, 2, 1e-6);
+
+    // With small ones they are large senders and are cut; nothing is lost.
+    const PatchSet fine = meshed(scene, {.patchSize = 0.1f, .elementSize = 0.1f}).patches;
+    double area = 0;
+    for (const Emitter& emitter : fine.emitters)
+        if (emitter.path == "/glow/mesh") area += emitter.area;
+    EXPECT_GT(fine.emitters.size(), 3u);
+    EXPECT_NEAR(area, 2, 1e-5);
 }
 
 TEST(BuildPatches, WarnsOnceOfFacesLeftOutAndOfDarkness) {
