@@ -55,7 +55,12 @@ struct RayScene::Impl {
     RTCScene scene = nullptr;
 
     Impl() {
-        device = rtcNewDevice("threads=1");
+        // Embree builds on oneTBB's threads. A number of threads given here would limit the whole process.
+#ifdef PENUMBRA_STD_THREADS
+        device = rtcNewDevice("threads=1"); // oneTBB stays out of a build for ThreadSanitizer
+#else
+        device = rtcNewDevice(nullptr);
+#endif
         if (!device)
             throw Error("ray tracing: Embree can't start on this processor (SSE2 is needed)");
         scene = rtcNewScene(device);

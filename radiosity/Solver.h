@@ -25,7 +25,7 @@ struct SolverOptions {
     /// 0: no limit if `residual` is given, else what keeps a scene of very many patches to minutes.
     std::uint64_t mostShots = 0;
     std::size_t rowMemory =
-        2'000'000'000; ///< for rows of patches [bytes]; beyond it they are not kept
+        1'000'000'000; ///< for rows of patches [bytes]; beyond it they are not kept
 };
 
 /// Called now and then with the phase's name and the share done in [0, 1].
