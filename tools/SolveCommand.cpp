@@ -70,13 +70,12 @@ void run(const SolveCommand& command) {
     if (command.solve.quiet || command.values == "-") return;
     const SolveStatistics s = solution.solver().statistics();
     const PatchSet& patches = solution.patches();
-    fmt::print(
-        stderr,
-        "{} patches, {} elements, {} emitters; {:.1f} M rays, {} shots in {:.1f} s; the light is "
-        "exact to {:.3g} lm/m2 (mean {:.3g})\n",
-        patches.patches.size(), patches.elements.size(), patches.emitters.size(),
-        double(s.directRays + s.indirectRays) * 1e-6, s.shots, s.directSeconds + s.indirectSeconds,
-        s.certificate, s.meanRadiosity);
+    fmt::print(stderr,
+               "{} patches, {} elements, {} emitters; {:.1f} M rays, {} shots in {:.1f} s; relaxed "
+               "to within {:.3g} lm/m2 (mean {:.3g})\n",
+               patches.patches.size(), patches.elements.size(), patches.emitters.size(),
+               double(s.directRays + s.indirectRays) * 1e-6, s.shots,
+               s.directSeconds + s.indirectSeconds, s.certificate, s.meanRadiosity);
 }
 
 } // namespace
