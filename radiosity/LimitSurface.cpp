@@ -218,32 +218,29 @@ glm::vec2 FaceSurface::subFaceCoordinate(int subFace, glm::vec2 point) const {
     return st;
 }
 
+std::array<SurfacePoint, FaceSurface::kChords + 1> FaceSurface::alongEdge(int edge) const {
+    std::array<SurfacePoint, kChords + 1> points;
+    for (std::size_t i = 0; i < kChords; ++i)
+        points[i] = at(edgeCoord(edge, float(i) / float(kChords)));
+    // The end of an edge is the start of the next: the domain may jump in between.
+    points[kChords] = at(vertexCoord((edge + 1) % size_));
+    return points;
+}
+
 float FaceSurface::edgeLength(int edge) const {
-    constexpr int kChords = 4;
+    const auto points = alongEdge(edge);
     float length = 0;
-    glm::vec3 last = at(edgeCoord(edge, 0)).position;
-    for (int i = 1; i <= kChords; ++i) {
-        // The end of an edge is the start of the next: the domain may jump in between.
-        const glm::vec2 uv =
-            i < kChords ? edgeCoord(edge, float(i) / kChords) : vertexCoord((edge + 1) % size_);
-        const glm::vec3 next = at(uv).position;
-        length += glm::distance(last, next);
-        last = next;
-    }
+    for (std::size_t i = 0; i < kChords; ++i)
+        length += glm::distance(points[i].position, points[i + 1].position);
     return length;
 }
 
 float FaceSurface::edgeBend(int edge) const {
-    constexpr int kChords = 4;
+    const auto points = alongEdge(edge);
     float bend = 0;
-    glm::vec3 last = at(edgeCoord(edge, 0)).normal;
-    for (int i = 1; i <= kChords; ++i) {
-        const glm::vec2 uv =
-            i < kChords ? edgeCoord(edge, float(i) / kChords) : vertexCoord((edge + 1) % size_);
-        const glm::vec3 next = at(uv).normal;
-        bend += std::acos(std::clamp(glm::dot(last, next), -1.0f, 1.0f));
-        last = next;
-    }
+    for (std::size_t i = 0; i < kChords; ++i)
+        bend +=
+            std::acos(std::clamp(glm::dot(points[i].normal, points[i + 1].normal), -1.0f, 1.0f));
     return bend;
 }
 

@@ -60,6 +60,9 @@ protected:
     explicit FaceSurface(int size) : size_(size) {}
 
 private:
+    static constexpr std::size_t kChords = 4;
+    std::array<SurfacePoint, kChords + 1>
+    alongEdge(int edge) const;                        ///< its ends and points between
     std::array<glm::vec2, 4> kite(int subFace) const; ///< outline of a sub-face in the layout
     int size_;
 };
