@@ -71,7 +71,7 @@ def shell(scene):
 def plinth(scene, name, x, y, w, h, d=None, turn=0):
     """White pedestal with a shadow gap at its foot."""
     d = d or w
-    obj = scene.object(name, (x, y, 0), turn, movable=False)
+    obj = scene.object(name, (x, y, 0), turn)
     obj.add("Basalt", block((0, 0, 0), (w - 0.06, d - 0.06, 0.03)))
     obj.add("Plinth", block((0, 0, 0.03), (w, d, h - 0.03)))
     return h
