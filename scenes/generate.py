@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 """Writes the committed scene files, the same bytes each time.
 
-    python3 scenes/generate.py            write all scenes beside this file
+    python3 scenes/generate.py            write all scenes and their layers beside this file
     python3 scenes/generate.py --check    compare and validate only; exit 1 on any difference
-    python3 scenes/generate.py --stats    counts and areas as a Markdown table
+    python3 scenes/generate.py --stats    counts and areas as Markdown tables
 """
 
 import argparse
 import pathlib
 import sys
 
-from scenegen import check_model, check_text, gallery, office, small
+from scenegen import check_model, check_motion, check_text, gallery, office, small, walkthroughs
 from scenegen.subdivision import subdivide
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -34,13 +34,26 @@ def stats(scenes):
               f"| {lights} | {surface_area(scene):.1f} | {len(scene.text())} |")
 
 
-def check(scenes):
+def layer_stats(layers):
+    print("\n| layer | frames | a second | moves | bytes |")
+    print("| --- | ---: | ---: | --- | ---: |")
+    for layer in layers:
+        moves = [f"`{name}`" for name in [*layer.eyes, *layer.poses]]
+        moves += [f"`{name}`'s light" for name, _ in layer.lights]
+        print(f"| `{layer.name}.usda` | {len(layer.frames)} | {layer.per_second} "
+              f"| {', '.join(moves)} | {len(layer.text())} |")
+
+
+def check(scenes, layers):
     problems = []
-    for scene in scenes:
-        text, path = scene.text(), HERE / f"{scene.name}.usda"
-        if not path.exists() or path.read_bytes() != text.encode():
+    for written in scenes + layers:
+        path = HERE / f"{written.name}.usda"
+        if not path.exists() or path.read_bytes() != written.text().encode():
             problems.append(f"{path.name}: differs from what generate.py writes")
-        problems += check_text.complaints(scene.name, text) + check_model.complaints(scene)
+    for scene in scenes:
+        problems += check_text.complaints(scene.name, scene.text()) + check_model.complaints(scene)
+    for layer in layers:
+        problems += check_motion.complaints(layer)
     for problem in problems:
         print(problem, file=sys.stderr)
     return 1 if problems else 0
@@ -53,13 +66,15 @@ def main():
     parser.add_argument("--stats", action="store_true", help="write nothing, print counts")
     options = parser.parse_args()
     scenes = [build() for build in SCENES]
+    layers = walkthroughs.build({scene.name: scene for scene in scenes})
     if options.stats:
         stats(scenes)
+        layer_stats(layers)
     elif options.check:
-        return check(scenes)
+        return check(scenes, layers)
     else:
-        for scene in scenes:
-            (HERE / f"{scene.name}.usda").write_bytes(scene.text().encode())
+        for written in scenes + layers:
+            (HERE / f"{written.name}.usda").write_bytes(written.text().encode())
     return 0
 
 

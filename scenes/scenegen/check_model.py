@@ -120,21 +120,29 @@ def contact_complaints(scene):
     touching, found = set(), []
     for i, a in enumerate(bodies):
         for b in bodies[i + 1:]:
-            if not overlap(a, b, TOUCH):
-                continue
-            ours, theirs = a.near(b, TOUCH), b.near(a, TOUCH)
-            pairs = [(s, t) for s in ours for t in theirs if overlap(s, t, TOUCH)]
-            # A cage lies outside its smooth surface, so it may dip into its plinth.
-            if not (a.subdivided or b.subdivided):
-                if any(pierces(s, t) or pierces(t, s) for s, t in pairs):
-                    found.append(f"{scene.name}: {a.name} and {b.name} interpenetrate")
-                if any(coincide(s, t) for s, t in pairs):
-                    found.append(f"{scene.name}: {a.name} and {b.name} have faces in one place")
-            gap = CAGE_TOUCH if a.subdivided or b.subdivided else TOUCH
-            if any(touches(s, t, gap) or touches(t, s, gap) for s, t in pairs):
+            problems, contact = meeting(a, b)
+            found += [f"{scene.name}: {text}" for text in problems]
+            if contact:
                 touching |= {a.name, b.name}
     lonely = [b.name for b in bodies if b.movable and b.name not in touching]
     return found + [f"{scene.name}: {name} touches nothing" for name in lonely]
+
+
+def meeting(a, b):
+    """What is wrong between two bodies, and whether they touch."""
+    if not overlap(a, b, TOUCH):
+        return [], False
+    found = []
+    ours, theirs = a.near(b, TOUCH), b.near(a, TOUCH)
+    pairs = [(s, t) for s in ours for t in theirs if overlap(s, t, TOUCH)]
+    # A cage lies outside its smooth surface, so it may dip into its plinth.
+    if not (a.subdivided or b.subdivided):
+        if any(pierces(s, t) or pierces(t, s) for s, t in pairs):
+            found.append(f"{a.name} and {b.name} interpenetrate")
+        if any(coincide(s, t) for s, t in pairs):
+            found.append(f"{a.name} and {b.name} have faces in one place")
+    gap = CAGE_TOUCH if a.subdivided or b.subdivided else TOUCH
+    return found, any(touches(s, t, gap) or touches(t, s, gap) for s, t in pairs)
 
 
 def pierces(s, t):

@@ -22,8 +22,8 @@ def array_text(items):
 
 
 class Prim:
-    """One prim: metadata, properties and children. Properties are written sorted by name, as
-    OpenUSD does, so they may be added in any order."""
+    """One prim: metadata, properties and children; of kind None, an `over`. Properties are written
+    sorted by name, as OpenUSD does, so they may be added in any order."""
 
     def __init__(self, kind, name, meta=()):
         self.kind, self.name, self.meta = kind, name, list(meta)
@@ -31,6 +31,12 @@ class Prim:
 
     def set(self, name, declaration, value):
         self.properties[name] = f"{declaration} {name}" + (f" = {value}" if value != "" else "")
+
+    def animate(self, name, declaration, samples):
+        """samples: frame -> text of the value."""
+        lines = [f"{declaration} {name}.timeSamples = {{"]
+        lines += [f"    {frame}: {value}," for frame, value in sorted(samples.items())]
+        self.properties[name] = "\n".join(lines + ["}"])
 
     def add(self, prim):
         assert all(c.name != prim.name for c in self.children), f"second {prim.name} in {self.name}"
@@ -55,7 +61,7 @@ class Prim:
 
     def write(self, out, depth=0):
         pad = "    " * depth
-        head = f'{pad}def {self.kind} "{self.name}"'
+        head = pad + (f'def {self.kind}' if self.kind else "over") + f' "{self.name}"'
         if self.meta:
             out.append(head + " (")
             out.extend(f"{pad}    {m}" for m in self.meta)
@@ -64,7 +70,7 @@ class Prim:
             out.append(head)
         out.append(pad + "{")
         for name in sorted(self.properties, key=str.lower):
-            out.append(f"{pad}    {self.properties[name]}")
+            out.extend(f"{pad}    {line}" for line in self.properties[name].splitlines())
         for k, child in enumerate(self.children):
             if k or self.properties:
                 out.append("")
@@ -187,6 +193,15 @@ def mesh_prim(name, material, part, double_sided, creases=None):
     return mesh
 
 
+def aim(eye, target):
+    """Angles about x, y, z [degrees, x innermost] of a camera, which looks along its own -z with +y
+    up: pitch about x first, then heading about z."""
+    d = vec.sub(target, eye)
+    pitch = math.degrees(math.atan2(d[2], math.hypot(d[0], d[1])))
+    heading = math.degrees(math.atan2(d[1], d[0])) - 90
+    return (round(90 + pitch, 2), 0, round(heading, 2))
+
+
 class Scene:
     def __init__(self, name, doc):
         self.name, self.doc = name, doc
@@ -198,17 +213,16 @@ class Scene:
         self.objects.append(Object(name, at, turn, movable))
         return self.objects[-1]
 
+    def find(self, name):
+        return next(o for o in self.objects if o.name == name)
+
     def camera(self, name, eye, target, focal, aperture=(36, 20.25)):
-        """A camera looks along its own -z with +y up: pitch about x first, then heading about z."""
-        d = vec.sub(target, eye)
-        pitch = math.degrees(math.atan2(d[2], math.hypot(d[0], d[1])))
-        heading = math.degrees(math.atan2(d[1], d[0])) - 90
         prim = Prim("Camera", name)
         prim.set("clippingRange", "float2", "(0.02, 200)")
         prim.set("focalLength", "float", number(focal))
         prim.set("horizontalAperture", "float", number(aperture[0]))
         prim.set("verticalAperture", "float", number(aperture[1]))
-        prim.place(eye, tilt=(round(90 + pitch, 2), 0, round(heading, 2)))
+        prim.place(eye, tilt=aim(eye, target))
         self.cameras.append((prim, eye, target, focal, aperture))
 
     def polygons(self):
