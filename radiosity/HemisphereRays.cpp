@@ -9,7 +9,7 @@ namespace penumbra {
 
 HemisphereRays::HemisphereRays(int count) {
     for (int i = 0; i < count; ++i) {
-        const glm::vec2 p = squareToDisk(sobol02(std::uint32_t(i)));
+        const glm::vec2 p = squareToDisk(sobol02(std::uint32_t(i), std::size_t(count)));
         local_.emplace_back(p, std::sqrt(std::max(0.0f, 1 - glm::dot(p, p))));
     }
 }

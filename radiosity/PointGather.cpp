@@ -13,14 +13,43 @@ namespace {
 constexpr int kShadowSamples = 256;
 /// Patches nearer than this many of their radii are gathered element by element.
 constexpr float kNear = 6;
-constexpr int kManyRays = 1024, kFewRays = 64; ///< over the hemisphere, first and at what is met
-constexpr float kCloseBy = 2;                  ///< "near" when rays gather, in element sizes
+constexpr float kCloseBy = 2;  ///< something nearer than this has paths followed, in element sizes
+constexpr float kBelieved = 4; ///< drawn light is believed from this far on, in element sizes
+constexpr int kProbes = 64;    ///< rays that look for something near
+constexpr int kPathBits = 12;  ///< 4096 paths
+constexpr int kMostBounces = 64;
+constexpr int kSureBounces = 2; ///< before a path may die
+constexpr int kPathShadowSamples = 16;
+
+/// Which of the directions a path takes at a bounce: each path another one, each bounce in an order
+/// of its own, so that every bounce of all paths together is spread as evenly as the first.
+int raySlot(int path, int bounce) {
+    if (bounce == 0) return path;
+    constexpr std::uint32_t kMask = (1u << kPathBits) - 1;
+    auto slot = std::uint32_t(path);
+    for (std::uint32_t round = 0; round < 3; ++round) { // each step is one to one
+        const std::uint32_t key = pairHash(std::uint32_t(bounce), round);
+        slot = (slot * (4 * key + 1) + (key >> 8)) & kMask;
+        slot ^= slot >> kPathBits / 2;
+    }
+    return int(slot);
+}
+
+/// Russian roulette [ArvoKirk1990]: a path goes on with a probability, and then counts for more.
+bool survives(int path, int bounce, Rgb& weight) {
+    if (bounce < kSureBounces) return true;
+    const float chance = std::min(1.0f, maxChannel(weight));
+    const std::uint32_t draw = pairHash(std::uint32_t(path), 0x9e3779b9u + std::uint32_t(bounce));
+    if (!(float(draw >> 8) * 0x1p-24f < chance)) return false;
+    weight = (1 / chance) * weight;
+    return true;
+}
 
 } // namespace
 
 PointGather::PointGather(const PatchSet& patches, const RayScene& rays, const Lighting& lighting)
-    : patches_(patches), rays_(rays), lighting_(lighting), surface_(patches), manyRays_(kManyRays),
-      fewRays_(kFewRays), elementRadiosity_(patches.elements.size()),
+    : patches_(patches), rays_(rays), lighting_(lighting), surface_(patches), probes_(kProbes),
+      paths_(1 << kPathBits), elementRadiosity_(patches.elements.size()),
       patchRadiosity_(patches.patches.size()), patchRadius_(patches.patches.size()),
       patchSamples_(patches.patches.size() * kPatchSamples) {
     for (const Emitter& emitter : patches.emitters)
@@ -88,44 +117,55 @@ float PointGather::patchVisibility(std::uint32_t index, const Receiver& receiver
 
 bool PointGather::somethingNear(const Receiver& receiver) const {
     const float near = kCloseBy * patches_.elementSize;
-    for (int i = 0; i < fewRays_.count(); ++i)
-        if (surface_.nearest(receiver.position, fewRays_.direction(i, receiver.normal), near).met())
+    for (int i = 0; i < probes_.count(); ++i)
+        if (surface_.nearest(receiver.position, probes_.direction(i, receiver.normal), near).met())
             return true;
     return false;
 }
 
 Rgb PointGather::indirect(const Receiver& receiver) const {
-    return somethingNear(receiver) ? indirectByRays(receiver, manyRays_, 2)
-                                   : indirectByForm(receiver);
+    return somethingNear(receiver) ? indirectByPaths(receiver) : indirectByForm(receiver);
 }
 
-/// \param depth how many times near surfaces are evaluated anew instead of interpolated
-Rgb PointGather::indirectByRays(const Receiver& receiver, const HemisphereRays& rays,
-                                int depth) const {
+/// Follows paths out of the gap: what near surfaces reflect is what they receive there, and so on,
+/// until a path meets something far enough for its drawn light to be believed, or dies.
+Rgb PointGather::indirectByPaths(const Receiver& receiver) const {
     Rgb sum;
-    for (int i = 0; i < rays.count(); ++i) {
-        const glm::vec3 direction = rays.direction(i, receiver.normal);
-        const DrawnHit hit = surface_.nearest(receiver.position, direction, 1e30f);
-        if (!hit.met()) continue;
-        const Rgb reflectance =
-            patches_.materials[patches_.elements[hit.element].material].reflectance;
-        Rgb light;
-        if (depth > 0 && hit.distance < 2 * kCloseBy * patches_.elementSize) {
-            Receiver there{glm::vec3(0), glm::vec3(0)};
-            for (std::size_t k = 0; k < 3; ++k)
-                there.normal += hit.weights[k] * patches_.vertices[hit.vertices[k]].receiver.normal;
-            there.normal = glm::normalize(there.normal);
-            there.position =
-                receiver.position + hit.distance * direction + patches_.skin * there.normal;
-            light = directFrom(there, 16) + indirectByRays(there, fewRays_, depth - 1);
-        } else {
-            for (std::size_t k = 0; k < 3; ++k)
-                light += hit.weights[k] *
-                         (lighting_.direct[hit.vertices[k]] + lighting_.indirect[hit.vertices[k]]);
+    for (int path = 0; path < paths_.count(); ++path) {
+        Receiver at = receiver;
+        Rgb weight(1.0f);
+        for (int bounce = 0; bounce < kMostBounces; ++bounce) {
+            const glm::vec3 direction = paths_.direction(raySlot(path, bounce), at.normal);
+            const DrawnHit hit = surface_.nearest(at.position, direction, 1e30f);
+            if (!hit.met()) break;
+            weight =
+                weight * patches_.materials[patches_.elements[hit.element].material].reflectance;
+            if (hit.distance >= kBelieved * patches_.elementSize) {
+                sum += weight * drawnAt(hit);
+                break;
+            }
+            at = receiverAt(hit, at.position + hit.distance * direction);
+            sum += weight * directFrom(at, kPathShadowSamples);
+            if (!survives(path, bounce, weight)) break;
         }
-        sum += reflectance * light;
     }
-    return (1.0f / float(rays.count())) * sum;
+    return (1.0f / float(paths_.count())) * sum;
+}
+
+Rgb PointGather::drawnAt(const DrawnHit& hit) const {
+    Rgb light;
+    for (std::size_t k = 0; k < 3; ++k)
+        light += hit.weights[k] *
+                 (lighting_.direct[hit.vertices[k]] + lighting_.indirect[hit.vertices[k]]);
+    return light;
+}
+
+Receiver PointGather::receiverAt(const DrawnHit& hit, glm::vec3 position) const {
+    glm::vec3 normal(0);
+    for (std::size_t k = 0; k < 3; ++k)
+        normal += hit.weights[k] * patches_.vertices[hit.vertices[k]].receiver.normal;
+    normal = glm::normalize(normal);
+    return {position + patches_.skin * normal, normal};
 }
 
 Rgb PointGather::indirectByForm(const Receiver& receiver) const {

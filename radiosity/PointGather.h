@@ -15,8 +15,8 @@ namespace penumbra {
 
 /// Gathers light at single points: from the emitters by closed form and many shadow rays, from the
 /// solved patches (their elements, where they are near) by closed form and rays. Where something is
-/// nearer than elements can tell, in gaps and corners, the hemisphere is sampled by rays instead,
-/// and the near surfaces that they meet are evaluated there in their turn.
+/// nearer than elements can tell, in gaps and corners, paths are followed instead: drawn light is
+/// wrong in a slit narrower than an element, so that of near surfaces is never used.
 class PointGather {
 public:
     /// All must outlive this. Element counts as visible if its middle is.
@@ -29,14 +29,16 @@ private:
     float patchVisibility(std::uint32_t patch, const Receiver& receiver) const;
     bool somethingNear(const Receiver& receiver) const;
     Rgb indirectByForm(const Receiver& receiver) const;
-    Rgb indirectByRays(const Receiver& receiver, const HemisphereRays& rays, int depth) const;
+    Rgb indirectByPaths(const Receiver& receiver) const;
+    Rgb drawnAt(const DrawnHit& hit) const;
+    Receiver receiverAt(const DrawnHit& hit, glm::vec3 position) const;
     Rgb directFrom(const Receiver& receiver, int shadowSamples) const;
 
     const PatchSet& patches_;
     const RayScene& rays_;
     const Lighting& lighting_;
     DrawnSurface surface_;
-    HemisphereRays manyRays_, fewRays_;
+    HemisphereRays probes_, paths_;
     std::vector<EmitterSender> emitters_;
     std::vector<Rgb> elementRadiosity_; ///< rho H, own emission left out [lm/m^2]
     std::vector<Rgb> patchRadiosity_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -34,7 +35,7 @@ void samplePolygons(const Emitter& emitter, std::size_t count, EmitterSamples& o
         const auto& p = emitter.polygons[0];
         const glm::vec3 normal = glm::normalize(glm::cross(p[1] - p[0], p[3] - p[0]));
         for (std::uint32_t i = 0; i < count; ++i) {
-            const glm::vec2 u = sobol02(i);
+            const glm::vec2 u = sobol02(i, count);
             out.points.push_back({p[0] + u.x * (p[1] - p[0]) + u.y * (p[3] - p[0]), normal});
         }
         return;
@@ -51,7 +52,7 @@ void samplePolygons(const Emitter& emitter, std::size_t count, EmitterSamples& o
             parts.push_back({corner, vector / float(size), area});
         }
     for (std::uint32_t i = 0; i < count; ++i) {
-        glm::vec2 u = sobol02(i);
+        glm::vec2 u = sobol02(i, count);
         const double at = u.x * area;
         const auto part = std::find_if(parts.begin(), parts.end() - 1,
                                        [&](const Part& p) { return at < p.upTo; });
@@ -64,16 +65,13 @@ void samplePolygons(const Emitter& emitter, std::size_t count, EmitterSamples& o
 
 } // namespace
 
-glm::vec2 sobol02(std::uint32_t index) {
+glm::vec2 sobol02(std::uint32_t index, std::size_t count) {
     std::uint32_t x = 0, y = 0;
     std::uint32_t v = 0x80000000u;
     for (std::uint32_t i = index, a = 0x80000000u; i != 0; i >>= 1, a >>= 1, v ^= v >> 1)
         if (i & 1) x ^= a, y ^= v;
-    // Half a cell of the 64-point grid inwards: the points lie in the middle of their strata, none
-    // on the sender's very edge.
-    const auto centred = [](std::uint32_t bits) {
-        return std::min(float(bits >> 8) * 0x1p-24f + 0x1p-7f, 0x1.fffffep-1f);
-    };
+    const float half = 0.5f / float(std::bit_ceil(std::max<std::size_t>(count, 64)));
+    const auto centred = [&](std::uint32_t bits) { return float(bits >> 8) * 0x1p-24f + half; };
     return {centred(x), centred(y)};
 }
 
@@ -102,7 +100,7 @@ EmitterSamples sampleEmitter(const Emitter& emitter, std::size_t count) {
         v = glm::cross(emitter.axis, u);
     }
     for (std::uint32_t i = 0; i < count; ++i) {
-        const glm::vec2 p = squareToDisk(sobol02(i));
+        const glm::vec2 p = squareToDisk(sobol02(i, count));
         const glm::vec3 onDisk = p.x * u + p.y * v;
         samples.points.push_back(emitter.kind == Emitter::Kind::disk
                                      ? EmitterSamples::Point{emitter.centre + onDisk, emitter.axis}

@@ -11,8 +11,10 @@
 namespace penumbra {
 
 /// Point `index` of the Sobol (0,2)-sequence (Sobol 1967): every first 4, 16, 64 ... points are
-/// stratified in both coordinates and in the square. In [0, 1)^2.
-glm::vec2 sobol02(std::uint32_t index);
+/// stratified in both coordinates and in the square. In (0, 1)^2: half a cell of the grid of
+/// `count` points inwards (of 64 points, if those are more), so that of that many points each lies
+/// in the middle of its strata and none on the very edge. \pre index < max(count, 64)
+glm::vec2 sobol02(std::uint32_t index, std::size_t count = 64);
 
 /// Square to unit disk, keeping areas and neighbourhoods (Shirley & Chiu, JGT 2(3), 1997).
 glm::vec2 squareToDisk(glm::vec2 u);

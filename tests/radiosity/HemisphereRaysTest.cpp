@@ -51,6 +51,17 @@ TEST(HemisphereRays, AreSpreadInEveryPrefixOfFourAndSixteen) {
     EXPECT_LT(glm::distance(mean, {0, 0, 2.0f / 3}), 0.1f);
 }
 
+TEST(HemisphereRays, RunAlongTheSurfaceNoMoreOftenThanTheCosineHasIt) {
+    // The share of rays flatter than an angle is its sine squared. In a slit a ray along the
+    // surface finds the light outside: some too many, and the slit glows.
+    const HemisphereRays rays(4096);
+    for (const float sine : {0.02f, 0.05f, 0.1f, 0.2f}) {
+        int flatter = 0;
+        for (int i = 0; i < rays.count(); ++i) flatter += rays.direction(i, {0, 0, 1}).z < sine;
+        EXPECT_NEAR(float(flatter) / 4096, sine * sine, 1e-3f) << sine;
+    }
+}
+
 } // namespace
 
 } // namespace penumbra

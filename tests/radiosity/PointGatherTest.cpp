@@ -49,6 +49,42 @@ TEST(PointGather, BehindABoardIsDark) {
     EXPECT_EQ(gather.indirect({{0.1f, 0.2f, 0.01f}, {0, 0, 1}}), Rgb());
 }
 
+/// A white board of 1 x 1 m, 2 cm thick, that hovers over the floor of a white room with a lamp.
+Scene boardOverFloor(float gap, std::shared_ptr<Material> white) {
+    return sceneOf(
+        {object("room", boxData({-1, -1, 0}, {1, 1, 1}, true, white)),
+         object("board", boxData({-0.5f, -0.5f, gap}, {0.5f, 0.5f, gap + 0.02f}, false, white)),
+         ceilingLamp({0, 0, 0.99f}, 1, 1)});
+}
+
+TEST(PointGather, LightDiesInASlitMuchNarrowerThanAnElement) {
+    // 5 mm high: from the rim inwards each 5 cm leave less of the light, at 20 cm nothing that
+    // counts is left. Elements of 12.5 cm know nothing of that.
+    const Solution solution(boardOverFloor(0.005f, paint(Rgb(0.7f))), kMeshing);
+    const PointGather gather(solution.patches(), solution.rays, solution.lighting);
+    const auto light = [&](float x) {
+        const Receiver point{{x, 0.03f, 1e-4f}, {0, 0, 1}};
+        return luminance(gather.direct(point) + gather.indirect(point));
+    };
+    const float outside = light(0.75f), deep = light(0.45f), deeper = light(0.3f);
+    EXPECT_GT(outside, 0.1f);
+    EXPECT_LT(deep, 0.02f * outside);
+    EXPECT_LT(deeper, 0.3f * deep);
+    EXPECT_LT(deeper, 0.001f * outside);
+}
+
+TEST(PointGather, InASlitOfAFurnaceNoLightIsLostOrMade) {
+    // rho = 0.5 and E = 1 on all sides: 2 lux also between two surfaces 1 cm apart.
+    const Solution solution(
+        boardOverFloor(0.01f, paint(Rgb(0.5f), Rgb(1 / std::numbers::pi_v<float>))), kMeshing,
+        {.residual = 1e-5});
+    const PointGather gather(solution.patches(), solution.rays, solution.lighting);
+    for (const float x : {0.1f, 0.4f, 0.49f}) {
+        const Receiver point{{x, 0.03f, 1e-4f}, {0, 0, 1}};
+        EXPECT_NEAR((gather.direct(point) + gather.indirect(point)).r, 2, 0.04) << x;
+    }
+}
+
 } // namespace
 
 } // namespace penumbra

@@ -16,11 +16,11 @@ namespace {
 TEST(Sobol02, HasOnePointInEveryElementaryIntervalOfEachPrefix) {
     // The (0,2) property: 2^k points, cells of 2^-a by 2^-(k-a), one point each, for all a. It is
     // what stratifies both coordinates (a = 0, k) and the square (a = k/2).
-    for (int k = 0; k <= 6; ++k)
+    for (int k = 0; k <= 12; ++k)
         for (int a = 0; a <= k; ++a) {
             std::set<std::pair<int, int>> cells;
             for (std::uint32_t i = 0; i < 1u << k; ++i) {
-                const glm::vec2 p = sobol02(i);
+                const glm::vec2 p = sobol02(i, std::size_t(1) << k);
                 cells.emplace(int(std::ldexp(p.x, a)), int(std::ldexp(p.y, k - a)));
             }
             EXPECT_EQ(cells.size(), 1u << k) << "2^" << k << " points, columns 2^" << a;
@@ -29,7 +29,7 @@ TEST(Sobol02, HasOnePointInEveryElementaryIntervalOfEachPrefix) {
 
 TEST(Sobol02, StaysInTheOpenSquare) {
     for (std::uint32_t i = 0; i < 4096; ++i) {
-        const glm::vec2 p = sobol02(i);
+        const glm::vec2 p = sobol02(i, 4096);
         EXPECT_TRUE(p.x > 0 && p.x < 1 && p.y > 0 && p.y < 1) << i;
     }
 }
