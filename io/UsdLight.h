@@ -12,10 +12,9 @@ namespace penumbra {
 
 /// Linear Rec. 709 colour of a black body, scaled to luminance 1. Clamped to 1000 .. 10000 K.
 ///
-/// From 2000 K up: Planckian locus after Kim, Moon, Woo & Lee, "Design of advanced color
-/// temperature control system for HDTV applications", J. Korean Phys. Soc. 41 (2002), 865; within
-/// 0.006 of OpenUSD 24.11. Below, where Rec. 709 can't show the true colours, a parabola through
-/// what OpenUSD itself shows at 1000 and 1500 K, so that a file looks the same in both.
+/// From 2000 K up: Planckian locus after [Kang2002]; within 0.006 of OpenUSD 24.11. Below, where
+/// Rec. 709 can't show the true colours, a parabola through what OpenUSD itself shows at 1000 and
+/// 1500 K, so that a file looks the same in both.
 Rgb blackbodyColour(double kelvin);
 
 /// Luminance of a light [nit]:
