@@ -44,9 +44,102 @@ struct Component {
     bool closed = true;
     double volume = 0; ///< signed; > 0 if the fronts face outwards
     Bounds bounds;
+    std::vector<std::uint32_t> lid; ///< closes its only opening, wound like its faces; may be empty
 };
 
-std::vector<Component> connectedComponents(const SurfaceMesh& mesh) {
+using Edges = std::unordered_map<std::uint64_t, int>; ///< directed: +1 one way, -1 the other
+
+/// The boundary of a surface, turned round, if it is a single loop; else nothing.
+std::vector<std::uint32_t> boundaryLoop(const Edges& edges) {
+    std::unordered_map<std::uint32_t, std::uint32_t> next;
+    for (const auto& [edge, count] : edges) {
+        if (count == 0) continue;
+        const auto low = std::uint32_t(edge >> 32), high = std::uint32_t(edge);
+        const bool upwards = count > 0; // the lid walks the edge the other way
+        if (std::abs(count) != 1 ||
+            !next.try_emplace(upwards ? high : low, upwards ? low : high).second)
+            return {};
+    }
+    if (next.size() < 3) return {};
+    std::uint32_t start = next.begin()->first;
+    for (const auto& [from, to] : next) start = std::min(start, from);
+    std::vector<std::uint32_t> loop;
+    for (std::uint32_t at = start; loop.empty() || at != start;) {
+        const auto found = next.find(at);
+        if (found == next.end() || loop.size() == next.size()) return {};
+        loop.push_back(at);
+        at = found->second;
+    }
+    return loop.size() == next.size() ? loop : std::vector<std::uint32_t>();
+}
+
+/// A plane, and how far off it a point still counts as on it [m].
+struct Plane {
+    glm::dvec3 origin, normal;
+    double tolerance = 0;
+    double height(glm::vec3 p) const { return glm::dot(glm::dvec3(p) - origin, normal); }
+    bool holds(glm::vec3 p) const { return std::abs(height(p)) <= tolerance; }
+};
+
+/// Whether a convex face that lies in `plane` covers all of the outline.
+bool covers(const SurfaceMesh& mesh, const SurfaceFace& face, const Plane& plane,
+            std::span<const glm::vec3> outline) {
+    const auto corners = mesh.cornersOf(face);
+    for (std::uint32_t corner : corners)
+        if (!plane.holds(mesh.points[corner])) return false;
+    const glm::dvec3 normal = glm::normalize(newellNormal(mesh.points, corners));
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const glm::dvec3 a = mesh.points[corners[i]];
+        const glm::dvec3 along = glm::dvec3(mesh.points[corners[(i + 1) % corners.size()]]) - a;
+        const glm::dvec3 inwards = glm::cross(normal, along);
+        for (glm::vec3 p : outline)
+            if (glm::dot(inwards, glm::dvec3(p) - a) < -plane.tolerance * glm::length(along))
+                return false;
+    }
+    return true;
+}
+
+/// Puts a lid on a component that stands with its only opening, a flat one, on a face of its own
+/// object: the caps of keys on a keyboard. What another object would close stays open: that may
+/// move away.
+void close(const SurfaceMesh& mesh, std::span<const SurfaceMesh* const> object,
+           std::vector<std::uint32_t> loop, Component& component) {
+    if (loop.empty() || mesh.subdivided()) return;
+    constexpr double kFlat = 1e-3; // in units of the component's size
+    const glm::dvec3 normal = newellNormal(mesh.points, loop);
+    if (!(glm::length(normal) > 0)) return;
+    const Plane plane{mesh.points[loop[0]], glm::normalize(normal),
+                      kFlat * component.bounds.diagonal()};
+    std::vector<glm::vec3> outline;
+    for (std::uint32_t point : loop) outline.push_back(mesh.points[point]);
+    if (!std::all_of(outline.begin(), outline.end(), [&](glm::vec3 p) { return plane.holds(p); }))
+        return;
+    double lowest = 0, highest = 0;
+    for (std::uint32_t f : component.faces)
+        for (std::uint32_t corner : mesh.cornersOf(mesh.faces[f])) {
+            lowest = std::min(lowest, plane.height(mesh.points[corner]));
+            highest = std::max(highest, plane.height(mesh.points[corner]));
+        }
+    if (-lowest > plane.tolerance && highest > plane.tolerance) return; // on both sides
+    if (std::max(-lowest, highest) <= plane.tolerance) return;          // a sheet
+    const auto closes = [&](const SurfaceMesh& other) {
+        return !other.subdivided() &&
+               std::any_of(other.faces.begin(), other.faces.end(), [&](const SurfaceFace& face) {
+                   return covers(other, face, plane, outline);
+               });
+    };
+    if (std::none_of(object.begin(), object.end(), [&](const auto* m) { return closes(*m); }))
+        return;
+    component.closed = true;
+    for (std::size_t i = 0; i < loop.size(); ++i)
+        component.volume += glm::dot(
+            glm::dvec3(outline[0]),
+            glm::cross(glm::dvec3(outline[i]), glm::dvec3(outline[(i + 1) % outline.size()])));
+    component.lid = std::move(loop);
+}
+
+std::vector<Component> connectedComponents(const SurfaceMesh& mesh,
+                                           std::span<const SurfaceMesh* const> object) {
     const std::vector<std::uint32_t> weld = weldPositions(mesh.points);
     std::vector<std::uint32_t> parent(mesh.points.size());
     std::iota(parent.begin(), parent.end(), 0u);
@@ -57,7 +150,7 @@ std::vector<Component> connectedComponents(const SurfaceMesh& mesh) {
 
     std::unordered_map<std::uint32_t, std::uint32_t> index;
     std::vector<Component> components;
-    std::vector<std::unordered_map<std::uint64_t, int>> edges; // directed: +1 one way, -1 the other
+    std::vector<Edges> edges;
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
         const auto corners = mesh.cornersOf(mesh.faces[f]);
         const std::uint32_t root = rootOf(parent, weld[corners[0]]);
@@ -75,9 +168,11 @@ std::vector<Component> connectedComponents(const SurfaceMesh& mesh) {
                 glm::dot(apex, glm::cross(glm::dvec3(mesh.points[a]), glm::dvec3(mesh.points[b])));
         }
     }
-    for (std::size_t i = 0; i < components.size(); ++i)
+    for (std::size_t i = 0; i < components.size(); ++i) {
         components[i].closed = std::all_of(edges[i].begin(), edges[i].end(),
                                            [](auto& edge) { return edge.second == 0; });
+        if (!components[i].closed) close(mesh, object, boundaryLoop(edges[i]), components[i]);
+    }
     return components;
 }
 
@@ -86,8 +181,7 @@ bool contains(const SurfaceMesh& mesh, const Component& component, glm::vec3 p) 
     if (!component.bounds.contains(p)) return false;
     const glm::dvec3 direction(0.3826834323, 0.2705980501, 0.8835345612);
     int crossings = 0;
-    for (std::uint32_t f : component.faces) {
-        const auto corners = mesh.cornersOf(mesh.faces[f]);
+    const auto cross = [&](std::span<const std::uint32_t> corners) {
         for (std::size_t i = 2; i < corners.size(); ++i) {
             const glm::dvec3 a = glm::dvec3(mesh.points[corners[0]]) - glm::dvec3(p);
             const glm::dvec3 ab = glm::dvec3(mesh.points[corners[i - 1]]) - glm::dvec3(p) - a;
@@ -100,7 +194,9 @@ bool contains(const SurfaceMesh& mesh, const Component& component, glm::vec3 p) 
             const double v = glm::dot(direction, r) / det;
             if (u >= 0 && v >= 0 && u + v <= 1 && glm::dot(ac, r) / det > 0) ++crossings;
         }
-    }
+    };
+    for (std::uint32_t f : component.faces) cross(mesh.cornersOf(mesh.faces[f]));
+    if (!component.lid.empty()) cross(component.lid);
     return crossings % 2 == 1;
 }
 
@@ -180,8 +276,9 @@ SurfaceMesh placeSurface(const MeshData& data, const glm::dmat4& toWorld) {
     return mesh;
 }
 
-void chooseSides(SurfaceMesh& mesh, std::span<const glm::vec3> lightPoints) {
-    for (const Component& component : connectedComponents(mesh)) {
+void chooseSides(SurfaceMesh& mesh, std::span<const glm::vec3> lightPoints,
+                 std::span<const SurfaceMesh* const> object) {
+    for (const Component& component : connectedComponents(mesh, object)) {
         const bool solid = component.closed && component.volume != 0 &&
                            std::none_of(lightPoints.begin(), lightPoints.end(),
                                         [&](glm::vec3 p) { return contains(mesh, component, p); });

@@ -46,9 +46,12 @@ SurfaceMesh placeSurface(const MeshData& data, const glm::dmat4& toWorld);
 
 /// Decides which sides of the faces there are. Of a closed connected surface that contains none of
 /// `lightPoints` only the outside is ever lit. An open two-sided surface, or a closed one with a
-/// light inside, has both sides; a one-sided surface has its front. \param lightPoints a point on
-/// every emitter [m, world]
-void chooseSides(SurfaceMesh& mesh, std::span<const glm::vec3> lightPoints);
+/// light inside, has both sides; a one-sided surface has its front. A surface whose only opening is
+/// flat and lies on a face of the same object is closed. \param lightPoints a point on every
+/// emitter [m, in the mesh's frame] \param object the meshes of the same rigid object, in the same
+/// frame; this one may be among them
+void chooseSides(SurfaceMesh& mesh, std::span<const glm::vec3> lightPoints,
+                 std::span<const SurfaceMesh* const> object = {});
 
 /// Normal of a polygon, its length twice the area (Newell's method; sound for twisted polygons).
 glm::dvec3 newellNormal(std::span<const glm::vec3> points, std::span<const std::uint32_t> corners);

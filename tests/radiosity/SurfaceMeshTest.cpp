@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace penumbra {
@@ -66,6 +68,53 @@ TEST(ChooseSides, ABoxThatMissesAFaceIsOpen) {
     data.materials = {paint(Rgb(0.5f))};
     data.doubleSided = true;
     EXPECT_EQ(sidesOf(data), (Sides{5, 5, 0}));
+}
+
+/// A box without its bottom, between z = 0 and 1, on a plate of another mesh of the same object.
+struct KeyOnPlate {
+    SurfaceMesh key, plate;
+    MeshData keyData, plateData;
+
+    explicit KeyOnPlate(const MeshData& under, const std::vector<glm::vec3>& lights = {})
+        : plateData(under) {
+        addBox(keyData, {0, 0, 0}, {1, 1, 1}, false, {0, 1, 2, 3, 5});
+        keyData.materials = {paint(Rgb(0.5f))};
+        keyData.doubleSided = true;
+        key = placeSurface(keyData, glm::dmat4(1.0));
+        plate = placeSurface(plateData, glm::dmat4(1.0));
+        chooseSides(key, lights, std::array<const SurfaceMesh*, 2>{&key, &plate});
+    }
+    int solidFaces() const {
+        return int(std::count_if(key.faces.begin(), key.faces.end(), [](const SurfaceFace& face) {
+            return face.solid && face.front && !face.back;
+        }));
+    }
+};
+
+TEST(ChooseSides, ABoxThatStandsOpenOnAFaceOfItsObjectIsClosed) {
+    EXPECT_EQ(KeyOnPlate(floorData(-1, 2, -1, 2, 0)).solidFaces(), 5);
+    EXPECT_EQ(KeyOnPlate(floorData(0, 1, 0, 1, 0)).solidFaces(), 5);
+}
+
+TEST(ChooseSides, ABoxThatItsObjectClosesInPartIsOpen) {
+    EXPECT_EQ(KeyOnPlate(floorData(0.1f, 2, -1, 2, 0)).solidFaces(), 0);   // too small
+    EXPECT_EQ(KeyOnPlate(floorData(-1, 2, -1, 2, -0.1f)).solidFaces(), 0); // below
+    EXPECT_EQ(KeyOnPlate(floorData(-1, 2, -1, 2, 1)).solidFaces(), 0);     // at the other end
+}
+
+TEST(ChooseSides, ALampUnderABoxKeepsItsInsideLit) {
+    EXPECT_EQ(KeyOnPlate(floorData(-1, 2, -1, 2, 0), {kInside}).solidFaces(), 0);
+    EXPECT_EQ(KeyOnPlate(floorData(-1, 2, -1, 2, 0), {kOutside}).solidFaces(), 5);
+}
+
+TEST(ChooseSides, ASheetOnAFaceOfItsObjectStaysASheet) {
+    MeshData sheet = floorData(0, 1, 0, 1, 0);
+    sheet.doubleSided = true;
+    SurfaceMesh mesh = placeSurface(sheet, glm::dmat4(1.0));
+    const MeshData under = floorData(-1, 2, -1, 2, 0);
+    const SurfaceMesh plate = placeSurface(under, glm::dmat4(1.0));
+    chooseSides(mesh, {}, std::array<const SurfaceMesh*, 1>{&plate});
+    EXPECT_TRUE(mesh.faces[0].front && mesh.faces[0].back && !mesh.faces[0].solid);
 }
 
 TEST(ChooseSides, JudgesEachConnectedPartOfAMesh) {
