@@ -10,101 +10,263 @@ namespace penumbra {
 
 namespace {
 
-std::uint32_t low(std::uint64_t v) {
-    return std::uint32_t(v);
+constexpr std::uint64_t kAll = ~std::uint64_t(0);
+
+/// Codes that mean a mixed entry: the largest ones.
+constexpr std::size_t kMixedCodes = 16;
+
+/// Size of a code, and of a place in the list of objects.
+std::size_t codeSize(std::size_t objects) {
+    return objects <= 256 - kMixedCodes ? 1 : 2;
 }
-std::uint32_t high(std::uint64_t v) {
-    return std::uint32_t(v >> 32);
+std::size_t firstMixed(std::size_t codeSize) {
+    return (codeSize == 1 ? 256u : 65536u) - kMixedCodes;
 }
-std::uint64_t join(std::uint32_t a, std::uint32_t b) {
-    return std::uint64_t(b) << 32 | a;
+
+/// What a mixed entry's code says.
+struct MixedForm {
+    bool wide = false, implied = false;
+    std::size_t blockers = 1; ///< 4: or more
+
+    std::size_t code() const { return std::size_t(wide) + 2 * implied + 4 * (blockers - 1); }
+    static MixedForm of(std::size_t code) {
+        return {(code & 1) != 0, (code & 2) != 0, (code >> 2) + 1};
+    }
+    std::size_t maskSize() const { return wide ? 8 : 2; }
+    std::uint64_t allSamples() const { return wide ? kAll : 0xffff; }
+};
+
+std::span<const Blocker> blockersOf(const RowBlock::Draft& draft) {
+    return std::span(draft.blockers).first(std::size_t(draft.blockerCount));
+}
+
+/// Samples that are visible or that a blocker but the last one has.
+std::uint64_t allButLast(std::uint64_t visible, std::span<const Blocker> blockers) {
+    for (const Blocker& blocker : blockers.first(blockers.size() - 1)) visible |= blocker.samples;
+    return visible;
+}
+
+bool isPresent(const RowBlock::Draft& draft) {
+    return draft.formFactor > 0;
 }
 
 } // namespace
 
-void RowBlock::assign(std::span<const Draft> drafts) {
-    assert(drafts.size() <= kSize);
-    present_ = visible_ = 0;
-    std::vector<std::uint32_t> factors, codes, side;
-    for (std::size_t i = 0; i < drafts.size(); ++i) {
-        if (!(drafts[i].formFactor > 0)) continue;
-        present_ |= std::uint64_t(1) << i;
-        if (drafts[i].blockerCount == 0) visible_ |= std::uint64_t(1) << i;
-        factors.push_back(std::bit_cast<std::uint32_t>(drafts[i].formFactor));
-    }
-    const auto sideStart =
-        std::uint32_t(factors.size() + factors.size() - std::size_t(std::popcount(visible_)));
-    for (const Draft& draft : drafts) {
-        if (!(draft.formFactor > 0) || draft.blockerCount == 0) continue;
-        if (draft.visible == 0 && draft.blockerCount == 1) {
-            codes.push_back(draft.blockers[0].object);
-            continue;
+/// Lists the objects of a block, then puts its parts one after the other.
+class RowBlock::Writer {
+public:
+    explicit Writer(std::span<const Draft> drafts) : drafts_(drafts) {
+        for (std::size_t i = 0; i < drafts.size(); ++i) {
+            if (!isPresent(drafts[i])) continue;
+            const std::uint64_t bit = std::uint64_t(1) << i;
+            present_ |= bit;
+            if (drafts[i].blockerCount == 0) visible_ |= bit;
+            if (drafts[i].blockerCount == 0 || drafts[i].visible != 0) seen_ |= bit;
+            for (const Blocker& blocker : blockersOf(drafts[i])) {
+                if (place(blocker.object) == objects_.size()) objects_.push_back(blocker.object);
+                wideObjects_ |= blocker.object >> 16 != 0;
+            }
         }
-        codes.push_back(kMixed | (sideStart + std::uint32_t(side.size())));
-        appendSide(draft, side);
     }
-    wordCount_ = std::uint32_t(factors.size() + codes.size() + side.size());
-    words_ = std::make_unique_for_overwrite<std::uint32_t[]>(wordCount_);
-    std::uint32_t* out = std::copy(factors.begin(), factors.end(), words_.get());
-    out = std::copy(codes.begin(), codes.end(), out);
-    std::copy(side.begin(), side.end(), out);
+
+    std::unique_ptr<std::byte[]> write() {
+        if (present_ == 0) return nullptr;
+        put(present_);
+        put(visible_);
+        put(std::uint16_t(0)); // the size, not yet known
+        put(std::uint16_t(objects_.size() | (wideObjects_ ? kWideObjects : 0u)));
+        if (present_ != visible_) put(seen_);
+        for (const Draft& draft : drafts_)
+            if (isPresent(draft)) put(draft.formFactor);
+        for (const Draft& draft : drafts_)
+            if (isPresent(draft) && draft.blockerCount > 0 && draft.visible != 0)
+                put(draft.visibility);
+        for (const std::uint32_t object : objects_) putLow(object, wideObjects_ ? 4 : 2);
+        for (const Draft& draft : drafts_)
+            if (isPresent(draft) && draft.blockerCount > 0) putRecord(draft);
+
+        assert(out_.size() < 65536); // 64 entries of 64 blockers, all different, take less
+        const auto size = std::uint16_t(out_.size());
+        std::memcpy(out_.data() + kBytes, &size, sizeof size);
+        auto bytes = std::make_unique_for_overwrite<std::byte[]>(size);
+        std::copy(out_.begin(), out_.end(), bytes.get());
+        return bytes;
+    }
+
+private:
+    template <class T>
+    void put(T value) {
+        putLow(value, sizeof value);
+    }
+    /// The first bytes of a little-endian value.
+    template <class T>
+    void putLow(T value, std::size_t size) {
+        std::array<std::byte, sizeof value> bytes;
+        std::memcpy(bytes.data(), &value, sizeof value);
+        out_.insert(out_.end(), bytes.begin(), bytes.begin() + std::ptrdiff_t(size));
+    }
+    std::size_t place(std::uint32_t object) const {
+        return std::size_t(std::find(objects_.begin(), objects_.end(), object) - objects_.begin());
+    }
+
+    void putRecord(const Draft& draft) {
+        const std::span<const Blocker> blockers = blockersOf(draft);
+        const std::size_t codes = codeSize(objects_.size());
+        if (draft.visible == 0 && blockers.size() == 1) {
+            putLow(place(blockers[0].object), codes);
+            return;
+        }
+        MixedForm form;
+        form.wide = draft.visible >> 16 != 0 ||
+                    std::any_of(blockers.begin(), blockers.end(),
+                                [](const Blocker& b) { return b.samples >> 16 != 0; });
+        form.implied =
+            blockers.back().samples == (form.allSamples() & ~allButLast(draft.visible, blockers));
+        form.blockers = std::min<std::size_t>(blockers.size(), 4);
+        putLow(firstMixed(codes) + form.code(), codes);
+        if (form.blockers == 4) put(std::uint8_t(blockers.size()));
+        if (draft.visible != 0) putLow(draft.visible, form.maskSize());
+        for (std::size_t b = 0; b < blockers.size(); ++b) {
+            putLow(place(blockers[b].object), codes);
+            if (b + 1 < blockers.size() || !form.implied)
+                putLow(blockers[b].samples, form.maskSize());
+        }
+    }
+
+    std::span<const Draft> drafts_;
+    std::uint64_t present_ = 0, visible_ = 0, seen_ = 0;
+    std::vector<std::uint32_t> objects_;
+    bool wideObjects_ = false;
+    std::vector<std::byte> out_;
+};
+
+/// Goes through the entries of a block, in order.
+class RowBlock::Reader {
+public:
+    explicit Reader(const RowBlock& block) : block_(block), left_(block.present()) {
+        if (left_ == 0) return;
+        visible_ = block.visible();
+        seen_ = block.seen();
+        factor_ = block.factors();
+        share_ = block.visibilities();
+        record_ = block.records();
+        codeSize_ = codeSize(block.objectCount());
+    }
+
+    /// Reads the next entry.
+    bool next() {
+        if (left_ == 0) return false;
+        receiver = std::countr_zero(left_);
+        left_ &= left_ - 1;
+        formFactor = block_.at<float>(factor_);
+        factor_ += 4;
+        visibility = 1;
+        visible = kAll;
+        blockers = {};
+        if (visible_ >> receiver & 1) return true;
+        visibility = 0;
+        visible = 0;
+        const bool seen = seen_ >> receiver & 1;
+        if (seen) {
+            visibility = block_.at<float>(share_);
+            share_ += 4;
+        }
+        readRecord(seen);
+        return true;
+    }
+
+    int receiver = 0;
+    float formFactor = 0, visibility = 0;
+    std::uint64_t visible = 0;
+    std::span<const Blocker> blockers;
+
+private:
+    std::uint64_t take(std::size_t size) {
+        std::uint64_t value = 0;
+        std::memcpy(&value, block_.bytes_.get() + record_, size);
+        record_ += size;
+        return value;
+    }
+
+    void readRecord(bool seen) {
+        const std::size_t code = take(codeSize_), mixed = firstMixed(codeSize_);
+        if (code < mixed) {
+            scratch_[0] = {block_.object(code), kAll};
+            blockers = std::span(scratch_).first(1);
+            return;
+        }
+        const MixedForm form = MixedForm::of(code - mixed);
+        blockers = std::span(scratch_).first(form.blockers < 4 ? form.blockers : take(1));
+        if (seen) visible = take(form.maskSize());
+        for (std::size_t b = 0; b < blockers.size(); ++b) {
+            scratch_[b].object = block_.object(take(codeSize_));
+            scratch_[b].samples = b + 1 < blockers.size() || !form.implied
+                                      ? take(form.maskSize())
+                                      : form.allSamples() & ~allButLast(visible, blockers);
+        }
+    }
+
+    const RowBlock& block_;
+    std::uint64_t left_, visible_ = 0, seen_ = 0;
+    std::size_t factor_ = 0, share_ = 0, record_ = 0, codeSize_ = 0; ///< places in the bytes
+    std::array<Blocker, kSize> scratch_;
+};
+
+void RowBlock::assign(std::span<const Draft> drafts) {
+    static_assert(std::endian::native == std::endian::little);
+    assert(drafts.size() <= kSize);
+    bytes_ = Writer(drafts).write();
 }
 
-void RowBlock::appendSide(const Draft& draft, std::vector<std::uint32_t>& side) {
-    const auto blockers = std::span(draft.blockers).first(std::size_t(draft.blockerCount));
-    const bool wide = draft.visible >> 16 != 0 ||
-                      std::any_of(blockers.begin(), blockers.end(), [](const Blocker& b) {
-                          return b.samples >> 16 != 0 || b.object >> 16 != 0;
-                      });
-    const auto count = std::uint32_t(blockers.size());
-    const auto visibility = std::bit_cast<std::uint32_t>(draft.visibility);
-    if (wide) {
-        side.insert(side.end(),
-                    {count | kWide, visibility, low(draft.visible), high(draft.visible)});
-        for (const Blocker& blocker : blockers)
-            side.insert(side.end(), {blocker.object, low(blocker.samples), high(blocker.samples)});
-        return;
+void RowBlock::decode(std::span<Draft> drafts) const {
+    for (Draft& draft : drafts) draft.begin(0);
+    for (Reader read(*this); read.next();) {
+        Draft& draft = drafts[std::size_t(read.receiver)];
+        draft.begin(read.formFactor);
+        draft.visibility = read.visibility;
+        draft.visible = read.visible;
+        draft.blockerCount = int(read.blockers.size());
+        std::copy(read.blockers.begin(), read.blockers.end(), draft.blockers.begin());
     }
-    side.push_back(count | low(draft.visible) << 16);
-    if (draft.visible != 0) side.push_back(visibility);
-    for (const Blocker& blocker : blockers)
-        side.push_back(blocker.object << 16 | low(blocker.samples));
 }
 
 RowBlock::Entry RowBlock::entry(int receiver) const {
     Entry entry;
-    const std::uint64_t bit = std::uint64_t(1) << receiver;
-    if (!(present_ & bit)) return entry;
-    entry.present = true;
-    const std::size_t index = std::size_t(std::popcount(present_ & (bit - 1)));
-    entry.formFactor = std::bit_cast<float>(words_[index]);
-    if (visible_ & bit) {
-        entry.visibility = 1;
-        entry.visible = ~std::uint64_t(0);
-        return entry;
+    for (Reader read(*this); read.next();) {
+        if (read.receiver != receiver) continue;
+        entry = {true,
+                 read.formFactor,
+                 read.visibility,
+                 read.visible,
+                 {read.blockers.begin(), read.blockers.end()}};
+        break;
     }
-    const std::size_t hidden = std::size_t(std::popcount(present_ & ~visible_ & (bit - 1)));
-    const std::uint32_t code = words_[std::size_t(std::popcount(present_)) + hidden];
-    if (!(code & kMixed)) {
-        entry.blockers.push_back({code, ~std::uint64_t(0)});
-        return entry;
-    }
-    const std::uint32_t* side = words_.get() + (code & ~kMixed);
-    const std::uint32_t head = *side++;
-    const std::uint32_t count = head & (kWide - 1);
-    if (head & kWide) {
-        entry.visibility = std::bit_cast<float>(side[0]);
-        entry.visible = join(side[1], side[2]);
-        side += 3;
-        for (std::uint32_t b = 0; b < count; ++b, side += 3)
-            entry.blockers.push_back({side[0], join(side[1], side[2])});
-        return entry;
-    }
-    entry.visible = head >> 16;
-    if (entry.visible != 0) entry.visibility = std::bit_cast<float>(*side++);
-    for (std::uint32_t b = 0; b < count; ++b, ++side)
-        entry.blockers.push_back({*side >> 16, *side & 0xffffu});
     return entry;
+}
+
+bool RowBlock::blockedBy(std::uint32_t object) const {
+    bool found = false;
+    forEachBlocker([&](std::uint32_t o) { found |= o == object; });
+    return found;
+}
+
+float RowBlock::largestFormFactor() const {
+    float largest = 0;
+    for (int i = 0; i < entryCount(); ++i)
+        largest = std::max(largest, at<float>(factors() + 4 * std::size_t(i)));
+    return largest;
+}
+
+bool RowBlock::sameMasks(const RowBlock& other) const {
+    if (present() != other.present() || visible() != other.visible()) return false;
+    for (Reader a(*this), b(other); a.next() && b.next();)
+        if (a.visible != b.visible) return false;
+    return true;
+}
+
+bool RowBlock::operator==(const RowBlock& other) const {
+    return size() == other.size() &&
+           std::equal(bytes_.get(), bytes_.get() + size(), other.bytes_.get());
 }
 
 RowSize sizeOf(const Row& row) {

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <vector>
@@ -16,23 +18,29 @@ struct Blocker {
     std::uint64_t samples;
 };
 
-/// Up to 64 consecutive receivers of one row.
+/// Up to 64 consecutive receivers of one row. Receivers that can't face the sender at all have no
+/// entry. A block without entries owns no memory; any other is one run of bytes:
 ///
-/// Most entries are wholly visible or wholly blocked by one object, so these cost one or two words:
+///     present, visible   8 + 8  masks of receivers: has an entry; and is wholly visible
+///     size, objects      2 + 2  bytes of this run; length of the list of objects, | kWideObjects
+///     seen               8      mask: some sample is visible       (not if all are wholly visible)
+///     form factors       4 each of the present entries, unoccluded
+///     visibilities       4 each of the entries that are seen, but not wholly
+///     objects            2 each, with kWideObjects 4: all that block anything in this block
+///     records                   of the entries that are not wholly visible, in order
 ///
-///     words:  form factor of each present entry (float) | code of each entry that is not wholly
-///             visible | side records
-///     code:   object id, the one that blocks every sample; or 0x80000000 + offset of a side record
-///     side, narrow (only samples 0 ... 15 were taken, object ids fit 16 bits):
-///             blockers | visible samples << 16
-///             visibility (float), unless no sample is visible
-///             for each blocker object << 16 | its samples
-///     side, wide:
-///             blockers | 0x8000
-///             visibility (float) | visible samples (2 words)
-///             for each blocker its object | its samples (2 words)
+/// What is summed in a shot comes first and lies at fixed places. A record is as short as its
+/// entry is simple. It begins with a code of one byte, two if there are more objects than that can
+/// name. The 16 largest codes mean a mixed entry, smaller ones an object that blocks every sample:
 ///
-/// Receivers that can't face the sender at all have no entry.
+///     code = place in the list                           wholly blocked by this one
+///     code = largest - 15 + wide + 2 implied + 4 (min(blockers, 4) - 1)
+///            number of blockers (1 byte), if 4 or more
+///            mask of the visible samples, if any is
+///            for each blocker its place in the list, and the mask of its samples
+///
+/// Masks take 2 bytes if only the samples 0 ... 15 were taken, else 8 (wide). The last blocker's
+/// mask is left out (implied) if it is just what the others and the visible samples leave over.
 class RowBlock {
 public:
     static constexpr int kSize = 64;
@@ -60,24 +68,47 @@ public:
     };
     void assign(std::span<const Draft> drafts);
 
-    /// Calls visit(receiver in the block, form factor times visibility), in order.
+    /// Back into drafts, for which assign() gives the same block again. Which samples were taken is
+    /// not known of simple entries: a wholly visible one has all bits set and no blocker, one that
+    /// an object blocks wholly has this blocker with all bits set.
+    /// \pre no receiver beyond the end of `drafts` has an entry
+    void decode(std::span<Draft> drafts) const;
+
+    /// Calls visit(receiver in the block, form factor times visibility), in order, for the entries
+    /// of which some sample is visible.
     template <class Visit>
     void forEach(Visit visit) const {
-        std::size_t entry = 0, hidden = 0;
-        const std::size_t codes = std::size_t(std::popcount(present_));
-        for (std::uint64_t left = present_; left != 0; left &= left - 1, ++entry) {
+        if (!bytes_) return;
+        const std::uint64_t present = at<std::uint64_t>(0), visible = at<std::uint64_t>(kVisible);
+        std::size_t factor = factors();
+        if (present == visible) {
+            for (std::uint64_t left = present; left != 0; left &= left - 1, factor += 4)
+                visit(std::countr_zero(left), at<float>(factor));
+            return;
+        }
+        const std::uint64_t seen = at<std::uint64_t>(kSeen);
+        std::size_t share = visibilities();
+        for (std::uint64_t left = present; left != 0; left &= left - 1, factor += 4) {
             const int receiver = std::countr_zero(left);
-            float factor = std::bit_cast<float>(words_[entry]);
-            if (!(visible_ >> receiver & 1)) {
-                const std::uint32_t code = words_[codes + hidden++];
-                if (!(code & kMixed)) continue; // blocked by one
-                const std::uint32_t* side = words_.get() + (code & ~kMixed);
-                if ((*side & kWide) == 0 && *side >> 16 == 0) continue; // blocked by several
-                factor *= std::bit_cast<float>(side[1]);
+            if (!(seen >> receiver & 1)) continue;
+            float value = at<float>(factor);
+            if (!(visible >> receiver & 1)) {
+                value *= at<float>(share);
+                share += 4;
             }
-            visit(receiver, factor);
+            visit(receiver, value);
         }
     }
+
+    /// Calls visit(object) once for every object that blocks any sample in this block.
+    template <class Visit>
+    void forEachBlocker(Visit visit) const {
+        for (std::size_t i = 0; i < objectCount(); ++i) visit(object(i));
+    }
+    bool blockedBy(std::uint32_t object) const;
+
+    /// Unoccluded, of all entries; 0 if there is none.
+    float largestFormFactor() const;
 
     /// An entry read back.
     struct Entry {
@@ -88,19 +119,54 @@ public:
     };
     Entry entry(int receiver) const;
 
-    int entryCount() const { return std::popcount(present_); }
-    std::size_t bytes() const { return sizeof *this + wordCount_ * sizeof(std::uint32_t); }
+    int entryCount() const { return std::popcount(present()); }
+    /// Bytes it takes, what the allocator adds left out.
+    std::size_t bytes() const { return sizeof *this + size(); }
+
+    /// The same entries, visible at the same samples; who blocks the others may differ.
+    bool sameMasks(const RowBlock& other) const;
+    /// The same to the last byte.
+    bool operator==(const RowBlock& other) const;
 
 private:
-    static constexpr std::uint32_t kMixed = 0x80000000u; ///< in a code
-    static constexpr std::uint32_t kWide = 0x8000u;      ///< in a side record's first word
+    class Writer;
+    class Reader;
 
-    static void appendSide(const Draft& draft, std::vector<std::uint32_t>& side);
+    static constexpr std::size_t kVisible = 8, kBytes = 16, kObjects = 18, kSeen = 20;
+    static constexpr std::uint16_t kWideObjects = 0x8000; ///< object ids of 4 bytes
 
-    std::uint64_t present_ = 0; ///< receivers that have an entry
-    std::uint64_t visible_ = 0; ///< those of them that are wholly visible
-    std::uint32_t wordCount_ = 0;
-    std::unique_ptr<std::uint32_t[]> words_;
+    template <class T>
+    T at(std::size_t offset) const {
+        T value;
+        std::memcpy(&value, bytes_.get() + offset, sizeof value);
+        return value;
+    }
+    std::uint64_t present() const { return bytes_ ? at<std::uint64_t>(0) : 0; }
+    std::uint64_t visible() const { return bytes_ ? at<std::uint64_t>(kVisible) : 0; }
+    std::uint64_t seen() const {
+        return present() == visible() ? visible() : at<std::uint64_t>(kSeen);
+    }
+    std::size_t size() const { return bytes_ ? at<std::uint16_t>(kBytes) : 0; }
+    std::size_t objectCount() const {
+        return bytes_ ? at<std::uint16_t>(kObjects) & ~kWideObjects : 0;
+    }
+    std::size_t objectSize() const { return at<std::uint16_t>(kObjects) & kWideObjects ? 4 : 2; }
+
+    /// Where the parts begin. \pre there are entries
+    std::size_t factors() const { return present() == visible() ? kSeen : kSeen + 8; }
+    std::size_t visibilities() const {
+        return factors() + 4 * std::size_t(std::popcount(present()));
+    }
+    std::size_t objects() const {
+        return visibilities() + 4 * std::size_t(std::popcount(seen() & ~visible()));
+    }
+    std::size_t records() const { return objects() + objectSize() * objectCount(); }
+    std::uint32_t object(std::size_t i) const {
+        return objectSize() == 4 ? at<std::uint32_t>(objects() + 4 * i)
+                                 : at<std::uint16_t>(objects() + 2 * i);
+    }
+
+    std::unique_ptr<std::byte[]> bytes_;
 };
 
 /// A row: one sender's entries, block by block. Blocks are independent of each other.
