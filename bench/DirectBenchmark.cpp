@@ -60,7 +60,7 @@ void solveOnce(const PatchSet& patches, const RayScene& rays, const SolverOption
                Best& best, Sizes& sizes) {
     Solver solver(patches, rays, options);
     const Stopwatch watch;
-    solver.solveDirect();
+    solver.settle();
     best.solved(watch);
     if (best.rounds > 0) return;
     for (const Row& row : solver.emitterRows()) {
@@ -68,7 +68,7 @@ void solveOnce(const PatchSet& patches, const RayScene& rays, const SolverOption
         sizes.rows.entries += size.entries;
         sizes.rows.bytes += size.bytes;
     }
-    sizes.rays = solver.statistics().directRays;
+    sizes.rays = solver.statistics().direct.rays.total();
     sizes.peak = peakMemory();
 }
 
@@ -103,7 +103,8 @@ void report(benchmark::State& state, const PatchSet& patches, const Best& best,
 
 void direct(benchmark::State& state, const Case& which) {
     const BenchScene scene(which.scene);
-    const SolverOptions options;
+    SolverOptions options;
+    options.directOnly = true;
     for (auto _ : state) {
         resetPeakMemory();
         Best best;

@@ -19,12 +19,8 @@ void indirect(benchmark::State& state, const std::string& name) {
         const BuiltPatches built = scene.mesh(0);
         const RayScene rays(built.patches.rayMeshes);
         Solver solver(built.patches, rays, {});
-        solver.solveDirect();
-
-        const Stopwatch relaxing;
-        solver.solveIndirect();
-        const double seconds = relaxing.wall();
-        state.counters["indirect_cpu_s"] = relaxing.cpu();
+        solver.settle();
+        const double seconds = solver.statistics().indirect.seconds;
         state.SetIterationTime(seconds);
 
         RowSize size;
@@ -48,8 +44,8 @@ void indirect(benchmark::State& state, const std::string& name) {
         counters["elements"] = double(built.patches.elements.size());
         counters["shots"] = double(statistics.shots);
         counters["indirect_s"] = seconds;
-        counters["rays"] = double(statistics.indirectRays);
-        counters["Mrays_per_s"] = double(statistics.indirectRays) * 1e-6 / seconds;
+        counters["rays"] = double(statistics.indirect.rays.total());
+        counters["Mrays_per_s"] = double(statistics.indirect.rays.total()) * 1e-6 / seconds;
         counters["entries"] = double(size.entries);
         counters["bytes_per_entry"] = double(size.bytes) / double(size.entries);
         counters["rows_MB"] = double(size.bytes) * 1e-6;

@@ -16,7 +16,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kTubeSides = 24;
 
-// Chromaticity of the Planckian locus, 1667 K and up (Kim et al. 2002, eqs. 3 and 4).
+// Chromaticity of the Planckian locus, 1667 K and up (Kang et al. 2002, eqs. 3 and 4).
 glm::dvec2 planckianLocus(double t) {
     const double x =
         t < 4000 ? -0.2661239e9 / (t * t * t) - 0.2343589e6 / (t * t) + 0.8776956e3 / t + 0.179910

@@ -3,13 +3,13 @@
 #include "radiosity/Contact.h"
 #include "radiosity/LightShapes.h"
 #include "radiosity/PatchAssembly.h"
-#include "radiosity/RayScene.h"
 #include "radiosity/SurfaceMesh.h"
 #include "radiosity/Tessellation.h"
 #include "scenegraph/Error.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -18,26 +18,57 @@ namespace penumbra {
 
 namespace {
 
-/// A mesh of the scene, or the shape of a light, in its place.
+/// A mesh of the scene, or the shape of a light, in the stretched frame of its object.
 struct Surface {
     SurfaceMesh mesh;
     ObjectId object;
     std::string path;
     const Light* light = nullptr;
-    glm::dmat4 toWorld{1.0};
+    glm::dmat4 toShape{1.0};
 };
 
-std::vector<Surface> placeSurfaces(const PlacedScene& scene, std::vector<MeshData>& lightMeshes) {
+std::uint64_t keyOf(const std::string& path) { // FNV-1a, 64 bits
+    std::uint64_t key = 0xcbf29ce484222325ull;
+    for (const char c : path) key = (key ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
+    return key;
+}
+
+void listObjects(const PlacedScene& scene, PatchSet& out) {
+    for (const Object& object : scene.objects) {
+        ObjectPart part;
+        part.path = object.path;
+        part.key = keyOf(object.path);
+        part.movable = object.movable;
+        part.present = object.visible;
+        if (object.movable) {
+            const Placement placement = placementOf(object.toWorld);
+            part.pose = placement.pose;
+            part.stretch = placement.stretch;
+        }
+        out.objects.push_back(std::move(part));
+    }
+    out.rayMeshes.resize(out.objects.size());
+}
+
+/// The surfaces, object by object.
+std::vector<Surface> placeSurfaces(const PlacedScene& scene, const PatchSet& set,
+                                   std::vector<MeshData>& lightMeshes) {
+    const auto toShape = [&](const auto& placed) {
+        const ObjectPart& part = set.objects[placed.object.value];
+        return part.movable ? glm::dmat4(part.stretch) * placed.toObject : placed.toWorld;
+    };
     std::vector<Surface> surfaces;
     for (const Placed<Mesh>& mesh : scene.meshes)
         surfaces.push_back(
-            {placeSurface(mesh.node->data(), mesh.toWorld), mesh.object, mesh.path, nullptr, {}});
+            {placeSurface(mesh.node->data(), toShape(mesh)), mesh.object, mesh.path, nullptr, {}});
     lightMeshes.reserve(scene.lights.size()); // the surfaces point into it
     for (const Placed<Light>& light : scene.lights) {
         lightMeshes.push_back(lightShapeMesh(*light.node));
-        surfaces.push_back({placeSurface(lightMeshes.back(), light.toWorld), light.object,
-                            light.path, light.node, light.toWorld});
+        surfaces.push_back({placeSurface(lightMeshes.back(), toShape(light)), light.object,
+                            light.path, light.node, toShape(light)});
     }
+    std::stable_sort(surfaces.begin(), surfaces.end(),
+                     [](const Surface& a, const Surface& b) { return a.object < b.object; });
     return surfaces;
 }
 
@@ -46,21 +77,38 @@ const Material& materialOf(const SurfaceMesh& mesh, const SurfaceFace& face) {
     return *data.materials[data.faceMaterial.empty() ? 0 : data.faceMaterial[face.source]];
 }
 
-/// A point a hair in front of every emitting face.
-std::vector<glm::vec3> emitterPoints(const std::vector<Surface>& surfaces) {
-    std::vector<glm::vec3> points;
-    for (const Surface& surface : surfaces)
+bool emits(const Surface& surface, const SurfaceFace& face) {
+    return surface.light || materialOf(surface.mesh, face).emissive();
+}
+
+/// Decides which sides there are. Lamps count even when they are dark.
+void chooseAllSides(std::vector<Surface>& surfaces, BuiltPatches& built) {
+    const PatchSet& set = built.patches;
+    std::vector<glm::vec3> lights; // a point a hair in front of every emitting face [world]
+    std::vector<std::vector<const SurfaceMesh*>> siblings(set.objects.size());
+    for (const Surface& surface : surfaces) siblings[surface.object.value].push_back(&surface.mesh);
+    for (const Surface& surface : surfaces) {
+        built.enclosures.addSurface(surface.mesh, siblings[surface.object.value], surface.object);
         for (const SurfaceFace& face : surface.mesh.faces) {
-            if (!materialOf(surface.mesh, face).emissive()) continue;
+            if (!emits(surface, face)) continue;
             glm::vec3 middle(0);
             const auto corners = surface.mesh.cornersOf(face);
             for (std::uint32_t corner : corners)
                 middle += surface.mesh.points[corner] / float(corners.size());
             const glm::dvec3 normal = newellNormal(surface.mesh.points, corners);
             const double size = std::sqrt(glm::length(normal));
-            points.push_back(middle + glm::vec3(1e-3 * size * glm::normalize(normal)));
+            const glm::vec3 point = middle + glm::vec3(1e-3 * size * glm::normalize(normal));
+            built.enclosures.addLight(point, surface.object);
+            lights.push_back(set.objects[surface.object.value].pose.point(point));
         }
-    return points;
+    }
+    for (Surface& surface : surfaces) {
+        const Pose& pose = set.objects[surface.object.value].pose;
+        std::vector<glm::vec3> inFrame;
+        for (glm::vec3 light : lights) inFrame.push_back(pose.inverse(light));
+        chooseSides(surface.mesh, inFrame, siblings[surface.object.value]);
+    }
+    built.enclosuresLit = built.enclosures.lit(set);
 }
 
 double litArea(const std::vector<Surface>& surfaces) {
@@ -76,9 +124,10 @@ double litArea(const std::vector<Surface>& surfaces) {
 /// bulb, are one; large ones are cut, so that each is seen mildly by most of what it lights.
 class EmitterCollector {
 public:
-    EmitterCollector(const Surface& surface, float patchSize, double emissiveArea, PatchSet& out)
-        : surface_(surface), small_(2 * patchSize),
-          large_(std::max(4 * patchSize, float(std::sqrt(emissiveArea / 32)))), out_(out) {}
+    EmitterCollector(const Surface& surface, double emissiveArea, BuiltPatches& built)
+        : surface_(surface), small_(2 * built.patches.patchSize),
+          large_(std::max(4 * built.patches.patchSize, float(std::sqrt(emissiveArea / 32)))),
+          sources_(built.emitterSources), out_(built.patches) {}
 
     void add(const Material& material, const std::vector<glm::vec3>& outline) {
         if (outline.size() != 4) return addPiece(material, outline);
@@ -115,6 +164,7 @@ private:
             emitter.object = surface_.object;
             emitter.path = surface_.path;
             out_.emitters.push_back(std::move(emitter));
+            sources_.push_back({&material, nullptr});
         } else {
             group.bounds = grown;
         }
@@ -130,18 +180,19 @@ private:
     };
     const Surface& surface_;
     float small_, large_; ///< [m]
+    std::vector<LightSource>& sources_;
     PatchSet& out_;
     std::map<const Material*, Group> groups_;
 };
 
-void addEmitters(const Surface& surface, const Tessellation& tessellation, PatchSet& out) {
+void addEmitters(const Surface& surface, const Tessellation& tessellation, BuiltPatches& built) {
     if (surface.light) {
-        if (maxChannel(surface.light->luminance()) <= 0) return;
-        Emitter emitter = lightEmitter(*surface.light, surface.toWorld);
+        Emitter emitter = lightEmitter(*surface.light, surface.toShape);
         if (!(emitter.area > 0)) return;
         emitter.object = surface.object;
         emitter.path = surface.path;
-        out.emitters.push_back(std::move(emitter));
+        built.patches.emitters.push_back(std::move(emitter));
+        built.emitterSources.push_back({nullptr, surface.light});
         return;
     }
     const SurfaceMesh& mesh = surface.mesh;
@@ -149,7 +200,7 @@ void addEmitters(const Surface& surface, const Tessellation& tessellation, Patch
     for (const SurfaceFace& face : mesh.faces)
         if (materialOf(mesh, face).emissive())
             area += 0.5 * glm::length(newellNormal(mesh.points, mesh.cornersOf(face)));
-    EmitterCollector collector(surface, out.patchSize, area, out);
+    EmitterCollector collector(surface, area, built);
     if (!mesh.subdivided()) {
         for (const SurfaceFace& face : mesh.faces) {
             if (!materialOf(mesh, face).emissive()) continue;
@@ -192,13 +243,14 @@ float defaultPatchSize(double area) {
 BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& options) {
     BuiltPatches built;
     PatchSet& out = built.patches;
+    listObjects(scene, out);
     std::vector<MeshData> lightMeshes;
-    std::vector<Surface> surfaces = placeSurfaces(scene, lightMeshes);
-    const std::vector<glm::vec3> lights = emitterPoints(surfaces);
+    std::vector<Surface> surfaces = placeSurfaces(scene, out, lightMeshes);
+    chooseAllSides(surfaces, built);
     std::size_t skipped = 0;
-    for (Surface& surface : surfaces) {
-        chooseSides(surface.mesh, lights);
-        for (glm::vec3 point : surface.mesh.points) out.bounds.add(point);
+    for (const Surface& surface : surfaces) {
+        const Pose& pose = out.objects[surface.object.value].pose;
+        for (glm::vec3 point : surface.mesh.points) out.bounds.add(pose.point(point));
         if (!surface.light) {
             skipped += surface.mesh.skipped;
             out.polygons += surface.mesh.used;
@@ -207,10 +259,9 @@ BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& option
     out.patchSize = options.patchSize > 0 ? options.patchSize : defaultPatchSize(litArea(surfaces));
     out.elementSize = options.elementSize > 0 ? options.elementSize : out.patchSize / 8;
     out.patchSize = std::max(out.patchSize, out.elementSize);
+    out.extent = options.extent > 0 ? options.extent : out.bounds.diagonal();
     refuseTooMuch(out, litArea(surfaces));
-    out.skin = std::max(1e-5f * out.bounds.diagonal(), 1e-7f);
-    out.rayMeshes.resize(scene.objects.size());
-    for (const Object& object : scene.objects) out.objectPaths.push_back(object.path);
+    out.skin = std::max(1e-5f * out.extent, 1e-7f);
 
     PatchAssembly assembly(out);
     for (const Surface& surface : surfaces) {
@@ -221,13 +272,25 @@ BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& option
             built.warnings.push_back(
                 surface.path + ": OpenSubdiv refuses this cage; its polygons are used as they are");
         assembly.add(surface.mesh, tessellation, surface.object);
-        addEmitters(surface, tessellation, out);
+        Range& emitters = out.objects[surface.object.value].emitters;
+        if (emitters.count == 0) emitters.first = std::uint32_t(out.emitters.size());
+        addEmitters(surface, tessellation, built);
+        emitters.count = std::uint32_t(out.emitters.size()) - emitters.first;
     }
-    assembly.finish(RayScene(out.rayMeshes));
+    assembly.finish();
+    for (const auto& [material, emits] : assembly.materialSources()) {
+        built.materialSources.push_back({material, nullptr});
+        built.materialEmits.push_back(emits);
+        for (const Surface& surface : surfaces)
+            if (surface.light && surface.mesh.data->materials[0].get() == material)
+                built.materialSources.back() = {nullptr, surface.light};
+    }
     if (skipped > 0)
         built.warnings.push_back(std::to_string(skipped) +
                                  " faces without area or with too many corners were left out");
-    if (out.emitters.empty())
+    const bool dark = std::all_of(out.emitters.begin(), out.emitters.end(),
+                                  [](const Emitter& e) { return maxChannel(e.exitance) <= 0; });
+    if (dark)
         built.warnings.push_back("the scene has no light: nothing emits, everything will be black");
     return built;
 }

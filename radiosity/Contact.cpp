@@ -19,110 +19,72 @@ constexpr int kBisections = 6;
 /// Points a side that are tried when neither the middle nor a corner of an element is free.
 constexpr int kGrid = 5;
 
-class ContactResolver {
-public:
-    ContactResolver(const RayScene& rays, std::span<const RayMesh> meshes, float skin,
-                    const std::vector<Vertex>& vertices)
-        : rays_(rays), meshes_(meshes), skin_(skin), vertices_(vertices) {}
+} // namespace
 
-    /// What is known of one element: where its corners' light is to be taken.
-    struct Result {
-        bool free = false;
-        std::array<bool, 4> moved{};
-        std::array<glm::vec3, 4> position{};
-    };
-
-    Result examine(const Element& element) const {
-        Result result;
-        const Frame frame = frameOf(element);
-        const float cover = coverDistance(frame.size, skin_);
-        std::array<glm::vec3, 4> corner;
-        std::array<bool, 4> cornerFree{};
-        for (std::size_t i = 0; i < frame.count; ++i) {
-            corner[i] = cornerOf(element, i);
-            cornerFree[i] = isFree(corner[i], frame.normal, cover);
-        }
-        glm::vec3 anchor = frame.middle + skin_ * frame.normal;
-        result.free = isFree(anchor, frame.normal, cover);
-        for (std::size_t i = 0; !result.free && i < frame.count; ++i)
-            if (cornerFree[i]) anchor = corner[i], result.free = true;
-        for (int i = 0; !result.free && i < kGrid * kGrid;
-             ++i) { // a slit between things that lie on it
-            const glm::vec3 p = pointOf(element, (float(i % kGrid) + 0.5f) / kGrid,
-                                        (float(i / kGrid) + 0.5f) / kGrid) +
-                                skin_ * frame.normal;
-            if (isFree(p, frame.normal, cover)) anchor = p, result.free = true;
-        }
-        if (!result.free) return result;
-        for (std::size_t i = 0; i < frame.count; ++i) {
-            if (cornerFree[i] && (corner[i] == anchor || !rays_.occluded(anchor, corner[i])))
-                continue;
-            result.moved[i] = true;
-            result.position[i] = endOfWay(anchor, corner[i], frame.normal, cover);
-        }
-        return result;
+ContactResolver::Result ContactResolver::examine(const Element& element) const {
+    Result result;
+    const Frame frame = frameOf(element);
+    const float cover = coverDistance(frame.size, skin_);
+    std::array<glm::vec3, 4> corner;
+    std::array<bool, 4> cornerFree{};
+    for (std::size_t i = 0; i < frame.count; ++i) {
+        corner[i] = cornerOf(element, i);
+        cornerFree[i] = isFree(corner[i], frame.normal, cover);
     }
-
-    /// Where corner i of an element receives light if it is not shared: a hair inside of the
-    /// element.
-    glm::vec3 cornerOf(const Element& element, std::size_t i) const {
-        const Frame frame = frameOf(element);
-        return glm::mix(vertex(element, i).position, frame.middle, kPullIn) + skin_ * frame.normal;
+    glm::vec3 anchor = frame.middle + skin_ * frame.normal;
+    result.free = isFree(anchor, frame.normal, cover);
+    for (std::size_t i = 0; !result.free && i < frame.count; ++i)
+        if (cornerFree[i]) anchor = corner[i], result.free = true;
+    for (int i = 0; !result.free && i < kGrid * kGrid;
+         ++i) { // a slit between things that lie on it
+        const glm::vec3 p =
+            pointOf(element, (float(i % kGrid) + 0.5f) / kGrid, (float(i / kGrid) + 0.5f) / kGrid) +
+            skin_ * frame.normal;
+        if (isFree(p, frame.normal, cover)) anchor = p, result.free = true;
     }
-
-private:
-    struct Frame {
-        std::size_t count = 4;
-        glm::vec3 middle{0}, normal{0};
-        float size = 0; ///< from the middle to the farthest corner
-    };
-    Frame frameOf(const Element& element) const {
-        Frame frame;
-        frame.count = element.isTriangle() ? 3 : 4;
-        for (std::size_t i = 0; i < frame.count; ++i) {
-            frame.middle += vertex(element, i).position / float(frame.count);
-            frame.normal += vertex(element, i).receiver.normal;
-        }
-        frame.normal = glm::normalize(frame.normal);
-        for (std::size_t i = 0; i < frame.count; ++i)
-            frame.size =
-                std::max(frame.size, glm::distance(frame.middle, vertex(element, i).position));
-        return frame;
+    if (!result.free) return result;
+    for (std::size_t i = 0; i < frame.count; ++i) {
+        if (cornerFree[i] && (corner[i] == anchor || !rays_.occluded(anchor, corner[i]))) continue;
+        result.moved[i] = true;
+        result.position[i] = endOfWay(anchor, corner[i], frame.normal, cover);
     }
-    /// Bilinear; of a triangle, whose last two corners are the same, it is a point of the triangle
-    /// too.
-    glm::vec3 pointOf(const Element& element, float s, float t) const {
-        return glm::mix(glm::mix(vertex(element, 0).position, vertex(element, 1).position, s),
-                        glm::mix(vertex(element, 3).position, vertex(element, 2).position, s), t);
-    }
-    const Vertex& vertex(const Element& element, std::size_t i) const {
-        return vertices_[element.vertices[i]];
-    }
+    return result;
+}
 
-    bool isFree(glm::vec3 p, glm::vec3 normal, float cover) const {
-        return lieOf(rays_, meshes_, p, normal, cover) == Lie::free;
+glm::vec3 ContactResolver::cornerOf(const Element& element, std::size_t i) const {
+    const Frame frame = frameOf(element);
+    return glm::mix(vertex(element, i).position, frame.middle, kPullIn) + skin_ * frame.normal;
+}
+
+ContactResolver::Frame ContactResolver::frameOf(const Element& element) const {
+    Frame frame;
+    frame.count = element.isTriangle() ? 3 : 4;
+    for (std::size_t i = 0; i < frame.count; ++i) {
+        frame.middle += vertex(element, i).position / float(frame.count);
+        frame.normal += vertex(element, i).receiver.normal;
     }
+    frame.normal = glm::normalize(frame.normal);
+    for (std::size_t i = 0; i < frame.count; ++i)
+        frame.size = std::max(frame.size, glm::distance(frame.middle, vertex(element, i).position));
+    return frame;
+}
 
-    glm::vec3 endOfWay(glm::vec3 from, glm::vec3 to, glm::vec3 normal, float cover) const {
-        float free = 0, covered = 1;
-        for (int i = 0; i < kBisections; ++i) {
-            const float t = 0.5f * (free + covered);
-            const glm::vec3 p = glm::mix(from, to, t);
-            (!rays_.occluded(from, p) && isFree(p, normal, cover) ? free : covered) = t;
-        }
-        return glm::mix(from, to, 0.98f * free);
+/// Bilinear; of a triangle, whose last two corners are the same, it is a point of the triangle too.
+glm::vec3 ContactResolver::pointOf(const Element& element, float s, float t) const {
+    return glm::mix(glm::mix(vertex(element, 0).position, vertex(element, 1).position, s),
+                    glm::mix(vertex(element, 3).position, vertex(element, 2).position, s), t);
+}
+
+glm::vec3 ContactResolver::endOfWay(glm::vec3 from, glm::vec3 to, glm::vec3 normal,
+                                    float cover) const {
+    float free = 0, covered = 1;
+    for (int i = 0; i < kBisections; ++i) {
+        const float t = 0.5f * (free + covered);
+        const glm::vec3 p = glm::mix(from, to, t);
+        (!rays_.occluded(from, p) && isFree(p, normal, cover) ? free : covered) = t;
     }
-
-    const RayScene& rays_;
-    std::span<const RayMesh> meshes_;
-    float skin_;
-    const std::vector<Vertex>& vertices_;
-};
-
-/// The corners of elements that meet at each vertex: element * 4 + corner, vertex by vertex.
-struct Fans {
-    std::vector<std::uint32_t> first, corners;
-};
+    return glm::mix(from, to, 0.98f * free);
+}
 
 Fans fansOf(const std::vector<Element>& elements, std::size_t vertexCount) {
     Fans fans;
@@ -140,11 +102,13 @@ Fans fansOf(const std::vector<Element>& elements, std::size_t vertexCount) {
     return fans;
 }
 
+namespace {
+
 /// A wall may stand exactly where elements meet: then no corner is covered, but elements on its two
 /// sides must not share theirs.
 void partAtWalls(const RayScene& rays, const ContactResolver& resolver,
-                 const std::vector<Element>& elements, const Fans& fans,
-                 std::vector<ContactResolver::Result>& results) {
+                 std::span<const std::uint8_t> fixed, const std::vector<Element>& elements,
+                 const Fans& fans, std::vector<ContactResolver::Result>& results) {
     parallelFor(fans.first.size() - 1, 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
             bool anchored = false;
@@ -152,7 +116,7 @@ void partAtWalls(const RayScene& rays, const ContactResolver& resolver,
             for (std::uint32_t i = fans.first[v]; i < fans.first[v + 1]; ++i) {
                 const std::uint32_t e = fans.corners[i] / 4, k = fans.corners[i] % 4;
                 ContactResolver::Result& result = results[e];
-                if (!result.free || result.moved[k]) continue;
+                if (!fixed[e] || !result.free || result.moved[k]) continue;
                 const glm::vec3 corner = resolver.cornerOf(elements[e], k);
                 if (!anchored) {
                     anchor = corner;
@@ -193,8 +157,7 @@ void pullReceiversIn(float skin, const std::vector<Element>& elements, const Fan
 
 /// Gives every moved corner a vertex of its own.
 void makePrivate(const std::vector<ContactResolver::Result>& results,
-                 std::vector<Element>& elements, std::vector<Vertex>& vertices,
-                 std::vector<PatchCoordinate>& coordinates) {
+                 std::vector<Element>& elements, std::vector<Vertex>& vertices) {
     for (std::size_t e = 0; e < elements.size(); ++e) {
         Element& element = elements[e];
         const std::size_t corners = element.isTriangle() ? 3 : 4;
@@ -204,7 +167,6 @@ void makePrivate(const std::vector<ContactResolver::Result>& results,
             own.receiver.position = results[e].position[k];
             element.vertices[k] = std::uint32_t(vertices.size());
             vertices.push_back(own);
-            coordinates.emplace_back();
         }
         if (corners == 3) element.vertices[3] = element.vertices[2];
     }
@@ -217,29 +179,41 @@ float coverDistance(float elementSize, float skin) {
 }
 
 Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point, glm::vec3 normal,
-          float cover) {
+          float cover, ObjectId* above) {
     // Not quite along the normal, so as not to run along edges that stand on the surface.
     const glm::vec3 direction = normal + glm::vec3(0.0123f, 0.0234f, -0.0171f);
     const RayHit hit = rays.nearest(point, direction, 1e30f);
+    if (above) *above = hit.object;
     if (!hit.met()) return Lie::free;
-    const bool fromBehind = glm::dot(hit.normal, direction) > 0;
-    if (fromBehind && meshes[hit.object.value].solid[hit.triangle]) return Lie::buried;
-    return hit.distance < cover ? Lie::covered : Lie::free;
+    const auto isBack = [&](const RayHit& met) {
+        return met.met() && glm::dot(met.normal, direction) > 0 &&
+               meshes[met.object.value].solid[met.triangle];
+    };
+    if (isBack(hit)) return Lie::buried;
+    if (hit.distance < cover) return Lie::covered;
+    // Something may stand exactly on what the point is buried in: then either may be met first.
+    const float reach = hit.distance * (1 + 1e-5f) + 0.1f * cover;
+    return isBack(rays.nearest(point, direction, reach, RayScene::Faces::back)) ? Lie::buried
+                                                                                : Lie::free;
 }
 
 std::vector<std::uint8_t> resolveContacts(const RayScene& rays, std::span<const RayMesh> meshes,
-                                          float skin, std::vector<Element>& elements,
-                                          std::vector<Vertex>& vertices,
-                                          std::vector<PatchCoordinate>& coordinates) {
+                                          float skin, std::span<const std::uint8_t> fixed,
+                                          std::vector<Element>& elements,
+                                          std::vector<Vertex>& vertices) {
     std::vector<ContactResolver::Result> results(elements.size());
     const ContactResolver resolver(rays, meshes, skin, vertices);
     parallelFor(elements.size(), 4096, [&](std::size_t first, std::size_t last) {
-        for (std::size_t e = first; e < last; ++e) results[e] = resolver.examine(elements[e]);
+        for (std::size_t e = first; e < last; ++e)
+            if (fixed[e])
+                results[e] = resolver.examine(elements[e]);
+            else
+                results[e].free = true;
     });
     const Fans fans = fansOf(elements, vertices.size());
-    partAtWalls(rays, resolver, elements, fans, results);
+    partAtWalls(rays, resolver, fixed, elements, fans, results);
     pullReceiversIn(skin, elements, fans, results, vertices);
-    makePrivate(results, elements, vertices, coordinates);
+    makePrivate(results, elements, vertices);
     std::vector<std::uint8_t> free(elements.size());
     for (std::size_t e = 0; e < elements.size(); ++e) free[e] = results[e].free;
     return free;

@@ -20,6 +20,15 @@ namespace penumbra {
 /// where w rises from 0 to 1 as the vertex's openness differs from the one interpolated from the
 /// nodes. Vertex and nodes use the same ray directions, so that most of the sampling error cancels.
 /// Where so little is open that near surfaces matter more than patches can tell, G itself is taken.
+/// In a slit narrower than an element light dies off between two vertices. There a ray that meets
+/// the other side is taken to find the direct light D that is drawn there and as much indirect
+/// light as the vertex itself receives,
+///
+///     H_v = (sum of rho H over other rays + sum of rho D over rays across)
+///           / (number of rays - sum of rho over rays across)
+///
+/// and the rays start on half the way from the vertex to the middle of its elements, for what the
+/// very rim receives holds for little of an element.
 /// Which vertices gather, and with which weight, depends on geometry alone.
 class DetailGather {
 public:
@@ -41,7 +50,11 @@ private:
     };
     void traceNodes(const class DrawnSurface& surface, const class HemisphereRays& rays);
     void traceVertices(const DrawnSurface& surface, const HemisphereRays& rays);
-    glm::dvec3 gathered(std::span<const Rgb> sent, const std::uint32_t* hits) const;
+    /// What elements reflect [lm/m^2].
+    struct Sent {
+        std::vector<Rgb> all, direct; ///< of all light, and of direct light alone
+    };
+    glm::dvec3 gathered(const Sent& sent, const std::uint32_t* hits) const;
 
     const PatchSet& patches_;
     std::vector<Gatherer> vertices_;

@@ -4,11 +4,14 @@ namespace penumbra {
 
 namespace {
 
-RayMesh drawnTriangles(const PatchSet& patches, std::vector<std::uint32_t>& triangles) {
+RayMesh drawnTriangles(const PatchSet& patches, DrawnSurface::Which which,
+                       std::vector<std::uint32_t>& triangles) {
     RayMesh mesh;
     mesh.vertices.reserve(patches.vertices.size());
     for (const Vertex& vertex : patches.vertices) mesh.vertices.push_back(vertex.position);
     for (std::uint32_t e = 0; e < patches.elements.size(); ++e) {
+        const ObjectPart& part = patches.objects[patches.elementObject[e].value];
+        if (!part.present || (part.movable && which == DrawnSurface::Which::fixed)) continue;
         const auto& v = patches.elements[e].vertices;
         mesh.triangles.push_back({v[0], v[1], v[2]});
         triangles.push_back(2 * e);
@@ -21,8 +24,9 @@ RayMesh drawnTriangles(const PatchSet& patches, std::vector<std::uint32_t>& tria
 
 } // namespace
 
-DrawnSurface::DrawnSurface(const PatchSet& patches)
-    : patches_(patches), rays_(std::array{drawnTriangles(patches, triangles_)}) {}
+DrawnSurface::DrawnSurface(const PatchSet& patches, Which which)
+    : patches_(patches),
+      rays_(std::array{drawnTriangles(patches, which, triangles_)}, patches.extent) {}
 
 DrawnHit DrawnSurface::nearest(glm::vec3 origin, glm::vec3 direction, float reach) const {
     const RayHit ray = rays_.nearest(origin, direction, reach, RayScene::Faces::front);

@@ -23,7 +23,9 @@ struct DrawnHit {
 /// The elements' triangles, cut as the renderer cuts them. Only fronts are met.
 class DrawnSurface {
 public:
-    explicit DrawnSurface(const PatchSet& patches);
+    enum class Which { all, fixed };
+    /// \param which all that is there now, or the part that never moves
+    explicit DrawnSurface(const PatchSet& patches, Which which = Which::all);
     DrawnHit nearest(glm::vec3 origin, glm::vec3 direction, float reach) const;
 
 private:

@@ -24,6 +24,8 @@ public:
     const Emitter& emitter() const { return *emitter_; }
     int baseSamples() const { return base_; }
     int allSamples() const { return all_; }
+    /// Around all that a visibility sample may lie on [m, world].
+    const Bounds& box() const { return box_; }
 
     /// What the whole emitter gives to a receiver when nothing stands between them: the closed
     /// forms of FormFactor.h, summed over polygons. Exact for convex emitters; polygons that shade
@@ -41,6 +43,7 @@ private:
 
     const Emitter* emitter_;
     int base_, all_;
+    Bounds box_;
     std::vector<float> x_, y_, z_, nx_, ny_, nz_; ///< of the samples
 };
 

@@ -5,12 +5,13 @@
 namespace penumbra {
 
 RadiosityNode::RadiosityNode(const PatchSet& patches, const Lighting& light) : Group("radiosity") {
-    const std::size_t objects = patches.objectPaths.size();
+    const std::size_t objects = patches.objects.size();
     std::vector<LitMeshData> data(objects);
     std::vector<std::uint32_t> local(patches.vertices.size(), 0xffffffffu);
     for (LitMeshData& mesh : data) mesh.materials = patches.materials;
     for (std::size_t e = 0; e < patches.elements.size(); ++e) {
         const Element& element = patches.elements[e];
+        if (!patches.objects[patches.elementObject[e].value].present) continue;
         LitMeshData& mesh = data[patches.elementObject[e].value];
         const auto vertex = [&](std::uint32_t v) {
             if (local[v] == 0xffffffffu) {
@@ -31,7 +32,7 @@ RadiosityNode::RadiosityNode(const PatchSet& patches, const Lighting& light) : G
     }
     for (std::size_t o = 0; o < objects; ++o) {
         if (data[o].indices.empty()) continue;
-        add(std::make_shared<LitGeometry>(patches.objectPaths[o], ObjectId{std::uint32_t(o)},
+        add(std::make_shared<LitGeometry>(patches.objects[o].path, ObjectId{std::uint32_t(o)},
                                           std::move(data[o])));
     }
 }

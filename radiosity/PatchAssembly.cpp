@@ -24,6 +24,21 @@ bool planar(const Tessellation& tessellation, const Cell& cell, glm::vec3 normal
     return depth <= 1e-4f * reach;
 }
 
+/// Fills up the last block.
+template <class T>
+void padBlock(std::vector<T>& items, const T& padding) {
+    while (items.size() % PatchSet::kBlock != 0) items.push_back(padding);
+}
+
+/// Place on a space-filling curve of a point of the unit cube, 30 bits (Morton 1966).
+std::uint32_t mortonCode(glm::vec3 p) {
+    std::uint32_t code = 0;
+    const glm::uvec3 cell(glm::clamp(p, 0.0f, 1.0f) * 1023.0f);
+    for (int bit = 9; bit >= 0; --bit)
+        for (int axis = 0; axis < 3; ++axis) code = code << 1 | (cell[axis] >> bit & 1);
+    return code;
+}
+
 std::uint32_t rootOf(std::vector<std::uint32_t>& parent, std::uint32_t i) {
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
     return i;
@@ -34,16 +49,21 @@ std::uint32_t rootOf(std::vector<std::uint32_t>& parent, std::uint32_t i) {
 std::uint32_t PatchAssembly::materialIndex(const Material& material, bool emits) {
     const auto [found, fresh] =
         materials_.try_emplace({&material, emits}, std::uint32_t(out_.materials.size()));
-    if (fresh)
+    if (fresh) {
         out_.materials.push_back({material.reflectance(), emits ? material.emission() : Rgb()});
+        materialSources_.push_back({&material, emits});
+    }
     return found->second;
 }
 
 void PatchAssembly::add(const SurfaceMesh& mesh, const Tessellation& tessellation,
                         ObjectId object) {
+    Range& elements = out_.objects[object.value].elements;
+    if (elements.count == 0) elements.first = std::uint32_t(out_.elements.size());
     addRays(mesh, tessellation, object);
     addSheet(mesh, tessellation, object, false);
     addSheet(mesh, tessellation, object, true);
+    elements.count = std::uint32_t(out_.elements.size()) - elements.first;
 }
 
 /// Flat faces block rays as the triangles of their cells, curved ones as their elements.
@@ -136,34 +156,127 @@ void PatchAssembly::addSheet(const SurfaceMesh& mesh, const Tessellation& tessel
     }
 }
 
-void PatchAssembly::finish(const RayScene& rays) {
-    out_.vertexCoordinates.resize(out_.vertices.size());
-    const std::vector<std::uint8_t> free = resolveContacts(
-        rays, out_.rayMeshes, out_.skin, out_.elements, out_.vertices, out_.vertexCoordinates);
+void PatchAssembly::finish() {
+    std::vector<std::uint8_t> free;
+    resolveFixedContacts(free);
+    const std::vector<std::uint32_t> order = cellsInOrder();
+    std::vector<std::vector<std::uint32_t>> cellElements(cells_.size());
+    for (std::uint32_t e = 0; e < elementCell_.size(); ++e)
+        cellElements[elementCell_[e]].push_back(e);
+    orderVertices(cellElements, order);
+    out_.covered.assign(out_.elements.size(), 0);
+    out_.vertexCoordinates.assign(out_.vertices.size(), {});
     vertexNode_.assign(out_.vertices.size(), kNone);
     vertexPlaced_.assign(out_.vertices.size(), 0);
 
-    // Elements of a cell are consecutive in neither order nor count: sort them by cell.
-    std::vector<std::uint32_t> order(out_.elements.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return elementCell_[a] < elementCell_[b];
-    });
-    std::vector<std::uint32_t> members;
     for (std::size_t i = 0; i < order.size();) {
-        const std::uint32_t cell = elementCell_[order[i]];
-        members.clear();
-        while (i < order.size() && elementCell_[order[i]] == cell) members.push_back(order[i++]);
-        makePatches(cell, members, free);
+        const ObjectId object = cells_[order[i]].object;
+        ObjectPart& part = out_.objects[object.value];
+        part.patches.first = std::uint32_t(out_.patches.size());
+        part.nodes.first = std::uint32_t(out_.nodes.size());
+        part.corners.first = std::uint32_t(out_.corners.size());
+        for (; i < order.size() && cells_[order[i]].object == object; ++i) {
+            std::vector<std::uint32_t>& elements = cellElements[order[i]];
+            std::erase_if(elements, [&](std::uint32_t e) { return !free[e]; });
+            if (!elements.empty()) makePatches(order[i], elements);
+        }
+        part.patches.count = std::uint32_t(out_.patches.size()) - part.patches.first;
+        part.nodes.count = std::uint32_t(out_.nodes.size()) - part.nodes.first;
+        part.corners.count = std::uint32_t(out_.corners.size()) - part.corners.first;
+        padBlock(out_.nodes, {});
+        out_.nodeBlockObject.resize(out_.nodes.size() / PatchSet::kBlock, object);
+    }
+    out_.uncoveredNodes = out_.nodes;
+    out_.uncoveredElements = out_.elements;
+    out_.firstPrivate = std::uint32_t(out_.vertices.size());
+    placeMovables();
+}
+
+/// Movable objects are meshed as if nothing touched them.
+void PatchAssembly::resolveFixedContacts(std::vector<std::uint8_t>& free) {
+    std::vector<RayMesh> meshes(out_.rayMeshes.size());
+    std::vector<std::uint8_t> fixed(out_.elements.size());
+    for (std::size_t o = 0; o < meshes.size(); ++o)
+        if (!out_.objects[o].movable) meshes[o] = out_.rayMeshes[o];
+    for (std::size_t e = 0; e < fixed.size(); ++e)
+        fixed[e] = !out_.objects[out_.elementObject[e].value].movable;
+    free = resolveContacts(RayScene(meshes, out_.extent), meshes, out_.skin, fixed, out_.elements,
+                           out_.vertices);
+}
+
+/// Object by object, within one along a space-filling curve: what is near in space shall be near
+/// in memory.
+std::vector<std::uint32_t> PatchAssembly::cellsInOrder() const {
+    std::vector<Bounds> bounds(out_.objects.size());
+    std::vector<glm::vec3> middle(cells_.size());
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+        if (cells_[c].outline.empty()) continue;
+        for (glm::vec3 point : cells_[c].outline)
+            middle[c] += point / float(cells_[c].outline.size());
+        bounds[cells_[c].object.value].add(middle[c]);
+    }
+    std::vector<std::uint64_t> key(cells_.size());
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+        const Bounds& box = bounds[cells_[c].object.value];
+        key[c] = std::uint64_t(cells_[c].object.value) << 32 |
+                 mortonCode((middle[c] - box.lower) / glm::max(box.size(), glm::vec3(1e-20f)));
+    }
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t c = 0; c < cells_.size(); ++c)
+        if (!cells_[c].outline.empty()) order.push_back(c);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return key[a] < key[b]; });
+    return order;
+}
+
+/// Puts the vertices into blocks: object by object, cell by cell.
+void PatchAssembly::orderVertices(const std::vector<std::vector<std::uint32_t>>& cellElements,
+                                  const std::vector<std::uint32_t>& order) {
+    std::vector<std::uint32_t> index(out_.vertices.size(), kNone);
+    std::vector<Vertex> ordered;
+    ordered.reserve(out_.vertices.size() + PatchSet::kBlock * out_.objects.size());
+    for (std::size_t i = 0; i < order.size();) {
+        const ObjectId object = cells_[order[i]].object;
+        Range& range = out_.objects[object.value].vertices;
+        range.first = std::uint32_t(ordered.size());
+        for (; i < order.size() && cells_[order[i]].object == object; ++i)
+            for (std::uint32_t e : cellElements[order[i]])
+                for (std::uint32_t& v : out_.elements[e].vertices) {
+                    if (index[v] == kNone) {
+                        index[v] = std::uint32_t(ordered.size());
+                        ordered.push_back(out_.vertices[v]);
+                    }
+                    v = index[v];
+                }
+        range.count = std::uint32_t(ordered.size()) - range.first;
+        padBlock(ordered, {});
+        out_.vertexBlockObject.resize(ordered.size() / PatchSet::kBlock, object);
+    }
+    out_.vertices = std::move(ordered);
+}
+
+void PatchAssembly::placeMovables() {
+    for (std::uint32_t o = 0; o < out_.objects.size(); ++o) {
+        ObjectPart& part = out_.objects[o];
+        if (!part.movable) continue;
+        ObjectShape& shape = part.shape;
+        const auto copy = [](const auto& from, Range range, auto& to) {
+            to.assign(from.begin() + range.first, from.begin() + range.end());
+        };
+        copy(out_.vertices, part.vertices, shape.vertices);
+        copy(out_.nodes, part.nodes, shape.nodes);
+        copy(out_.corners, part.corners, shape.corners);
+        copy(out_.emitters, part.emitters, shape.emitters);
+        for (std::uint32_t p = part.patches.first; p < part.patches.end(); ++p)
+            shape.patches.push_back({out_.patches[p].centre, out_.patches[p].normal});
+        shape.rayVertices = out_.rayMeshes[o].vertices;
+        placeObject(out_, {o}, part.pose);
     }
 }
 
 /// Elements of a cell that hang together form a patch: one patch a cell, unless a contact (a
 /// partition that stands on the floor) parts it.
-void PatchAssembly::makePatches(std::uint32_t cell, std::vector<std::uint32_t>& elements,
-                                const std::vector<std::uint8_t>& free) {
-    std::erase_if(elements, [&](std::uint32_t e) { return !free[e]; });
-    if (elements.empty()) return;
+void PatchAssembly::makePatches(std::uint32_t cell, const std::vector<std::uint32_t>& elements) {
     std::vector<std::uint32_t> parent(elements.size());
     std::iota(parent.begin(), parent.end(), 0u);
     std::unordered_map<std::uint32_t, std::uint32_t> seen;

@@ -13,18 +13,27 @@
 
 namespace penumbra {
 
-/// Collects surfaces with add(), then makes patches of them with finish().
+/// Collects surfaces with add(), object by object, then makes patches of them with finish().
 class PatchAssembly {
 public:
+    /// \param out has its objects and as many rayMeshes; the rest is filled in here
     explicit PatchAssembly(PatchSet& out) : out_(out) {}
 
     /// Adds the sides of `mesh` that there are as elements, and its triangles to the object's
-    /// RayMesh.
+    /// RayMesh. \param mesh in the object's stretched frame
+    /// \pre all surfaces of an object follow one another
     void add(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object);
 
-    /// Resolves contacts between objects and groups the elements into patches.
-    /// \param rays the scene made of the RayMeshes that add() collected
-    void finish(const RayScene& rays);
+    /// Resolves contacts within the fixed part, groups the elements into patches and places the
+    /// movable objects.
+    void finish();
+
+    /// Of out.materials, one by one.
+    struct MaterialSource {
+        const Material* material = nullptr;
+        bool emits = false; ///< a front
+    };
+    const std::vector<MaterialSource>& materialSources() const { return materialSources_; }
 
 private:
     /// A cell of one sheet, before contacts may divide it into several patches.
@@ -51,8 +60,12 @@ private:
                   bool back);
     void addRays(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object);
     std::uint32_t materialIndex(const Material& material, bool emits);
-    void makePatches(std::uint32_t cell, std::vector<std::uint32_t>& elements,
-                     const std::vector<std::uint8_t>& free);
+    void resolveFixedContacts(std::vector<std::uint8_t>& free);
+    std::vector<std::uint32_t> cellsInOrder() const;
+    void orderVertices(const std::vector<std::vector<std::uint32_t>>& cellElements,
+                       const std::vector<std::uint32_t>& order);
+    void placeMovables();
+    void makePatches(std::uint32_t cell, const std::vector<std::uint32_t>& elements);
     static void mergeOverlapping(std::vector<Group>& groups);
     void makePatch(const SheetCell& cell, const Group& group, bool part);
     void placeNodes(Patch& patch, const SheetCell& cell, const std::vector<std::uint32_t>& elements,
@@ -64,6 +77,7 @@ private:
     std::vector<std::uint32_t> elementCell_;
     std::vector<CornerCoordinates> elementSt_;
     std::map<std::pair<const Material*, bool>, std::uint32_t> materials_;
+    std::vector<MaterialSource> materialSources_;
     std::vector<std::uint32_t> vertexNode_;
     std::vector<std::uint8_t> vertexPlaced_;
 };

@@ -1,6 +1,7 @@
 // The scene as flat arrays: patches that send light, elements that receive and show it.
 #pragma once
 
+#include "radiosity/Pose.h"
 #include "scenegraph/Bounds.h"
 #include "scenegraph/LitGeometry.h"
 #include "scenegraph/ObjectId.h"
@@ -20,6 +21,10 @@ struct Receiver {
     glm::vec3 position; ///< a hair in front of the surface, clear of edges and obstacles [m, world]
     glm::vec3 normal;   ///< unit, towards the lit side
 };
+/// Fills up a block of receivers, or is free to be handed out: nothing is there.
+inline bool isPadding(const Receiver& receiver) {
+    return receiver.normal == glm::vec3(0);
+}
 
 /// A corner of elements: drawn at `position`, lit at `receiver`. The two differ by a hair, or by up
 /// to an element where the corner itself is covered by another object (see Contact.h).
@@ -85,26 +90,83 @@ struct RayMesh {
     std::vector<std::uint8_t> solid;
 };
 
-/// A scene, meshed. Immutable once built; hot loops see these arrays and nothing else.
+/// A run of consecutive indices.
+struct Range {
+    std::uint32_t first = 0, count = 0;
+    std::uint32_t end() const { return first + count; }
+    bool contains(std::uint32_t index) const { return index - first < count; }
+};
+
+/// Geometry of a movable object in its own stretched frame (see Pose.h), in the order of its
+/// ranges.
+struct ObjectShape {
+    std::vector<Vertex> vertices;
+    std::vector<glm::vec3> corners;
+    std::vector<Receiver> nodes;
+    std::vector<Receiver> patches; ///< centres and normals
+    std::vector<Emitter> emitters;
+    std::vector<glm::vec3> rayVertices;
+};
+
+/// One rigid piece of the scene, and where its share of a PatchSet's arrays lies.
+struct ObjectPart {
+    std::string path;
+    std::uint64_t key = 0; ///< of its path: the same in every scene that has it
+    bool movable = false;  ///< may be moved, hidden and shown; others are the fixed part
+    bool present = true;   ///< false: hidden, neither blocks nor sends nor receives
+    Pose pose;             ///< of a movable object; identity for the fixed part
+    glm::dmat3 stretch{1.0};
+    Range vertices, elements, patches, nodes, corners, emitters;
+    ObjectShape shape; ///< empty for the fixed part
+};
+
+/// A scene, meshed: hot loops see these arrays and nothing else. The fixed part never changes;
+/// movable objects are brought to where they stand by placeObject(), and what they cover of
+/// each other and of the fixed part is kept up to date by Coverage.
+///
+/// Vertices and nodes come in blocks of kBlock consecutive ones that belong to one object and lie
+/// near each other; what is left of an object's last block is padding that receives nothing.
+/// Vertices behind those of all objects are private corners that Coverage hands out.
 struct PatchSet {
+    static constexpr std::uint32_t kBlock = 64;
+
     std::vector<Vertex> vertices;
     std::vector<PatchCoordinate> vertexCoordinates; ///< one a vertex
+    std::vector<ObjectId> vertexBlockObject;        ///< one a block of vertices
+    std::vector<ObjectId> nodeBlockObject;          ///< one a block of nodes
     std::vector<Element> elements;
+    std::vector<Element> uncoveredElements; ///< the same when nothing movable is near
+    std::vector<std::uint8_t> covered;      ///< 1: an element that movable objects cover all over
+    std::uint32_t firstPrivate = 0;         ///< the first vertex that Coverage hands out
+    std::vector<std::uint32_t> privateElement; ///< whose corner each of those is
     std::vector<Patch> patches;
     std::vector<glm::vec3> corners;           ///< outlines of the patches
     std::vector<std::uint32_t> patchElements; ///< indices into elements, patch by patch
     std::vector<Receiver> nodes;              ///< where indirect light is received
+    std::vector<Receiver> uncoveredNodes;     ///< the same when nothing movable is near
     std::vector<LitMaterial> materials;
     std::vector<Emitter> emitters;
-    std::vector<RayMesh> rayMeshes;       ///< one an object
-    std::vector<ObjectId> elementObject;  ///< one an element
-    std::vector<std::string> objectPaths; ///< one an object
+    std::vector<ObjectPart> objects;
+    std::vector<RayMesh> rayMeshes;      ///< one an object
+    std::vector<ObjectId> elementObject; ///< one an element
     Bounds bounds;
     double area = 0;                      ///< of all elements [m^2]
     std::size_t polygons = 0;             ///< faces of the scene that were meshed
     float patchSize = 0, elementSize = 0; ///< as used [m]
+    float extent = 0;                     ///< diagonal of the bounds when it was built [m]
     float skin = 0;                       ///< how far receivers hover over their surface [m]
+
+    /// Whether any of an element is lit and seen.
+    bool receives(std::uint32_t element) const {
+        return elements[element].patch != Element::kNone && !covered[element] &&
+               objects[elementObject[element].value].present;
+    }
 };
+
+/// Writes a movable object's share of the arrays as seen from `pose`.
+void placeObject(PatchSet& set, ObjectId object, const Pose& pose);
+/// Box around an object's triangles [m, world].
+Bounds boundsOf(const PatchSet& set, ObjectId object);
 
 /// Area of an element [m^2], half the cross product of its diagonals.
 inline float elementArea(const PatchSet& set, const Element& element) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <vector>
 
 namespace penumbra {
 
@@ -16,9 +17,9 @@ namespace {
 
 /// What our filters want to know of a query.
 struct QueryContext {
-    RTCIntersectContext context;      // first, so that Embree's pointer is ours
-    std::uint32_t* blocker = nullptr; // where to note who is in the way
-    bool frontOnly = false;
+    RTCIntersectContext context;                   // first, so that Embree's pointer is ours
+    std::uint32_t* blocker = nullptr;              // where to note who is in the way
+    RayScene::Faces faces = RayScene::Faces::both; // that are met
 
     QueryContext() {
         rtcInitIntersectContext(&context);
@@ -36,26 +37,35 @@ void noteBlocker(const RTCFilterFunctionNArguments* args) {
     }
 }
 
-/// Rejects hits from behind when the query asks for fronts only.
-void rejectBacks(const RTCFilterFunctionNArguments* args) {
-    if (!reinterpret_cast<const QueryContext*>(args->context)->frontOnly) return;
+/// Rejects hits of the side that the query does not ask for.
+void rejectOtherSide(const RTCFilterFunctionNArguments* args) {
+    const RayScene::Faces faces = reinterpret_cast<const QueryContext*>(args->context)->faces;
+    if (faces == RayScene::Faces::both) return;
     for (unsigned i = 0; i < args->N; ++i) {
         const float facing =
             RTCRayN_dir_x(args->ray, args->N, i) * RTCHitN_Ng_x(args->hit, args->N, i) +
             RTCRayN_dir_y(args->ray, args->N, i) * RTCHitN_Ng_y(args->hit, args->N, i) +
             RTCRayN_dir_z(args->ray, args->N, i) * RTCHitN_Ng_z(args->hit, args->N, i);
-        if (facing >= 0) args->valid[i] = 0;
+        if (faces == RayScene::Faces::front ? facing >= 0 : facing <= 0) args->valid[i] = 0;
     }
 }
 
 } // namespace
 
 struct RayScene::Impl {
+    /// An object's geometry is part of the whole scene and of one of its own, made on demand.
+    struct Member {
+        RTCGeometry geometry = nullptr;
+        RTCScene alone = nullptr;
+        bool moved = false;
+    };
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
+    std::vector<Member> members; // one an object
 
     Impl() {
-        // Embree builds on oneTBB's threads. A number of threads given here would limit the whole process.
+        // Embree builds on oneTBB's threads. A number of threads given here would limit the whole
+        // process.
 #ifdef PENUMBRA_STD_THREADS
         device = rtcNewDevice("threads=1"); // oneTBB stays out of a build for ThreadSanitizer
 #else
@@ -63,12 +73,20 @@ struct RayScene::Impl {
 #endif
         if (!device)
             throw Error("ray tracing: Embree can't start on this processor (SSE2 is needed)");
-        scene = rtcNewScene(device);
+        scene = newScene();
+    }
+    RTCScene newScene() const {
+        RTCScene made = rtcNewScene(device);
         // Robust: no ray slips through an edge that two triangles share, which costs a seventh.
-        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST);
-        rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_LOW);
+        rtcSetSceneFlags(made, RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneBuildQuality(made, RTC_BUILD_QUALITY_LOW);
+        return made;
     }
     ~Impl() {
+        for (const Member& member : members) {
+            if (member.alone) rtcReleaseScene(member.alone);
+            if (member.geometry) rtcReleaseGeometry(member.geometry);
+        }
         rtcReleaseScene(scene);
         rtcReleaseDevice(device);
     }
@@ -89,21 +107,64 @@ struct RayScene::Impl {
         std::memcpy(indices, mesh.triangles.data(),
                     mesh.triangles.size() * 3 * sizeof(std::uint32_t));
         rtcSetGeometryOccludedFilterFunction(geometry, noteBlocker);
-        rtcSetGeometryIntersectFilterFunction(geometry, rejectBacks);
+        rtcSetGeometryIntersectFilterFunction(geometry, rejectOtherSide);
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(scene, geometry, id);
-        rtcReleaseGeometry(geometry);
+        members[id].geometry = geometry;
     }
 };
 
-RayScene::RayScene(std::span<const RayMesh> objects) : impl_(std::make_unique<Impl>()) {
-    Bounds bounds;
-    for (const RayMesh& mesh : objects)
-        for (glm::vec3 vertex : mesh.vertices) bounds.add(vertex);
-    if (!bounds.empty()) margin_ = 2e-5f * bounds.diagonal();
+RayScene::RayScene(std::span<const RayMesh> objects, float extent)
+    : impl_(std::make_unique<Impl>()) {
+    if (extent <= 0) {
+        Bounds bounds;
+        for (const RayMesh& mesh : objects)
+            for (glm::vec3 vertex : mesh.vertices) bounds.add(vertex);
+        extent = bounds.empty() ? 0 : bounds.diagonal();
+    }
+    margin_ = 2e-5f * extent;
+    impl_->members.resize(objects.size());
     for (std::size_t i = 0; i < objects.size(); ++i)
         if (!objects[i].triangles.empty()) impl_->add(objects[i], unsigned(i));
+    commit();
+}
+
+void RayScene::move(ObjectId object, std::span<const glm::vec3> vertices) {
+    Impl::Member& member = impl_->members[object.value];
+    if (!member.geometry) return;
+    std::memcpy(rtcGetGeometryBufferData(member.geometry, RTC_BUFFER_TYPE_VERTEX, 0),
+                vertices.data(), vertices.size_bytes());
+    rtcUpdateGeometryBuffer(member.geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+    rtcCommitGeometry(member.geometry);
+    if (!member.alone) {
+        member.alone = impl_->newScene();
+        rtcAttachGeometryByID(member.alone, member.geometry, object.value);
+    }
+    member.moved = true;
+}
+
+void RayScene::show(ObjectId object, bool visible) {
+    Impl::Member& member = impl_->members[object.value];
+    if (!member.geometry) return;
+    if (visible)
+        rtcEnableGeometry(member.geometry);
+    else
+        rtcDisableGeometry(member.geometry);
+    rtcCommitGeometry(member.geometry);
+    if (!member.alone) {
+        member.alone = impl_->newScene();
+        rtcAttachGeometryByID(member.alone, member.geometry, object.value);
+    }
+    member.moved = true;
+}
+
+void RayScene::commit() {
     rtcCommitScene(impl_->scene);
+    for (Impl::Member& member : impl_->members) {
+        if (!member.moved) continue;
+        rtcCommitScene(member.alone);
+        member.moved = false;
+    }
     if (rtcGetDeviceError(impl_->device) != RTC_ERROR_NONE)
         throw Error("ray tracing: Embree could not build the scene (out of memory?)");
 }
@@ -117,6 +178,15 @@ float RayScene::reach(float length) const {
 }
 
 void RayScene::occluded(ShadowRays& rays) const {
+    trace(impl_->scene, rays);
+}
+
+void RayScene::occludedBy(ObjectId object, ShadowRays& rays) const {
+    assert(impl_->members[object.value].alone); // it has been moved or shown
+    trace(impl_->members[object.value].alone, rays);
+}
+
+void RayScene::trace(void* scene, ShadowRays& rays) const {
     static_assert(ShadowRays::kMost == 16);
     alignas(64) int valid[16];
     alignas(64) RTCRay16 packet;
@@ -141,7 +211,7 @@ void RayScene::occluded(ShadowRays& rays) const {
     }
     QueryContext context;
     context.blocker = rays.blocker;
-    rtcOccluded16(valid, impl_->scene, &context.context, &packet);
+    rtcOccluded16(valid, static_cast<RTCScene>(scene), &context.context, &packet);
 }
 
 bool RayScene::occluded(glm::vec3 origin, glm::vec3 target) const {
@@ -159,7 +229,7 @@ RayHit RayScene::nearest(glm::vec3 origin, glm::vec3 direction, float reach, Fac
                  direction.z, 0,        reach,    0xffffffffu, 0,           0};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     QueryContext context;
-    context.frontOnly = faces == Faces::front;
+    context.faces = faces;
     rtcIntersect1(impl_->scene, &context.context, &query);
     RayHit hit;
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;

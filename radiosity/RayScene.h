@@ -43,27 +43,38 @@ struct RayHit {
 };
 
 /// The objects of a scene, each one geometry of its own in one flat Embree scene, so that an object
-/// can be moved by refitting. Tracing is thread-safe.
+/// can be moved by refitting, and traced alone. Tracing is thread-safe, changes are not.
 class RayScene {
 public:
     /// A segment is tested up to a hair before its end, for the target's own surface is no
     /// obstacle: 1e-4 of its length, or 2e-5 of the scene's diagonal if that is more.
-    explicit RayScene(std::span<const RayMesh> objects);
+    /// \param extent the scene's diagonal [m]; 0: of what is given
+    explicit RayScene(std::span<const RayMesh> objects, float extent = 0);
     ~RayScene();
     RayScene(RayScene&&) noexcept;
     RayScene& operator=(RayScene&&) noexcept;
 
+    /// Moves an object to new vertices, as many as it has, or hides it. Seen by rays after
+    /// commit().
+    void move(ObjectId object, std::span<const glm::vec3> vertices);
+    void show(ObjectId object, bool visible);
+    void commit();
+
     /// Finds for each segment an object that blocks it, if any.
     void occluded(ShadowRays& rays) const;
     bool occluded(glm::vec3 origin, glm::vec3 target) const;
-    enum class Faces { both, front };
+    /// The same against one object alone. For a segment that nothing else blocks, the answer is
+    /// that of the whole scene, bit for bit.
+    void occludedBy(ObjectId object, ShadowRays& rays) const;
+    enum class Faces { both, front, back };
     /// The nearest triangle, up to `reach` times the length of `direction`; on request only of
-    /// those that show their front.
+    /// those that show this side.
     RayHit nearest(glm::vec3 origin, glm::vec3 direction, float reach,
                    Faces faces = Faces::both) const;
 
 private:
     float reach(float length) const;
+    void trace(void* scene, ShadowRays& rays) const;
 
     struct Impl;
     std::unique_ptr<Impl> impl_;

@@ -2,6 +2,7 @@
 
 #include "radiosity/FormFactor.h"
 #include "radiosity/SenderSamples.h"
+#include "radiosity/Shaft.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,119 +10,396 @@
 
 namespace penumbra {
 
-void RowBuilder::emitterVisibility(const EmitterSender& sender, const Receiver& receiver,
-                                   RowBlock::Draft& draft) {
-    float total = 0, seen = 0;
-    draft.visible = 0;
-    draft.blockerCount = 0;
-    // A sender that fills much of the sky is sampled in full at once.
-    const int base = draft.formFactor > 0.15f ? sender.allSamples() : sender.baseSamples();
-    int count = base;
+namespace {
+
+constexpr std::uint32_t kNone = ObjectId::kNone;
+
+bool isIn(std::span<const MovedObject> moved, std::uint32_t object) {
+    return std::any_of(moved.begin(), moved.end(),
+                       [&](const MovedObject& m) { return m.object == object; });
+}
+
+bool blockedByAny(const RowBlock::Draft& draft, std::span<const MovedObject> moved) {
+    return std::any_of(draft.blockers.begin(), draft.blockers.begin() + draft.blockerCount,
+                       [&](const Blocker& b) { return isIn(moved, b.object); });
+}
+
+/// Who blocks a sample; kNone if it is visible.
+std::uint32_t blockerOf(const RowBlock::Draft& draft, int sample) {
+    for (int b = 0; b < draft.blockerCount; ++b)
+        if (draft.blockers[std::size_t(b)].samples >> sample & 1)
+            return draft.blockers[std::size_t(b)].object;
+    return kNone;
+}
+
+/// Segments of `lanes` that meet a box.
+std::uint32_t lanesThatMeet(const ShadowRays& rays, std::uint32_t lanes, const Bounds& box) {
+    float first[16], last[16];
+    for (int i = 0; i < 16; ++i) first[i] = 0, last[i] = 1;
+    const auto clip = [&](const float* origin, const float* direction, float lower, float upper) {
+        for (int i = 0; i < 16; ++i) {
+            const float inverse = 1.0f / direction[i];
+            const float a = (lower - origin[i]) * inverse, b = (upper - origin[i]) * inverse;
+            const float near = a < b ? a : b, far = a < b ? b : a;
+            first[i] = near > first[i] ? near : first[i]; // not a number: changes nothing
+            last[i] = far < last[i] ? far : last[i];
+        }
+    };
+    clip(rays.originX, rays.directionX, box.lower.x, box.upper.x);
+    clip(rays.originY, rays.directionY, box.lower.y, box.upper.y);
+    clip(rays.originZ, rays.directionZ, box.lower.z, box.upper.z);
+    std::uint32_t meet = 0;
+    for (int i = 0; i < 16; ++i) meet |= std::uint32_t(first[i] <= last[i]) << i;
+    return meet & lanes;
+}
+
+bool segmentMeets(glm::vec3 from, glm::vec3 to, const Bounds& box) {
+    const Bounds start{from, from};
+    return sweepMeets(start, to - from, to - from, 1.0f, box);
+}
+
+} // namespace
+
+namespace {
+
+/// The samples of an emitter and a receiver, gone through 16 at a time.
+struct EmitterPair {
+    float weight[RowBlock::kSize];
+    std::uint32_t blocker[RowBlock::kSize];
+    std::uint64_t used = 0;
+
+    /// \return bit 0: some of the first `count` samples are visible; bit 1: some are blocked
+    int states(int count) const {
+        int found = 0;
+        for (int i = 0; i < count; ++i)
+            if (used >> i & 1) found |= blocker[i] == kNone ? 1 : 2;
+        return found;
+    }
+    /// Writes what the first `count` samples say. Sums run in the order of the samples.
+    void write(int count, RowBlock::Draft& draft) const {
+        float total = 0, seen = 0;
+        draft.visible = 0;
+        draft.blockerCount = 0;
+        for (int i = 0; i < count; ++i) {
+            if (!(used >> i & 1)) continue;
+            total += weight[i];
+            if (blocker[i] == kNone) {
+                seen += weight[i];
+                draft.visible |= std::uint64_t(1) << i;
+            } else {
+                draft.block(blocker[i], i);
+            }
+        }
+        draft.visibility = draft.blockerCount == 0 ? 1.0f : total > 0 ? seen / total : 0.0f;
+    }
+    void take(const RayScene& rays, const SampleGroup& group, int first, RayCount& count) {
+        std::copy_n(group.weight, 16, weight + first);
+        used |= std::uint64_t(group.rays.used) << first;
+        if (group.rays.used == 0) return;
+        SampleGroup traced = group;
+        rays.occluded(traced.rays);
+        count.full += std::uint64_t(std::popcount(group.rays.used));
+        std::copy_n(traced.rays.blocker, 16, blocker + first);
+    }
+};
+
+/// Samples that are always taken: all of a sender that fills much of the sky.
+int firstSamples(const EmitterSender& sender, float formFactor) {
+    return formFactor > 0.15f ? sender.allSamples() : sender.baseSamples();
+}
+
+} // namespace
+
+void RowBuilder::emitterEntry(const EmitterSender& sender, const Receiver& receiver,
+                              RowBlock::Draft& draft) {
+    EmitterPair pair;
     SampleGroup group;
+    int count = firstSamples(sender, draft.formFactor);
     for (int first = 0; first < count; first += 16) {
         sender.sampleGroup(receiver, first, group);
-        if (group.rays.used == 0) continue;
-        rays_.occluded(group.rays);
-        rayCount_ += std::uint64_t(std::popcount(group.rays.used));
-        for (int i = 0; i < 16; ++i) {
-            if (!(group.rays.used >> i & 1)) continue;
-            total += group.weight[i];
-            if (group.rays.blocker[i] == ObjectId::kNone) {
-                seen += group.weight[i];
-                draft.visible |= std::uint64_t(1) << (first + i);
-            } else {
-                draft.block(group.rays.blocker[i], first + i);
-            }
-        }
+        pair.take(rays_, group, first, rayCount_);
         // More where the first ones disagree.
-        if (first + 16 == base && draft.visible != 0 && draft.blockerCount != 0)
-            count = sender.allSamples();
+        if (first + 16 == count && pair.states(count) == 3) count = sender.allSamples();
     }
-    draft.visibility = draft.blockerCount == 0 ? 1.0f : total > 0 ? seen / total : 0.0f;
+    pair.write(count, draft);
 }
 
-void RowBuilder::emitterBlock(const EmitterSender& sender, std::span<const Receiver> receivers,
-                              RowBlock& block) {
-    for (std::size_t i = 0; i < receivers.size(); ++i) {
-        RowBlock::Draft& draft = drafts_[i];
-        draft.begin(sender.formFactor(receivers[i]));
-        if (draft.formFactor > 0) emitterVisibility(sender, receivers[i], draft);
-    }
-    block.assign(std::span(drafts_).first(receivers.size()));
-}
+bool RowBuilder::retestEmitterEntry(const EmitterSender& sender, const Receiver& receiver,
+                                    std::span<const MovedObject> moved, RowBlock::Draft& draft) {
+    const bool open =
+        draft.visible != 0 && std::any_of(moved.begin(), moved.end(), [&](const MovedObject& m) {
+            const Bounds point{receiver.position, receiver.position};
+            return m.present && shaftMeets(point, sender.box(), m.box);
+        });
+    if (!open && !blockedByAny(draft, moved)) return false;
 
-void RowBuilder::tracePatchRays(const glm::vec3* samples, std::span<const Receiver> receivers) {
-    for (std::size_t first = 0; first < patchRays_.size(); first += 16) {
-        const std::size_t count = std::min<std::size_t>(16, patchRays_.size() - first);
-        ShadowRays rays;
-        for (std::size_t i = 0; i < count; ++i) {
-            const PatchRay& ray = patchRays_[first + i];
-            rays.set(int(i), receivers[ray.receiver].position, samples[ray.sample]);
+    const int base = firstSamples(sender, draft.formFactor), all = sender.allSamples();
+    const int taken = draft.visible != 0 && draft.blockerCount != 0 ? all : base;
+    EmitterPair pair;
+    SampleGroup group;
+    bool changed = false;
+    for (int first = 0; first < taken; first += 16) {
+        sender.sampleGroup(receiver, first, group);
+        std::copy_n(group.weight, 16, pair.weight + first);
+        const std::uint32_t used = group.rays.used;
+        pair.used |= std::uint64_t(used) << first;
+        std::uint32_t visible = 0, again = 0;
+        for (int i = 0; i < 16; ++i) {
+            const std::uint32_t blocker = blockerOf(draft, first + i);
+            pair.blocker[first + i] = blocker;
+            if (!(used >> i & 1)) continue;
+            if (blocker == kNone)
+                visible |= 1u << i;
+            else if (isIn(moved, blocker))
+                again |= 1u << i;
         }
-        rays_.occluded(rays);
-        for (std::size_t i = 0; i < count; ++i) {
-            const PatchRay& ray = patchRays_[first + i];
-            RowBlock::Draft& draft = drafts_[ray.receiver];
-            if (rays.blocker[i] == ObjectId::kNone) {
-                draft.visible |= std::uint64_t(1) << ray.sample;
-                draft.visibility += ray.weight;
-            } else {
-                draft.block(rays.blocker[i], ray.sample);
+        const auto note = [&](std::uint32_t lanes) {
+            for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+                const int i = std::countr_zero(left);
+                changed |= pair.blocker[first + i] != group.rays.blocker[i];
+                pair.blocker[first + i] = group.rays.blocker[i];
+                if (group.rays.blocker[i] != kNone) visible &= ~(1u << i);
             }
+        };
+        for (const MovedObject& m : moved) {
+            if (!m.present || visible == 0) continue;
+            group.rays.used = lanesThatMeet(group.rays, visible, m.box);
+            if (group.rays.used == 0) continue;
+            rays_.occludedBy({m.object}, group.rays);
+            rayCount_.single += std::uint64_t(std::popcount(group.rays.used));
+            note(group.rays.used);
         }
+        if (again == 0) continue;
+        group.rays.used = again;
+        rays_.occluded(group.rays);
+        rayCount_.full += std::uint64_t(std::popcount(again));
+        note(again);
     }
-    rayCount_ += patchRays_.size();
+    if (!changed) return false;
+    const bool disagree = pair.states(base) == 3;
+    for (int first = taken; disagree && first < all; first += 16) {
+        sender.sampleGroup(receiver, first, group);
+        pair.take(rays_, group, first, rayCount_);
+    }
+    pair.write(disagree ? all : base, draft);
+    return true;
 }
 
-void RowBuilder::patchBlock(const PatchSet& set, std::uint32_t patch, const glm::vec3* samples,
-                            std::span<const Receiver> receivers, std::uint64_t wanted,
-                            std::uint32_t firstReceiver, RowBlock& block) {
-    const Patch& sender = set.patches[patch];
-    const auto outline = std::span(set.corners).subspan(sender.firstCorner, sender.cornerCount);
-    float radius2 = 0;
-    for (glm::vec3 corner : outline)
-        radius2 = std::max(radius2, glm::dot(corner - sender.centre, corner - sender.centre));
-    patchRays_.clear();
-    for (std::size_t r = 0; r < receivers.size(); ++r) {
-        const Receiver& receiver = receivers[r];
-        RowBlock::Draft& draft = drafts_[r];
-        draft.begin(0);
-        if (!(wanted >> r & 1)) continue;
-        const glm::vec3 away = receiver.position - sender.centre;
-        if (glm::dot(sender.normal, away) <= 0) continue;
-        // From afar the point kernel is as good as the closed form: it errs by (radius /
-        // distance)^2.
-        const float distance2 = glm::dot(away, away);
-        const float facing = -glm::dot(receiver.normal, away);
-        const bool small = distance2 > 100 * radius2 && facing > std::sqrt(radius2);
-        const float factor = small ? facing * glm::dot(sender.normal, away) * sender.area /
-                                         (std::numbers::pi_v<float> * distance2 * distance2)
-                                   : polygonFormFactor(receiver.position, receiver.normal, outline);
-        if (!(factor > 1e-9f)) continue;
-        draft.begin(factor);
-        draft.visibility = 0;
-
-        const std::uint32_t hash = pairHash(patch, firstReceiver + std::uint32_t(r));
-        const std::uint32_t count = factor > 0.01f ? 16 : factor > 0.0005f ? 4 : 1;
-        float total = 0;
-        const std::size_t begin = patchRays_.size();
-        for (std::uint32_t k = 0; k < count; ++k) {
-            const std::uint32_t sample = count == 16  ? k
-                                         : count == 4 ? 4 * k + (hash >> 2 * k & 3)
-                                                      : hash & 15;
-            const glm::vec3 d = samples[sample] - receiver.position;
-            const float d2 = glm::dot(d, d);
-            const float weight = std::max(0.0f, glm::dot(receiver.normal, d)) *
-                                 std::max(0.0f, -glm::dot(sender.normal, d)) / (d2 * d2);
-            if (!(weight > 0)) continue;
-            total += weight;
-            patchRays_.push_back({std::uint8_t(r), std::uint8_t(sample), weight});
-        }
-        if (patchRays_.size() == begin) draft.formFactor = 0;
-        for (std::size_t k = begin; k < patchRays_.size(); ++k) patchRays_[k].weight /= total;
+void RowBuilder::emitterBlock(const EmitterSender& sender, const ReceiverBlock& receivers,
+                              RowBlock& block) {
+    const auto drafts = std::span(drafts_).first(receivers.receivers.size());
+    for (std::size_t r = 0; r < drafts.size(); ++r) {
+        const bool wanted = receivers.wanted >> r & 1;
+        drafts[r].begin(wanted ? sender.formFactor(receivers.receivers[r]) : 0.0f);
+        if (drafts[r].formFactor > 0) emitterEntry(sender, receivers.receivers[r], drafts[r]);
     }
-    tracePatchRays(samples, receivers);
-    block.assign(std::span(drafts_).first(receivers.size()));
+    block.assign(drafts);
+}
+
+int RowBuilder::updateEmitterBlock(const EmitterSender& sender, const ReceiverBlock& receivers,
+                                   std::uint64_t anew, std::span<const MovedObject> moved,
+                                   RowBlock& block) {
+    const auto drafts = std::span(drafts_).first(receivers.receivers.size());
+    block.decode(drafts);
+    int changed = 0;
+    for (std::size_t r = 0; r < drafts.size(); ++r) {
+        RowBlock::Draft& draft = drafts[r];
+        if (anew >> r & 1) {
+            const bool before = draft.formFactor > 0, wanted = receivers.wanted >> r & 1;
+            draft.begin(wanted ? sender.formFactor(receivers.receivers[r]) : 0.0f);
+            if (draft.formFactor > 0) emitterEntry(sender, receivers.receivers[r], draft);
+            changed += before || draft.formFactor > 0;
+        } else if (draft.formFactor > 0) {
+            changed += retestEmitterEntry(sender, receivers.receivers[r], moved, draft);
+        }
+    }
+    if (changed > 0) block.assign(drafts);
+    return changed;
+}
+
+/// Begins an entry with its unoccluded form factor; false if there is none.
+bool RowBuilder::openPatchEntry(const PatchSender& sender, const Receiver& receiver,
+                                RowBlock::Draft& draft) {
+    draft.begin(0);
+    const Patch& patch = *sender.patch;
+    const glm::vec3 away = receiver.position - patch.centre;
+    if (glm::dot(patch.normal, away) <= 0) return false;
+    float radius2 = 0;
+    for (glm::vec3 corner : sender.outline)
+        radius2 = std::max(radius2, glm::dot(corner - patch.centre, corner - patch.centre));
+    // From afar the point kernel is as good as the closed form: it errs by (radius / distance)^2.
+    const float distance2 = glm::dot(away, away);
+    const float facing = -glm::dot(receiver.normal, away);
+    const bool small = distance2 > 100 * radius2 && facing > std::sqrt(radius2);
+    const float factor =
+        small ? facing * glm::dot(patch.normal, away) * patch.area /
+                    (std::numbers::pi_v<float> * distance2 * distance2)
+              : polygonFormFactor(receiver.position, receiver.normal, sender.outline);
+    if (!(factor > 1e-9f)) return false;
+    draft.begin(factor);
+    return true;
+}
+
+/// Appends the samples of entry r, all as yet visible.
+void RowBuilder::listPatchRays(const PatchSender& sender, const ReceiverBlock& receivers,
+                               std::size_t r) {
+    const Receiver& receiver = receivers.receivers[r];
+    const float factor = drafts_[r].formFactor;
+    const std::uint32_t hash = pairHash(sender.key, receivers.key + std::uint32_t(r));
+    const std::uint32_t count = factor > 0.01f ? 16 : factor > 0.0005f ? 4 : 1;
+    float total = 0;
+    const std::size_t begin = patchRays_.size();
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const std::uint32_t sample = count == 16  ? k
+                                     : count == 4 ? 4 * k + (hash >> 2 * k & 3)
+                                                  : hash & 15;
+        const glm::vec3 d = sender.samples[sample] - receiver.position;
+        const float d2 = glm::dot(d, d);
+        const float weight = std::max(0.0f, glm::dot(receiver.normal, d)) *
+                             std::max(0.0f, -glm::dot(sender.patch->normal, d)) / (d2 * d2);
+        if (!(weight > 0)) continue;
+        total += weight;
+        patchRays_.push_back({std::uint8_t(r), std::uint8_t(sample), weight, kNone});
+    }
+    for (std::size_t k = begin; k < patchRays_.size(); ++k) patchRays_[k].weight /= total;
+}
+
+/// Traces the samples that `choose` accepts, through the whole scene or against one object alone.
+template <class Choose>
+void RowBuilder::tracePatchRays(const PatchSender& sender, const ReceiverBlock& receivers,
+                                Choose choose, const MovedObject* alone) {
+    std::array<std::size_t, 16> lane{};
+    ShadowRays rays;
+    std::size_t count = 0;
+    const auto flush = [&] {
+        if (count == 0) return;
+        if (alone)
+            rays_.occludedBy({alone->object}, rays);
+        else
+            rays_.occluded(rays);
+        (alone ? rayCount_.single : rayCount_.full) += count;
+        for (std::size_t i = 0; i < count; ++i) patchRays_[lane[i]].blocker = rays.blocker[i];
+        rays.used = 0;
+        count = 0;
+    };
+    for (std::size_t k = 0; k < patchRays_.size(); ++k) {
+        const PatchRay& ray = patchRays_[k];
+        if (!choose(ray)) continue;
+        lane[count] = k;
+        rays.set(int(count++), receivers.receivers[ray.receiver].position,
+                 sender.samples[ray.sample]);
+        if (count == 16) flush();
+    }
+    flush();
+}
+
+/// Writes what the listed samples say into their entries.
+void RowBuilder::collectPatchRays(std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+        const PatchRay& ray = patchRays_[k];
+        RowBlock::Draft& draft = drafts_[ray.receiver];
+        if (k == first || patchRays_[k - 1].receiver != ray.receiver) {
+            draft.begin(draft.formFactor);
+            draft.visibility = 0;
+        }
+        if (ray.blocker == kNone) {
+            draft.visible |= std::uint64_t(1) << ray.sample;
+            draft.visibility += ray.weight;
+        } else {
+            draft.block(ray.blocker, ray.sample);
+        }
+    }
+}
+
+void RowBuilder::patchBlock(const PatchSender& sender, const ReceiverBlock& receivers,
+                            RowBlock& block) {
+    patchRays_.clear();
+    const auto drafts = std::span(drafts_).first(receivers.receivers.size());
+    for (std::size_t r = 0; r < drafts.size(); ++r) {
+        drafts[r].begin(0);
+        if (!(receivers.wanted >> r & 1)) continue;
+        if (!openPatchEntry(sender, receivers.receivers[r], drafts[r])) continue;
+        const std::size_t begin = patchRays_.size();
+        listPatchRays(sender, receivers, r);
+        if (patchRays_.size() == begin) drafts[r].formFactor = 0;
+    }
+    tracePatchRays(
+        sender, receivers, [](const PatchRay&) { return true; }, nullptr);
+    collectPatchRays(0, patchRays_.size());
+    block.assign(drafts);
+}
+
+int RowBuilder::updatePatchBlock(const PatchSender& sender, const ReceiverBlock& receivers,
+                                 std::uint64_t anew, std::span<const MovedObject> moved,
+                                 RowBlock& block) {
+    const auto drafts = std::span(drafts_).first(receivers.receivers.size());
+    block.decode(drafts);
+    patchRays_.clear();
+    Bounds senderBox;
+    for (glm::vec3 corner : sender.outline) senderBox.add(corner);
+    for (std::size_t k = 0; k < kPatchSamples; ++k) senderBox.add(sender.samples[k]);
+    int changed = 0;
+    std::uint64_t emptied = 0;
+    for (std::size_t r = 0; r < drafts.size(); ++r) {
+        RowBlock::Draft& draft = drafts[r];
+        const Receiver& receiver = receivers.receivers[r];
+        const std::size_t begin = patchRays_.size();
+        if (anew >> r & 1) {
+            const bool before = draft.formFactor > 0;
+            const bool opened =
+                (receivers.wanted >> r & 1) && openPatchEntry(sender, receiver, draft);
+            if (opened) listPatchRays(sender, receivers, r);
+            if (patchRays_.size() == begin) {
+                draft.begin(0);
+                emptied |= std::uint64_t(before) << r;
+            }
+            continue;
+        }
+        if (!(draft.formFactor > 0)) continue;
+        const bool open = draft.visible != 0 &&
+                          std::any_of(moved.begin(), moved.end(), [&](const MovedObject& m) {
+                              const Bounds point{receiver.position, receiver.position};
+                              return m.present && shaftMeets(point, senderBox, m.box);
+                          });
+        if (!open && !blockedByAny(draft, moved)) continue;
+        listPatchRays(sender, receivers, r);
+        for (std::size_t k = begin; k < patchRays_.size(); ++k)
+            patchRays_[k].blocker = blockerOf(draft, patchRays_[k].sample);
+    }
+    const auto isNew = [&](const PatchRay& ray) { return anew >> ray.receiver & 1; };
+    const auto again = [&](const PatchRay& ray) { return isNew(ray) || isIn(moved, ray.blocker); };
+    // First what was visible, against what moved; what that blocks is not traced again.
+    std::vector<std::uint8_t> retraced(patchRays_.size());
+    for (std::size_t k = 0; k < retraced.size(); ++k) retraced[k] = again(patchRays_[k]);
+    for (const MovedObject& m : moved) {
+        if (!m.present) continue;
+        tracePatchRays(
+            sender, receivers,
+            [&](const PatchRay& ray) {
+                return ray.blocker == kNone && !isNew(ray) &&
+                       segmentMeets(receivers.receivers[ray.receiver].position,
+                                    sender.samples[ray.sample], m.box);
+            },
+            &m);
+    }
+    const PatchRay* const begin = patchRays_.data();
+    tracePatchRays(
+        sender, receivers, [&](const PatchRay& ray) { return retraced[std::size_t(&ray - begin)]; },
+        nullptr);
+
+    for (std::size_t first = 0; first < patchRays_.size();) {
+        std::size_t last = first;
+        const std::size_t r = patchRays_[first].receiver;
+        bool differs = anew >> r & 1;
+        for (; last < patchRays_.size() && patchRays_[last].receiver == r; ++last)
+            differs |= patchRays_[last].blocker != blockerOf(drafts[r], patchRays_[last].sample);
+        if (differs) collectPatchRays(first, last);
+        changed += differs;
+        first = last;
+    }
+    changed += std::popcount(emptied);
+    if (changed > 0) block.assign(drafts);
+    return changed;
 }
 
 } // namespace penumbra

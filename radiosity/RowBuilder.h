@@ -8,44 +8,99 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace penumbra {
 
-/// Builds one block of one row at a time; one builder a thread, for it owns scratch space.
+/// A patch made ready to send light to receivers.
+struct PatchSender {
+    const Patch* patch = nullptr;
+    std::span<const glm::vec3> outline;
+    const glm::vec3* samples = nullptr; ///< kPatchSamples points on the patch [m, world]
+    std::uint32_t key = 0;              ///< names the patch in every scene that has it
+};
+
+/// Up to 64 receivers of one block.
+struct ReceiverBlock {
+    std::span<const Receiver> receivers;
+    std::uint64_t wanted = ~std::uint64_t(0); ///< bits: receivers that need an entry
+    std::uint32_t key = 0;                    ///< of the first; names it in every scene that has it
+};
+
+/// An object that is not where it was.
+struct MovedObject {
+    std::uint32_t object = 0;
+    bool present = true;
+    Bounds box; ///< where it is now, a hair more [m, world]
+};
+
+/// Rays that were traced.
+struct RayCount {
+    std::uint64_t full = 0;   ///< against the whole scene
+    std::uint64_t single = 0; ///< against one object
+    std::uint64_t total() const { return full + single; }
+    RayCount& operator+=(const RayCount& other) {
+        full += other.full;
+        single += other.single;
+        return *this;
+    }
+    friend RayCount operator-(RayCount a, const RayCount& b) {
+        return {a.full - b.full, a.single - b.single};
+    }
+};
+
+/// Builds and updates one block of one row at a time; one builder a thread, for it owns scratch
+/// space. An updated block is the same as a block built anew, but for the choice among several
+/// objects that block a sample:
+///
+/// - samples that a moved object blocked are traced again;
+/// - samples that were visible are traced against the moved objects alone;
+/// - what something else blocks stays blocked.
 class RowBuilder {
 public:
     explicit RowBuilder(const RayScene& rays) : rays_(rays), drafts_(RowBlock::kSize) {}
 
     /// Direct light: an emitter onto up to 64 receivers.
-    void emitterBlock(const EmitterSender& sender, std::span<const Receiver> receivers,
-                      RowBlock& block);
+    void emitterBlock(const EmitterSender& sender, const ReceiverBlock& receivers, RowBlock& block);
 
     /// Indirect light: a patch onto up to 64 receivers. The number of samples follows the form
-    /// factor (1, 4 or 16); which ones is a fixed function of the pair. \param samples
-    /// kPatchSamples points on the patch \param wanted         bits: receivers that need an entry
-    /// \param firstReceiver  index of receivers[0], part of the pair's name
-    void patchBlock(const PatchSet& set, std::uint32_t patch, const glm::vec3* samples,
-                    std::span<const Receiver> receivers, std::uint64_t wanted,
-                    std::uint32_t firstReceiver, RowBlock& block);
+    /// factor (1, 4 or 16); which ones is a fixed function of the pair's keys.
+    void patchBlock(const PatchSender& sender, const ReceiverBlock& receivers, RowBlock& block);
 
-    /// Weighted visibility of an emitter from one receiver, written into `draft`.
-    void emitterVisibility(const EmitterSender& sender, const Receiver& receiver,
-                           RowBlock::Draft& draft);
+    /// Brings a block up to date. \param anew bits: entries to be evaluated anew
+    /// \return the number of entries that are not what they were
+    int updateEmitterBlock(const EmitterSender& sender, const ReceiverBlock& receivers,
+                           std::uint64_t anew, std::span<const MovedObject> moved, RowBlock& block);
+    int updatePatchBlock(const PatchSender& sender, const ReceiverBlock& receivers,
+                         std::uint64_t anew, std::span<const MovedObject> moved, RowBlock& block);
 
-    std::uint64_t rayCount() const { return rayCount_; }
+    /// Rays since the last call.
+    RayCount takeRayCount() { return std::exchange(rayCount_, {}); }
 
 private:
+    /// A sample of an entry that is being worked on.
     struct PatchRay {
         std::uint8_t receiver, sample;
-        float weight;
+        float weight;          ///< share of the pair's samples
+        std::uint32_t blocker; ///< ObjectId::kNone: visible
     };
-    void tracePatchRays(const glm::vec3* samples, std::span<const Receiver> receivers);
+    void emitterEntry(const EmitterSender& sender, const Receiver& receiver,
+                      RowBlock::Draft& draft);
+    bool retestEmitterEntry(const EmitterSender& sender, const Receiver& receiver,
+                            std::span<const MovedObject> moved, RowBlock::Draft& draft);
+    bool openPatchEntry(const PatchSender& sender, const Receiver& receiver,
+                        RowBlock::Draft& draft);
+    void listPatchRays(const PatchSender& sender, const ReceiverBlock& receivers, std::size_t r);
+    void collectPatchRays(std::size_t first, std::size_t last);
+    template <class Choose>
+    void tracePatchRays(const PatchSender& sender, const ReceiverBlock& receivers, Choose choose,
+                        const MovedObject* alone);
 
     const RayScene& rays_;
     std::vector<RowBlock::Draft> drafts_;
     std::vector<PatchRay> patchRays_;
-    std::uint64_t rayCount_ = 0;
+    RayCount rayCount_;
 };
 
 } // namespace penumbra

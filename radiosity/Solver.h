@@ -1,16 +1,19 @@
 // The radiosity solution: direct light onto elements, indirect light between patches.
 #pragma once
 
+#include "radiosity/DirectLight.h"
+#include "radiosity/IndirectLight.h"
 #include "radiosity/PatchSet.h"
 #include "radiosity/RayScene.h"
-#include "radiosity/Row.h"
-#include "radiosity/RowBuilder.h"
+#include "radiosity/SceneChange.h"
 #include "scenegraph/Rgb.h"
 
 #include <glm/glm.hpp>
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <span>
 #include <vector>
 
 namespace penumbra {
@@ -31,16 +34,28 @@ struct SolverOptions {
 /// Called now and then with the phase's name and the share done in [0, 1].
 using Progress = std::function<void(const char* phase, double done)>;
 
+/// What was done so far for one kind of light; the difference of two says what an edit cost.
+struct WorkCount {
+    RayCount rays;
+    std::uint64_t blocksVisited = 0;  ///< by updates
+    std::uint64_t entriesChanged = 0; ///< by updates
+    double seconds = 0;
+
+    friend WorkCount operator-(const WorkCount& a, const WorkCount& b) {
+        return {a.rays - b.rays, a.blocksVisited - b.blocksVisited,
+                a.entriesChanged - b.entriesChanged, a.seconds - b.seconds};
+    }
+};
+
 struct SolveStatistics {
     std::uint64_t shots = 0;
     bool settled = false; ///< whether the limit was met, or relaxation stopped before
-    std::uint64_t directRays = 0, indirectRays = 0;
+    WorkCount direct, indirect;
     double residual = 0;      ///< max |R| over patches and channels [lm/m^2]
     double certificate = 0;   ///< bound of |B_exact - B| for the meshed scene [lm/m^2]
     double brightest = 0;     ///< largest exitance of an emitter [lm/m^2]
     double meanRadiosity = 0; ///< area-weighted, of reflecting surfaces [lm/m^2]
     std::size_t rows = 0, entries = 0, bytes = 0; ///< of the SFFL
-    double directSeconds = 0, indirectSeconds = 0;
 };
 
 /// Illuminance at every vertex of a PatchSet [lux].
@@ -52,21 +67,26 @@ struct Lighting {
 /// Mean illuminance of an element's corners [lux].
 Rgb elementMean(const Element& element, const Lighting& lighting);
 
-/// Southwell relaxation over the shadow-form-factor-list ([Cohen1988] in residual form):
+/// Lights a PatchSet, and keeps it lit while it is edited: emitters light the elements directly,
+/// what patches reflect travels between patches' nodes. The result is the same for any number of
+/// threads.
 ///
-///     R = E + rho F S - S      residual: what is received but not yet sent
-///
-/// always holds; each shot sends the largest |R| * area and adds it to S. Emitters light the
-/// elements directly, through rows of their own; what patches reflect travels between patches'
-/// nodes. The result is the same for any number of threads.
+/// After an edit the rows of the shadow-form-factor-list are brought up to date entry by entry,
+/// what changes in them is sent again or taken back, and relaxation goes on. What comes out is what
+/// a new solver would find: visibility bit for bit, radiosity within the certificates.
 class Solver {
 public:
-    /// All three must outlive the solver.
+    /// Both must outlive the solver, and change only just before apply() says so.
     Solver(const PatchSet& patches, const RayScene& rays, const SolverOptions& options);
 
-    void solveDirect(const Progress& progress = {});
-    /// Relaxes until the options' limit is met. \pre solveDirect() was called
-    void solveIndirect(const Progress& progress = {});
+    /// Takes note of an edit that has been made to the patch set and the ray scene. Traces nothing.
+    void apply(const SceneChange& change);
+
+    /// Works for `budget` seconds, or until everything is settled, and returns whether it is. What
+    /// it leaves undone it goes on with at the next call.
+    bool step(double budget, const Progress& progress = {});
+    /// Works until everything is settled.
+    void settle(const Progress& progress = {});
 
     /// What the vertices receive. What is still owed is added as an ambient term (Cohen et al.
     /// 1988).
@@ -77,40 +97,27 @@ public:
     std::vector<Rgb> radiosity() const;
     SolveStatistics statistics() const;
 
-    const std::vector<Row>& emitterRows() const { return emitterRows_; }
-    const std::vector<Row>& patchRows() const { return patchRows_; }
+    const DirectLight& direct() const { return direct_; }
+    const IndirectLight& indirect() const { return *indirect_; }
+    std::span<const Row> emitterRows() const { return direct_.rows().rows(); }
+    std::span<const Row> patchRows() const { // empty ones were never needed, or not kept
+        return indirect_ ? std::span(indirect_->rows().rows()) : std::span<const Row>();
+    }
 
 private:
-    glm::dvec3 received(std::uint32_t patch) const;
-    void updateResiduals();
+    bool work(std::size_t effort, const Progress& progress);
     bool settled() const;
     bool spent() const;
-    std::vector<std::uint32_t> chooseSenders() const;
-    void shoot(const std::vector<std::uint32_t>& senders);
-    void averageDirect();
-    void findReached();
-    glm::dvec3 nodeIndirect(std::uint32_t node) const;
-    glm::dvec3 ambient() const;
     double target() const;
 
     const PatchSet& set_;
-    const RayScene& rays_;
     SolverOptions options_;
-    std::vector<EmitterSender> emitters_;
-    std::vector<Receiver> receivers_;     ///< of the vertices
-    std::vector<glm::vec3> patchSamples_; ///< kPatchSamples a patch
-
-    std::vector<Rgb> vertexDirect_;          ///< [lux]
-    std::vector<glm::dvec3> patchDirect_;    ///< mean over the patch [lux]
-    std::vector<glm::dvec3> nodeIndirect_;   ///< [lux]
-    std::vector<double> nodeRowSum_;         ///< sum of F V over the senders whose rows are known
-    std::vector<std::uint64_t> nodeReached_; ///< bits: nodes from which anything lit can be seen
-    std::vector<glm::dvec3> shot_;           ///< S [lm/m^2]
-    std::vector<glm::dvec3> residual_;       ///< R [lm/m^2]
-    std::vector<Row> emitterRows_, patchRows_;
-    std::vector<std::uint8_t> rowKnown_;
-    std::size_t knownRows_ = 0, rowBytes_ = 0;
-    SolveStatistics statistics_;
+    DirectLight direct_;
+    std::unique_ptr<IndirectLight> indirect_; ///< null: direct light only
+    bool handedOver_ = false; ///< whether the indirect light knows of the direct light as it is
+    std::uint64_t shotsBefore_ = 0; ///< before the last edit
+    double firstCertificate_ = 0, effort_ = 4096;
+    double directSeconds_ = 0, indirectSeconds_ = 0;
 };
 
 } // namespace penumbra

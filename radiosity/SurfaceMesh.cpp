@@ -176,30 +176,6 @@ std::vector<Component> connectedComponents(const SurfaceMesh& mesh,
     return components;
 }
 
-/// Whether a ray from `p` along a skew direction leaves the component an odd number of times.
-bool contains(const SurfaceMesh& mesh, const Component& component, glm::vec3 p) {
-    if (!component.bounds.contains(p)) return false;
-    const glm::dvec3 direction(0.3826834323, 0.2705980501, 0.8835345612);
-    int crossings = 0;
-    const auto cross = [&](std::span<const std::uint32_t> corners) {
-        for (std::size_t i = 2; i < corners.size(); ++i) {
-            const glm::dvec3 a = glm::dvec3(mesh.points[corners[0]]) - glm::dvec3(p);
-            const glm::dvec3 ab = glm::dvec3(mesh.points[corners[i - 1]]) - glm::dvec3(p) - a;
-            const glm::dvec3 ac = glm::dvec3(mesh.points[corners[i]]) - glm::dvec3(p) - a;
-            const glm::dvec3 q = glm::cross(direction, ac);
-            const double det = glm::dot(ab, q);
-            if (det == 0) continue;
-            const double u = -glm::dot(a, q) / det;
-            const glm::dvec3 r = glm::cross(-a, ab);
-            const double v = glm::dot(direction, r) / det;
-            if (u >= 0 && v >= 0 && u + v <= 1 && glm::dot(ac, r) / det > 0) ++crossings;
-        }
-    };
-    for (std::uint32_t f : component.faces) cross(mesh.cornersOf(mesh.faces[f]));
-    if (!component.lid.empty()) cross(component.lid);
-    return crossings % 2 == 1;
-}
-
 /// Adds one face of a plain mesh as it is, or in triangles.
 void addPolygon(SurfaceMesh& mesh, std::span<const std::uint32_t> corners, std::uint32_t source) {
     const auto add = [&](std::span<const std::uint32_t> face) {
@@ -230,6 +206,52 @@ bool usable(const SurfaceMesh& mesh, std::span<const std::uint32_t> corners) {
 }
 
 } // namespace
+
+/// Whether a ray along a skew direction leaves the part an odd number of times.
+bool ClosedPart::contains(glm::vec3 point) const {
+    if (!bounds.contains(point)) return false;
+    const glm::dvec3 direction(0.3826834323, 0.2705980501, 0.8835345612);
+    const glm::dvec3 p(point);
+    int crossings = 0;
+    for (const auto& triangle : triangles) {
+        const glm::dvec3 a = glm::dvec3(triangle[0]) - p;
+        const glm::dvec3 ab = glm::dvec3(triangle[1]) - p - a;
+        const glm::dvec3 ac = glm::dvec3(triangle[2]) - p - a;
+        const glm::dvec3 q = glm::cross(direction, ac);
+        const double det = glm::dot(ab, q);
+        if (det == 0) continue;
+        const double u = -glm::dot(a, q) / det;
+        const glm::dvec3 r = glm::cross(-a, ab);
+        const double v = glm::dot(direction, r) / det;
+        if (u >= 0 && v >= 0 && u + v <= 1 && glm::dot(ac, r) / det > 0) ++crossings;
+    }
+    return crossings % 2 == 1;
+}
+
+namespace {
+
+ClosedPart closedPart(const SurfaceMesh& mesh, const Component& component) {
+    ClosedPart part;
+    part.bounds = component.bounds;
+    const auto add = [&](std::span<const std::uint32_t> corners) {
+        for (std::size_t i = 2; i < corners.size(); ++i)
+            part.triangles.push_back(
+                {mesh.points[corners[0]], mesh.points[corners[i - 1]], mesh.points[corners[i]]});
+    };
+    for (std::uint32_t f : component.faces) add(mesh.cornersOf(mesh.faces[f]));
+    if (!component.lid.empty()) add(component.lid);
+    return part;
+}
+
+} // namespace
+
+std::vector<ClosedPart> closedParts(const SurfaceMesh& mesh,
+                                    std::span<const SurfaceMesh* const> object) {
+    std::vector<ClosedPart> parts;
+    for (const Component& component : connectedComponents(mesh, object))
+        if (component.closed && component.volume != 0) parts.push_back(closedPart(mesh, component));
+    return parts;
+}
 
 glm::dvec3 newellNormal(std::span<const glm::vec3> points, std::span<const std::uint32_t> corners) {
     const glm::dvec3 origin = points[corners[0]];
@@ -279,9 +301,10 @@ SurfaceMesh placeSurface(const MeshData& data, const glm::dmat4& toWorld) {
 void chooseSides(SurfaceMesh& mesh, std::span<const glm::vec3> lightPoints,
                  std::span<const SurfaceMesh* const> object) {
     for (const Component& component : connectedComponents(mesh, object)) {
+        const ClosedPart part = closedPart(mesh, component);
         const bool solid = component.closed && component.volume != 0 &&
                            std::none_of(lightPoints.begin(), lightPoints.end(),
-                                        [&](glm::vec3 p) { return contains(mesh, component, p); });
+                                        [&](glm::vec3 p) { return part.contains(p); });
         const bool twoSided = mesh.data->doubleSided;
         for (std::uint32_t f : component.faces) {
             SurfaceFace& face = mesh.faces[f];

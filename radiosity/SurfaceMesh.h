@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -52,6 +53,15 @@ SurfaceMesh placeSurface(const MeshData& data, const glm::dmat4& toWorld);
 /// frame; this one may be among them
 void chooseSides(SurfaceMesh& mesh, std::span<const glm::vec3> lightPoints,
                  std::span<const SurfaceMesh* const> object = {});
+
+/// A closed connected part of a mesh, in triangles, its lid included.
+struct ClosedPart {
+    Bounds bounds;
+    std::vector<std::array<glm::vec3, 3>> triangles;
+    bool contains(glm::vec3 point) const;
+};
+std::vector<ClosedPart> closedParts(const SurfaceMesh& mesh,
+                                    std::span<const SurfaceMesh* const> object = {});
 
 /// Normal of a polygon, its length twice the area (Newell's method; sound for twisted polygons).
 glm::dvec3 newellNormal(std::span<const glm::vec3> points, std::span<const std::uint32_t> corners);

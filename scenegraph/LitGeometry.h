@@ -17,6 +17,7 @@ namespace penumbra {
 struct LitMaterial {
     Rgb reflectance; ///< Lambertian rho
     Rgb emission;    ///< own luminance [nit]
+    friend bool operator==(const LitMaterial&, const LitMaterial&) = default;
 };
 
 /// Flat arrays of lit triangles, one-sided: front is counter-clockwise. The luminance of a point is

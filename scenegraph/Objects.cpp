@@ -32,26 +32,41 @@ public:
     explicit Placer(PlacedScene& out) : out_(out) {}
 
     using Visitor::visit;
+    void visit(const Switch& node) override {
+        hidden_ += !node.visible();
+        traverse(node);
+        hidden_ -= !node.visible();
+    }
     void visit(const Transform& transform) override {
         const bool begins = transform.movable() || (depth_ == 0 && HoldsGeometry::test(transform));
-        if (!begins) return Visitor::visit(transform);
-        const Pending outer = pending_;
-        pending_ = {path(), toWorld() * transform.matrix(), transform.movable(), {}};
-        ++depth_;
-        Visitor::visit(transform);
-        --depth_;
-        pending_ = outer;
+        const glm::dmat4 outerFrame = toObject_;
+        if (!begins) {
+            toObject_ = toObject_ * transform.matrix();
+            Visitor::visit(transform);
+        } else {
+            const Pending outer = pending_;
+            pending_ = {path(), toWorld() * transform.matrix(), transform.movable(), hidden_, {}};
+            toObject_ = glm::dmat4(1.0);
+            ++depth_;
+            Visitor::visit(transform);
+            --depth_;
+            pending_ = outer;
+        }
+        toObject_ = outerFrame;
     }
     void visit(const Mesh& mesh) override {
-        out_.meshes.push_back({&mesh, toWorld(), currentObject(), path()});
-        out_.bounds.add(transformed(mesh.bounds(), toWorld()));
+        if (leftOut()) return;
+        out_.meshes.push_back({&mesh, toWorld(), toObject_, currentObject(), path()});
+        if (hidden_ == 0) out_.bounds.add(transformed(mesh.bounds(), toWorld()));
     }
     void visit(const Light& light) override {
-        out_.lights.push_back({&light, toWorld(), currentObject(), path()});
-        out_.bounds.add(transformed(light.bounds(), toWorld()));
+        if (leftOut()) return;
+        out_.lights.push_back({&light, toWorld(), toObject_, currentObject(), path()});
+        if (hidden_ == 0) out_.bounds.add(transformed(light.bounds(), toWorld()));
     }
     void visit(const Camera& camera) override {
-        out_.cameras.push_back({&camera, toWorld(), pending_.id, path()});
+        if (hidden_ == 0)
+            out_.cameras.push_back({&camera, toWorld(), toObject_, pending_.id, path()});
     }
 
 private:
@@ -60,20 +75,26 @@ private:
         std::string path = "/";
         glm::dmat4 toWorld{1.0};
         bool movable = false;
+        int hidden = 0; ///< hiding switches above it
         ObjectId id;
     };
+
+    /// Hidden, and not as a movable object as a whole.
+    bool leftOut() const { return hidden_ > (pending_.movable ? pending_.hidden : 0); }
 
     ObjectId currentObject() {
         if (!pending_.id.valid()) {
             pending_.id.value = std::uint32_t(out_.objects.size());
-            out_.objects.push_back({pending_.path, pending_.toWorld, pending_.movable});
+            out_.objects.push_back(
+                {pending_.path, pending_.toWorld, pending_.movable, pending_.hidden == 0});
         }
         return pending_.id;
     }
 
     PlacedScene& out_;
     Pending pending_;
-    int depth_ = 0;
+    glm::dmat4 toObject_{1.0}; ///< of the node being visited
+    int depth_ = 0, hidden_ = 0;
 };
 
 } // namespace

@@ -22,29 +22,32 @@ struct Object {
     std::string path;        ///< of the transform that begins it
     glm::dmat4 toWorld{1.0}; ///< its frame
     bool movable = false;
+    bool visible = true; ///< false only of movable objects, see placeScene()
 };
 
 /// A node in its place. The pointers live as long as the scene.
 template <class T>
 struct Placed {
     const T* node = nullptr;
-    glm::dmat4 toWorld{1.0}; ///< of the node's own frame
+    glm::dmat4 toWorld{1.0};  ///< of the node's own frame
+    glm::dmat4 toObject{1.0}; ///< of the node's own frame to its object's
     ObjectId object;
     std::string path;
 };
 
-/// Everything visible in a scene, in traversal order, with instances written out.
+/// What is in a scene, in traversal order, with instances written out.
 struct PlacedScene {
     std::vector<Object> objects;
     std::vector<Placed<Mesh>> meshes;
     std::vector<Placed<Light>> lights;
     std::vector<Placed<Camera>> cameras;
-    Bounds bounds; ///< of meshes and lights [m, world]
+    Bounds bounds; ///< of visible meshes and lights [m, world]
 };
 
 /// Lists a scene. An object begins at a movable Transform and, outside of any object, at a
 /// Transform that directly holds a mesh or a light (through plain groups, not through further
-/// Transforms). Objects without geometry are not listed.
+/// Transforms). Objects without geometry are not listed, nor is what a Switch hides, except for
+/// whole movable objects: they are listed as not visible, since they may come back.
 PlacedScene placeScene(const Scene& scene);
 
 } // namespace penumbra

@@ -1,5 +1,6 @@
 #include "io/ExrWriter.h"
 #include "io/PngWriter.h"
+#include "radiosity/LitSurface.h"
 #include "radiosity/Parallel.h"
 #include "scenegraph/Camera.h"
 #include "scenegraph/Error.h"
@@ -93,10 +94,10 @@ FrameLayers draw(const RenderCommand& command, SceneSolution& solution, const Vi
     return renderFrame(context, renderer, lit, view, command.width, command.height);
 }
 
-void run(RenderCommand command) {
-    const ThreadLimit limit(command.solve.threads);
-    checkOutputs(command.solve.scene, {command.output, command.png, command.solve.stats});
-    SceneSolution solution(command.solve);
+void writeFrame(const RenderCommand& from, SceneSolution& solution, int number) {
+    RenderCommand command = from;
+    command.output = numberedPath(from.output, number);
+    command.png = numberedPath(from.png, number);
     const View view = chooseView(command, solution);
     const FrameLayers frame = solution.timed("draw", [&] { return draw(command, solution, view); });
     solution.progress().clear();
@@ -109,6 +110,20 @@ void run(RenderCommand command) {
         fmt::print(stderr, "{}: {} values above 65504 were clamped: --pixels float keeps them\n",
                    command.output, clamped);
     if (!command.png.empty()) writePng(command.png, frame);
+}
+
+void run(const RenderCommand& command) {
+    const ThreadLimit limit(command.solve.threads);
+    checkOutputs(command.solve.scene, {command.output, command.png, command.solve.stats});
+    checkNumbered(command.output, command.solve.frames);
+    checkNumbered(command.png, command.solve.frames);
+    const std::string& frames = command.solve.frames;
+    const FrameRange range = frames.empty() ? FrameRange{} : frameRange(frames);
+    SceneSolution solution(command.solve);
+    for (int frame = range.first; frame <= range.last; ++frame) {
+        if (frame > range.first) solution.show(frame);
+        writeFrame(command, solution, frame);
+    }
     if (!command.solve.stats.empty()) writeStatistics(command.solve.stats, solution);
 }
 

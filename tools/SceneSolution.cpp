@@ -7,9 +7,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <tuple>
+#include <utility>
 
 namespace penumbra {
 
@@ -58,6 +61,11 @@ void addSolveOptions(CLI::App& command, SolveSettings& settings) {
         .add_option("--frame", settings.frame,
                     "Time code of the file's animation to show (default: its start)")
         ->check(number);
+    command.add_option("--frames", settings.frames,
+                       "Play the file's animation from time code A to B, in steps of one (A:B).\n"
+                       "A '#' in the name of a result becomes the number of the frame");
+    command.add_flag("--from-scratch", settings.fromScratch,
+                     "Forget everything at each frame instead of updating what the edit changes");
     command.add_option("--threads", settings.threads, "Threads to use (default: one a core)")
         ->check(CLI::Range(1u, 1024u));
     command.add_option("--stats", settings.stats, "Write counts and times to this file, as JSON");
@@ -86,6 +94,38 @@ void checkOutputs(const std::string& scene, const std::vector<std::string>& outp
     }
 }
 
+FrameRange frameRange(const std::string& text) {
+    FrameRange range;
+    const char* const end = text.data() + text.size();
+    auto [at, error] = std::from_chars(text.data(), end, range.first);
+    range.last = range.first;
+    if (error == std::errc() && at != end && *at == ':')
+        std::tie(at, error) = [&] {
+            const auto result = std::from_chars(at + 1, end, range.last);
+            return std::pair(result.ptr, result.ec);
+        }();
+    if (error != std::errc() || at != end || range.last < range.first)
+        throw CLI::ValidationError("--frames", fmt::format("'{}' is not A:B with A <= B", text));
+    return range;
+}
+
+std::string numberedPath(const std::string& pattern, int frame) {
+    const std::size_t last = pattern.rfind('#');
+    if (last == std::string::npos) return pattern;
+    std::size_t first = last;
+    while (first > 0 && pattern[first - 1] == '#') --first;
+    return fmt::format("{}{:0{}}{}", pattern.substr(0, first), frame, last - first + 1,
+                       pattern.substr(last + 1));
+}
+
+void checkNumbered(const std::string& pattern, const std::string& frames) {
+    if (pattern.empty() || frames.empty()) return;
+    const FrameRange range = frameRange(frames);
+    if (range.first != range.last && pattern.find('#') == std::string::npos)
+        throw CLI::ValidationError(
+            pattern, "every frame would overwrite the one before: write frame.####.exr");
+}
+
 void reportDiagnostics(const std::vector<Diagnostic>& diagnostics, bool verbose) {
     if (diagnostics.empty()) return;
     if (!verbose) {
@@ -102,13 +142,14 @@ SceneSolution::PhaseTimer::~PhaseTimer() {
 }
 
 SceneSolution::SceneSolution(const SolveSettings& settings)
-    : progress_(settings.quiet      ? ProgressBar::When::never
-                : settings.progress ? ProgressBar::When::always
-                                    : ProgressBar::When::terminal) {
+    : settings_(settings), progress_(settings.quiet      ? ProgressBar::When::never
+                                     : settings.progress ? ProgressBar::When::always
+                                                         : ProgressBar::When::terminal) {
     progress_.show("reading", 0);
     loaded_ = timed("read", [&] {
         LoadOptions options;
         options.time = settings.frame;
+        if (!settings.frames.empty()) options.time = frameRange(settings.frames).first;
         return loadUsdScene(settings.scene, options);
     });
     progress_.clear();
@@ -117,43 +158,78 @@ SceneSolution::SceneSolution(const SolveSettings& settings)
     if (placed_.meshes.empty() && placed_.lights.empty())
         throw SceneFileError({settings.scene},
                              "nothing to light: no visible mesh that can be read");
+    const double start = now();
+    mesh(settings.meshing);
+    light();
+    if (settings.frames.empty()) return;
+    const SolveStatistics s = solver().statistics();
+    frames_.push_back({double(frameRange(settings.frames).first), 0, true, s.shots, s.certificate,
+                       now() - start, s.direct, s.indirect});
+}
 
+void SceneSolution::mesh(const MeshingOptions& meshing) {
     progress_.show("meshing", 0);
-    built_ = timed("mesh", [&] {
+    timed("mesh", [&] {
         try {
-            return buildPatches(placed_, settings.meshing);
+            lit_ = std::make_unique<LitScene>(placed_, meshing, settings_.solver);
         } catch (const Error& error) {
             progress_.clear();
-            throw SceneFileError({settings.scene}, error.what());
+            throw SceneFileError({settings_.scene}, error.what());
         }
     });
     progress_.clear();
-    if (!settings.quiet)
-        for (const std::string& warning : built_.warnings)
-            std::fprintf(stderr, "%s: warning: %s\n", settings.scene.c_str(), warning.c_str());
-    rays_ = timed("rays", [&] { return std::make_unique<RayScene>(built_.patches.rayMeshes); });
+    if (!settings_.quiet && frames_.empty())
+        for (const std::string& warning : lit_->warnings())
+            std::fprintf(stderr, "%s: warning: %s\n", settings_.scene.c_str(), warning.c_str());
+}
 
-    const Progress show = [&](const char* phase, double done) { progress_.show(phase, done); };
-    solver_ = timed("prepare", [&] {
-        return std::make_unique<Solver>(built_.patches, *rays_, settings.solver);
+void SceneSolution::light() {
+    timed("solve", [&] {
+        lit_->solver().settle([&](const char* phase, double done) { progress_.show(phase, done); });
     });
-    timed("direct", [&] { solver_->solveDirect(show); });
-    if (!settings.solver.directOnly) timed("indirect", [&] { solver_->solveIndirect(show); });
-    lighting_ = timed("light", [&] { return solver_->lighting(); });
-    if (!settings.solver.directOnly)
+    lighting_ = timed("light", [&] { return solver().lighting(); });
+    if (!settings_.solver.directOnly)
         timed("detail", [&] {
             progress_.show("fine shadows", 0);
-            DetailGather(built_.patches).apply(solver_->nodeIlluminance(), lighting_);
+            DetailGather(patches()).apply(solver().nodeIlluminance(), lighting_);
         });
     progress_.clear();
-    const SolveStatistics s = solver_->statistics();
-    if (!settings.quiet && !settings.solver.directOnly && !s.settled)
+    const SolveStatistics s = solver().statistics();
+    if (!settings_.quiet && !settings_.solver.directOnly && !s.settled)
         std::fprintf(
             stderr,
             "%s: warning: so many patches (%zu) that relaxation was stopped after %llu shots; an "
             "ambient estimate stands for the rest (--residual goes on to the end)\n",
-            settings.scene.c_str(), built_.patches.patches.size(),
+            settings_.scene.c_str(), patches().patches.size(),
             static_cast<unsigned long long>(s.shots));
+}
+
+void SceneSolution::show(double frame) {
+    if (loaded_.animation) loaded_.animation->setTime(frame);
+    placed_ = placeScene(*loaded_.scene);
+    const double start = now();
+    FrameCost cost;
+    SolveStatistics before;
+    if (settings_.fromScratch) {
+        cost.rebuilt = true;
+        mesh(sizesOf(patches()));
+    } else {
+        before = solver().statistics();
+        const LitScene::Followed followed = lit_->follow(placed_);
+        cost.rebuilt = followed.rebuilt;
+        cost.edits = followed.change.objects.size() + followed.change.emitters.size() +
+                     followed.change.colours;
+        if (followed.rebuilt) before = {};
+    }
+    light();
+    const SolveStatistics after = solver().statistics();
+    cost.frame = frame;
+    cost.seconds = now() - start;
+    cost.shots = after.shots - before.shots;
+    cost.certificate = after.certificate;
+    cost.direct = after.direct - before.direct;
+    cost.indirect = after.indirect - before.indirect;
+    frames_.push_back(cost);
 }
 
 } // namespace penumbra

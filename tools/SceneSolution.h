@@ -2,10 +2,7 @@
 #pragma once
 
 #include "io/UsdScene.h"
-#include "radiosity/BuildPatches.h"
-#include "radiosity/LitSurface.h"
-#include "radiosity/RayScene.h"
-#include "radiosity/Solver.h"
+#include "radiosity/LitScene.h"
 #include "scenegraph/Objects.h"
 #include "tools/ProgressBar.h"
 
@@ -21,10 +18,17 @@ class App;
 
 namespace penumbra {
 
+/// Frames to play, in steps of one.
+struct FrameRange {
+    int first = 0, last = 0;
+};
+
 /// Options shared by the commands that solve.
 struct SolveSettings {
     std::string scene;
     std::optional<double> frame;
+    std::string frames; ///< as it was given; empty: one frame
+    bool fromScratch = false;
     MeshingOptions meshing;
     SolverOptions solver;
     unsigned threads = 0;
@@ -42,20 +46,43 @@ void addSolveOptions(CLI::App& command, SolveSettings& settings);
 /// line). \param outputs paths, empty ones are left out \throws Error, CLI::ValidationError
 void checkOutputs(const std::string& scene, const std::vector<std::string>& outputs);
 
+/// Reads "A:B" or "A". \throws CLI::ValidationError
+FrameRange frameRange(const std::string& text);
+/// Puts a frame's number in the place of the last run of '#' in a file name.
+std::string numberedPath(const std::string& pattern, int frame);
+/// Refuses a name that would be written again and again. \throws CLI::ValidationError
+void checkNumbered(const std::string& pattern, const std::string& frames);
+
 /// Prints to standard error what the reader had to say: one summary line, or every line.
 void reportDiagnostics(const std::vector<Diagnostic>& diagnostics, bool verbose);
 
-/// A scene, read, meshed and solved.
+/// What one frame of an animation cost.
+struct FrameCost {
+    double frame = 0;
+    std::size_t edits = 0; ///< objects, lamps and colours that are not as in the frame before
+    bool rebuilt = false;  ///< the scene was meshed anew
+    std::uint64_t shots = 0;
+    double certificate = 0; ///< [lm/m^2]
+    double seconds = 0;     ///< from the edit to the settled light
+    WorkCount direct, indirect;
+};
+
+/// A scene, read, meshed and lit, and what its animation makes of it.
 class SceneSolution {
 public:
+    /// Lights the frame that is asked for, or the first one.
     explicit SceneSolution(const SolveSettings& settings);
+
+    /// Goes to a frame: incrementally, unless `--from-scratch` was given.
+    void show(double frame);
 
     const Scene& scene() const { return *loaded_.scene; }
     const PlacedScene& placed() const { return placed_; }
-    const PatchSet& patches() const { return built_.patches; }
-    const RayScene& rays() const { return *rays_; }
-    const Solver& solver() const { return *solver_; }
+    const PatchSet& patches() const { return lit_->patches(); }
+    const RayScene& rays() const { return lit_->rays(); }
+    const Solver& solver() const { return lit_->solver(); }
     const Lighting& lighting() const { return lighting_; }
+    const std::vector<FrameCost>& frames() const { return frames_; } ///< if frames are played
     ProgressBar& progress() { return progress_; }
 
     /// Runs `work` and adds its time to the phase of that name.
@@ -78,14 +105,17 @@ private:
         double start_;
     };
 
+    void mesh(const MeshingOptions& meshing);
+    void light();
+
+    const SolveSettings& settings_;
     ProgressBar progress_;
     std::map<std::string, double> phases_;
     LoadedScene loaded_;
     PlacedScene placed_;
-    BuiltPatches built_;
-    std::unique_ptr<RayScene> rays_;
-    std::unique_ptr<Solver> solver_;
+    std::unique_ptr<LitScene> lit_;
     Lighting lighting_;
+    std::vector<FrameCost> frames_;
 };
 
 } // namespace penumbra

@@ -1,4 +1,5 @@
 #include "radiosity/Contact.h"
+#include "radiosity/LitSurface.h"
 #include "radiosity/Parallel.h"
 #include "radiosity/PointGather.h"
 #include "scenegraph/Error.h"
@@ -41,7 +42,7 @@ std::vector<Rgb> readSensorValues(SceneSolution& solution, const std::vector<Rec
             if (lie == Lie::buried) continue; // no light gets there
             if (!gather && lie == Lie::free) {
                 const auto drawn = surface.under(sensors[i].position, sensors[i].normal);
-                if (drawn && patches.elements[drawn->element].patch != Element::kNone) {
+                if (drawn && patches.receives(drawn->element)) {
                     values[i] = drawn->direct + drawn->indirect;
                     continue;
                 }
@@ -58,13 +59,18 @@ void run(const SolveCommand& command) {
     checkOutputs(command.solve.scene, {command.sensors, command.values, command.solve.stats});
     std::vector<Receiver> sensors; // read first: a wrong list should not cost a solution
     if (!command.sensors.empty()) sensors = readSensors(command.sensors);
+    const std::string& frames = command.solve.frames;
+    const FrameRange range = frames.empty() ? FrameRange{} : frameRange(frames);
+    const bool everyFrame = command.values.find('#') != std::string::npos;
     SceneSolution solution(command.solve);
-    if (!command.sensors.empty()) {
+    for (int frame = range.first; frame <= range.last; ++frame) {
+        if (frame > range.first) solution.show(frame);
+        if (sensors.empty() || (!everyFrame && frame < range.last)) continue;
         const auto values = solution.timed("sensors", [&] {
             return readSensorValues(solution, sensors, command.gather,
                                     command.solve.solver.directOnly);
         });
-        writeValues(command.values, sensors, values);
+        writeValues(numberedPath(command.values, frame), sensors, values);
     }
     if (!command.solve.stats.empty()) writeStatistics(command.solve.stats, solution);
     if (command.solve.quiet || command.values == "-") return;
@@ -74,8 +80,8 @@ void run(const SolveCommand& command) {
                "{} patches, {} elements, {} emitters; {:.1f} M rays, {} shots in {:.1f} s; relaxed "
                "to within {:.3g} lm/m2 (mean {:.3g})\n",
                patches.patches.size(), patches.elements.size(), patches.emitters.size(),
-               double(s.directRays + s.indirectRays) * 1e-6, s.shots,
-               s.directSeconds + s.indirectSeconds, s.certificate, s.meanRadiosity);
+               double(s.direct.rays.total() + s.indirect.rays.total()) * 1e-6, s.shots,
+               s.direct.seconds + s.indirect.seconds, s.certificate, s.meanRadiosity);
 }
 
 } // namespace
@@ -92,7 +98,7 @@ void addSolveCommand(CLI::App& app) {
     CLI::Option* const values =
         solve->add_option("--values", command->values,
                           "Where to write the sensors with r,g,b added, illuminance in lux\n"
-                          "(\"-\": standard output)");
+                          "(\"-\": standard output); of the last frame, unless the name has a '#'");
     sensors->needs(values);
     values->needs(sensors);
     solve

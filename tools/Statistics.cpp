@@ -15,30 +15,59 @@ std::size_t peakMemory() {
     return std::size_t(usage.ru_maxrss) * 1024;
 }
 
+namespace {
+
+nlohmann::ordered_json workJson(const WorkCount& work) {
+    return {{"rays", work.rays.total()},
+            {"rays_full", work.rays.full},
+            {"rays_single", work.rays.single},
+            {"blocks_visited", work.blocksVisited},
+            {"entries_changed", work.entriesChanged},
+            {"seconds", work.seconds}};
+}
+
+nlohmann::ordered_json frameJson(const FrameCost& cost) {
+    const RayCount rays = RayCount(cost.direct.rays) += cost.indirect.rays;
+    return {{"frame", cost.frame},
+            {"edits", cost.edits},
+            {"rebuilt", cost.rebuilt},
+            {"rays", rays.total()},
+            {"rays_full", rays.full},
+            {"rays_single", rays.single},
+            {"entries_changed", cost.direct.entriesChanged + cost.indirect.entriesChanged},
+            {"shots", cost.shots},
+            {"certificate", cost.certificate},
+            {"seconds", cost.seconds},
+            {"direct", workJson(cost.direct)},
+            {"indirect", workJson(cost.indirect)}};
+}
+
+} // namespace
+
 void writeStatistics(const std::string& path, const SceneSolution& solution) {
     const PatchSet& patches = solution.patches();
     const SolveStatistics s = solution.solver().statistics();
     nlohmann::ordered_json json;
-    json["scene"] = {
-        {"objects", patches.objectPaths.size()}, {"polygons", patches.polygons},
-        {"patches", patches.patches.size()},     {"elements", patches.elements.size()},
-        {"vertices", patches.vertices.size()},   {"emitters", patches.emitters.size()},
-        {"nodes", patches.nodes.size()},         {"area", patches.area},
-        {"patch_size", patches.patchSize},       {"element_size", patches.elementSize}};
+    json["scene"] = {{"objects", patches.objects.size()},   {"polygons", patches.polygons},
+                     {"patches", patches.patches.size()},   {"elements", patches.elements.size()},
+                     {"vertices", patches.vertices.size()}, {"emitters", patches.emitters.size()},
+                     {"nodes", patches.nodes.size()},       {"area", patches.area},
+                     {"patch_size", patches.patchSize},     {"element_size", patches.elementSize}};
     json["solve"] = {{"shots", s.shots},
                      {"residual", s.residual},
                      {"certificate", s.certificate},
-                     {"seconds", s.directSeconds + s.indirectSeconds},
-                     {"rays", s.directRays + s.indirectRays},
-                     {"direct_rays", s.directRays},
-                     {"indirect_rays", s.indirectRays},
-                     {"direct_seconds", s.directSeconds},
-                     {"indirect_seconds", s.indirectSeconds},
+                     {"seconds", s.direct.seconds + s.indirect.seconds},
+                     {"rays", s.direct.rays.total() + s.indirect.rays.total()},
+                     {"direct_rays", s.direct.rays.total()},
+                     {"indirect_rays", s.indirect.rays.total()},
+                     {"direct_seconds", s.direct.seconds},
+                     {"indirect_seconds", s.indirect.seconds},
                      {"brightest_exitance", s.brightest},
                      {"mean_radiosity", s.meanRadiosity}};
     json["sffl"] = {{"rows", s.rows}, {"entries", s.entries}, {"bytes", s.bytes}};
     json["memory"] = {{"peak_bytes", peakMemory()}};
     json["phases"] = solution.phases();
+    for (const FrameCost& cost : solution.frames()) json["frames"].push_back(frameJson(cost));
     writeFileAtomically(path, json.dump(2) + "\n");
 }
 

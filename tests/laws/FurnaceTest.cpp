@@ -30,8 +30,9 @@ Deviation deviation(const Solution& solution, float rho) {
     const double expected = 1 / (1 - double(rho));
     Deviation result;
     for (std::size_t v = 0; v < solution.patches().vertices.size(); ++v)
-        result.vertices = std::max(result.vertices,
-                                   std::abs((1 + rho * double(solution.at(v).g)) / expected - 1));
+        if (!isPadding(solution.patches().vertices[v].receiver))
+            result.vertices = std::max(
+                result.vertices, std::abs((1 + rho * double(solution.at(v).g)) / expected - 1));
     for (Rgb reflected : solution.solver.radiosity())
         result.patches =
             std::max(result.patches, std::abs((1 + double(reflected.g)) / expected - 1));

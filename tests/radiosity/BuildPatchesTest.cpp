@@ -56,10 +56,10 @@ TEST(BuildPatches, GivesLightThatDoesNotDependOnTheScale) {
 TEST(BuildPatches, NamesTheObjectOfEveryElementAndPatch) {
     const PatchSet set = meshed(room(1), {.patchSize = 0.5f}).patches;
     ASSERT_EQ(set.elementObject.size(), set.elements.size());
-    ASSERT_EQ(set.rayMeshes.size(), set.objectPaths.size());
+    ASSERT_EQ(set.rayMeshes.size(), set.objects.size());
     std::set<std::string> seen;
     for (std::size_t e = 0; e < set.elements.size(); ++e) {
-        const std::string& path = set.objectPaths[set.elementObject[e].value];
+        const std::string& path = set.objects[set.elementObject[e].value].path;
         seen.insert(path);
         const glm::vec3 p = set.vertices[set.elements[e].vertices[0]].position;
         const bool onBox = p.x >= 0.99f && p.x <= 1.71f && p.y >= 0.99f && p.y <= 1.61f &&

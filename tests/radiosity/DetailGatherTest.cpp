@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 namespace penumbra {
 
 namespace {
@@ -43,6 +45,30 @@ TEST(DetailGather, DarkensTheGapBehindABoard) {
     const double free = onWall(solution, solution.lighting, {-1, 0.8f, 0}, 0.1f);
     EXPECT_GT(free, 0.02);
     EXPECT_LT(gap, 0.1 * free);
+}
+
+TEST(DetailGather, LightDiesInASlitMuchNarrowerThanAnElement) {
+    // 5 mm behind a board of 1 x 1 m: what the slit's rim receives must not be drawn a whole
+    // element deep, let alone spread from there.
+    const MeshData board = boxData({-0.995f, -0.5f, -0.5f}, {-0.975f, 0.5f, 0.5f}, false);
+    const Solution solution(
+        sceneOf({room(0.7f), object("board", board), ceilingLamp({0, 0, 0.99f}, 0.8f, 0.8f)}),
+        kMeshing);
+    const double free = onWall(solution, solution.lighting, {-1, 0, 0.8f}, 0.1f);
+    EXPECT_GT(free, 0.02);
+    EXPECT_LT(onWall(solution, solution.lighting, {-1, 0, 0.35f}, 0.08f), 0.03 * free);
+    EXPECT_LT(onWall(solution, solution.lighting, {-1, 0, 0}, 0.25f), 0.002 * free);
+}
+
+TEST(DetailGather, InASlitOfAFurnaceNoLightIsLostOrMade) {
+    // rho = 0.5 and E = 1 on all sides: indirect light 1 lux also between two surfaces 2 cm apart.
+    const auto walls = paint(Rgb(0.5f), Rgb(1 / std::numbers::pi_v<float>));
+    const Solution solution(sceneOf({object("room", boxData({-1, -1, -1}, {1, 1, 1}, true, walls)),
+                                     object("board", boxData({-0.98f, -0.5f, -0.5f},
+                                                             {-0.9f, 0.5f, 0.5f}, false, walls))}),
+                            kMeshing, {.residual = 1e-5});
+    EXPECT_NEAR(onWall(solution, solution.lighting, {-1, 0, 0}, 0.25f), 1, 0.02);
+    EXPECT_NEAR(onWall(solution, solution.lighting, {-1, 0, 0.4f}, 0.15f), 1, 0.04);
 }
 
 TEST(DetailGather, LeavesAnEvenlyLitRoomAsItIs) {

@@ -1,10 +1,8 @@
 // Small scenes made by hand, and the way from a scene to its light.
 #pragma once
 
-#include "radiosity/BuildPatches.h"
 #include "radiosity/DetailGather.h"
-#include "radiosity/RayScene.h"
-#include "radiosity/Solver.h"
+#include "radiosity/LitScene.h"
 #include "scenegraph/Material.h"
 #include "tests/scenegraph/SceneParts.h"
 
@@ -87,29 +85,27 @@ inline NodePtr ceilingLamp(glm::vec3 centre, float width, float height, Rgb nits
                   {std::make_shared<Light>("light", RectShape{width, height}, nits)});
 }
 
-/// A scene with everything that is computed from it, kept together since each refers to the last.
+/// A scene with everything that is computed from it.
 struct Solution {
     Scene scene;
     PlacedScene placed;
-    BuiltPatches built;
-    RayScene rays;
-    Solver solver;
+    LitScene lit;
+    const RayScene& rays;
+    const Solver& solver;
     Lighting lighting;
 
     explicit Solution(Scene from, const MeshingOptions& meshing = {},
                       const SolverOptions& options = {})
-        : scene(std::move(from)), placed(placeScene(scene)), built(buildPatches(placed, meshing)),
-          rays(built.patches.rayMeshes), solver(built.patches, rays, options) {
-        solver.solveDirect();
-        if (!options.directOnly) solver.solveIndirect();
+        : scene(std::move(from)), placed(placeScene(scene)), lit(placed, meshing, options),
+          rays(lit.rays()), solver(lit.solver()) {
+        lit.solver().settle();
         lighting = solver.lighting();
-        if (!options.directOnly)
-            DetailGather(built.patches).apply(solver.nodeIlluminance(), lighting);
+        if (!options.directOnly) DetailGather(patches()).apply(solver.nodeIlluminance(), lighting);
     }
     Solution(const Solution&) = delete;
     Solution& operator=(const Solution&) = delete;
 
-    const PatchSet& patches() const { return built.patches; }
+    const PatchSet& patches() const { return lit.patches(); }
     /// Illuminance at a vertex [lux].
     Rgb at(std::size_t vertex) const { return lighting.direct[vertex] + lighting.indirect[vertex]; }
 };

@@ -1,0 +1,71 @@
+// What the emitters give to the vertices.
+#pragma once
+
+#include "radiosity/EmitterSender.h"
+#include "radiosity/PatchSet.h"
+#include "radiosity/RayScene.h"
+#include "radiosity/RowTable.h"
+#include "radiosity/RowUpdates.h"
+#include "radiosity/SceneChange.h"
+#include "scenegraph/Rgb.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace penumbra {
+
+/// The rows of the emitters, and the illuminance of vertices and patches that they make. Sums run
+/// over the emitters in their order: they depend on the rows and not on how these came about.
+class DirectLight {
+public:
+    /// Everything is open work at first. \param samples see SolverOptions. All must outlive this.
+    DirectLight(const PatchSet& set, const RayScene& rays, int samples);
+
+    void apply(const SceneChange& change);
+    /// Does a piece of work of about `effort` rays; false: there is none left.
+    bool work(std::size_t effort);
+
+    std::span<const Rgb> vertices() const { return vertices_; }      ///< [lux]
+    std::span<const glm::dvec3> patches() const { return patches_; } ///< means [lux]
+    std::span<const std::uint8_t> patchLit() const {
+        return patchLit_;
+    } ///< sees any emitter at all
+    /// Whether patchLit() is not what it was when this was called last.
+    bool takeLitChanged() { return std::exchange(litChanged_, false); }
+
+    const RowTable& rows() const { return table_; }
+    const RowUpdates& updates() const { return updates_; }
+    double brightest() const; ///< largest exitance [lm/m^2]
+
+private:
+    std::span<const Receiver> receiversOf(std::size_t block) const;
+    void placeReceivers(std::vector<BlockMask>& masks);
+    void touchBlock(std::uint32_t block);
+    void touchPatch(std::uint32_t patch);
+    bool updateRows(std::size_t effort);
+    bool sumBlocks(std::size_t effort);
+    bool averagePatches(std::size_t effort);
+    void sum(std::uint32_t block);
+    void average(std::uint32_t patch);
+
+    const PatchSet& set_;
+    int samples_;
+    std::vector<EmitterSender> emitters_;
+    std::vector<Receiver> receivers_;
+    std::vector<std::vector<std::uint32_t>> blockPatches_; ///< lit by the vertices of each block
+    RowTable table_;
+    RowUpdates updates_;
+
+    std::vector<std::uint8_t> blockTouched_, patchTouched_;
+    std::vector<std::uint32_t> touchedBlocks_, touchedPatches_; ///< to be summed again
+    std::vector<Rgb> vertices_;
+    std::vector<float> vertexSeen_; ///< sum of F V over all emitters
+    std::vector<glm::dvec3> patches_;
+    std::vector<std::uint8_t> patchLit_;
+    bool litChanged_ = false;
+};
+
+} // namespace penumbra

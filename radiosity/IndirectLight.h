@@ -1,0 +1,115 @@
+// Light that patches send to each other.
+#pragma once
+
+#include "radiosity/PatchSet.h"
+#include "radiosity/RayScene.h"
+#include "radiosity/Reach.h"
+#include "radiosity/RowTable.h"
+#include "radiosity/RowUpdates.h"
+#include "radiosity/SceneChange.h"
+#include "scenegraph/Rgb.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace penumbra {
+
+class DirectLight;
+
+/// Southwell relaxation over the rows of the patches. R = E + rho F S - S always holds for the rows
+/// as they stand, where E is what patches reflect of the direct light.
+class IndirectLight {
+public:
+    /// \param rowMemory for rows [bytes]; beyond it they are not kept. All must outlive this.
+    IndirectLight(const PatchSet& set, const RayScene& rays, const DirectLight& direct,
+                  std::size_t rowMemory);
+
+    void apply(const SceneChange& change);
+    /// The direct light of patches is not what it was. \param litChanged see takeLitChanged()
+    void directChanged(bool litChanged);
+
+    /// Brings rows up to date: a piece of work of about `effort` rays; false: there is none left.
+    bool update(std::size_t effort);
+    /// Relaxes: serves about `effort` rays' worth of receivers. \pre update() has nothing to do
+    /// \return false: nobody owes anything
+    bool relax(std::size_t effort);
+    /// Builds rows of patches that light reaches but that have nothing to send: row sums are to be
+    /// those of the scene and not of its history. \return false: there is none left
+    bool complete(std::size_t effort);
+    bool relaxing() const { return shot_ != nullptr; } ///< a batch of shots is on its way
+    bool residualsStale() const { return residualsStale_; }
+
+    /// Indirect illuminance at the nodes, the ambient term included [lux].
+    std::vector<glm::dvec3> nodes() const;
+    /// What a patch sends if nothing is owed any more: rho * H [lm/m^2].
+    glm::dvec3 reflected(std::uint32_t patch) const;
+
+    double residual() const { return most_; }           ///< max |R| [lm/m^2]
+    double certificate() const { return certificate_; } ///< bound of |B_exact - B| [lm/m^2]
+    double meanRadiosity() const { return meanRadiosity_; }
+    std::uint64_t shots() const { return shots_; }
+
+    const RowTable& rows() const { return table_; }
+    const RowUpdates& updates() const { return updates_; }
+    const RayCount& buildRays() const { return buildRays_; } ///< of rows that were built whole
+
+private:
+    /// A batch of senders on its way: receivers are served block by block.
+    struct Shot {
+        std::vector<std::uint32_t> senders;
+        std::vector<glm::dvec3> light;          ///< what each sends [lm/m^2]
+        std::vector<std::uint8_t> fresh, build; ///< first time; row is not there
+        bool dark = false;                      ///< nothing is sent, only rows are built
+        std::size_t nextBlock = 0;
+        std::size_t bytes = 0;
+    };
+    std::size_t blockCount() const { return set_.nodes.size() / PatchSet::kBlock; }
+    void placeNodes(std::span<const BlockMask> masks);
+    void prepareSenders(Range patches);
+    PatchSender senderOf(std::uint32_t patch) const;
+    ReceiverBlock receiversOf(std::uint32_t block) const;
+    void updateReach();
+    bool isReached(const Patch& patch) const;
+    void restart();
+
+    std::vector<std::uint32_t> chooseSenders() const;
+    void load(const std::vector<std::uint32_t>& senders, bool dark);
+    void serveFor(std::size_t effort);
+    void serve(std::size_t blocks);
+    void finishShot();
+    void updateResiduals();
+    glm::dvec3 node(std::uint32_t node) const;
+    glm::dvec3 ambient() const;
+
+    const PatchSet& set_;
+    const RayScene& rays_;
+    const DirectLight& direct_;
+    std::size_t rowMemory_;
+    RowTable table_;
+    RowUpdates updates_;
+    std::vector<glm::vec3> samples_;  ///< kPatchSamples a patch
+    std::vector<Bounds> boxes_;       ///< of patches, around outline and samples
+    std::vector<std::uint32_t> keys_; ///< of patches, see PatchSender
+    std::unique_ptr<Reach> reach_;
+    std::vector<std::uint64_t> reached_; ///< bits, a node each
+    bool reachStale_ = true, residualsStale_ = true;
+
+    std::vector<glm::dvec3> nodes_; ///< [lux]
+    std::vector<double> rowSums_;   ///< of F V over the senders whose rows are known, a node each
+    std::vector<glm::dvec3> sent_;  ///< S [lm/m^2]
+    std::vector<glm::dvec3> residuals_; ///< R [lm/m^2]
+    std::vector<std::uint8_t> known_;   ///< rows that are part of rowSums_
+    bool rowsMissing_ = false;          ///< some of those were not kept
+    std::size_t rowBytes_ = 0;
+    std::unique_ptr<Shot> shot_;
+    std::vector<RowBuilder> builders_;
+    RayCount buildRays_;
+    std::uint64_t shots_ = 0;
+    double most_ = 0, certificate_ = 0, meanRadiosity_ = 0;
+};
+
+} // namespace penumbra

@@ -1,0 +1,148 @@
+#include "radiosity/LitScene.h"
+
+#include "scenegraph/Light.h"
+#include "scenegraph/Material.h"
+#include "scenegraph/Mesh.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace penumbra {
+
+LitScene::LitScene(const PlacedScene& scene, const MeshingOptions& meshing,
+                   const SolverOptions& solving)
+    : solving_(solving) {
+    build(scene, meshing);
+}
+
+LitScene::~LitScene() = default;
+
+void LitScene::build(const PlacedScene& scene, const MeshingOptions& meshing) {
+    solver_.reset(); // from the last to the first: each refers to those before it
+    coverage_.reset();
+    rays_.reset();
+    built_ = buildPatches(scene, meshing);
+    PatchSet& set = built_.patches;
+    rays_ = std::make_unique<RayScene>(set.rayMeshes, set.extent);
+    for (std::uint32_t o = 0; o < set.objects.size(); ++o)
+        if (!set.objects[o].present) rays_->show({o}, false);
+    rays_->commit();
+    coverage_ = std::make_unique<Coverage>(set, *rays_);
+    solver_ = std::make_unique<Solver>(set, *rays_, solving_);
+    pieces_ = piecesOf(scene);
+}
+
+LitScene::Pieces LitScene::piecesOf(const PlacedScene& scene) {
+    Pieces pieces;
+    const auto add = [&](const auto& placed) {
+        const Object& object = scene.objects[placed.object.value];
+        pieces[object.path].push_back(
+            {placed.node, placed.path, object.movable ? placed.toObject : placed.toWorld});
+    };
+    for (const auto& mesh : scene.meshes) add(mesh);
+    for (const auto& light : scene.lights) add(light);
+    return pieces;
+}
+
+/// Whether the scene is made of the same pieces; movable objects may be missing.
+bool LitScene::sameStructure(const PlacedScene& now) const {
+    const Pieces pieces = piecesOf(now);
+    for (const auto& [path, list] : pieces) {
+        const auto known = pieces_.find(path);
+        if (known == pieces_.end() || known->second != list) return false;
+    }
+    std::unordered_map<std::string, const Object*> objects;
+    for (const Object& object : now.objects) objects[object.path] = &object;
+    for (const ObjectPart& part : built_.patches.objects) {
+        const auto found = objects.find(part.path);
+        if (found == objects.end()) {
+            if (!part.movable) return false;
+            continue;
+        }
+        const Object& object = *found->second;
+        if (object.movable != part.movable) return false;
+        if (part.movable && placementOf(object.toWorld).stretch != part.stretch) return false;
+    }
+    return true;
+}
+
+/// Whether colours and luminances can be taken in: what never shone has no rows to shine through.
+bool LitScene::followColours(SceneChange& change) {
+    PatchSet& set = built_.patches;
+    const auto lightOf = [](const LightSource& source) {
+        return source.light ? source.light->luminance() : source.material->emission();
+    };
+    for (std::size_t m = 0; m < set.materials.size(); ++m) {
+        const LightSource& source = built_.materialSources[m];
+        if (!source.material || !source.material->emissive()) continue;
+        const bool emits = std::any_of(
+            built_.emitterSources.begin(), built_.emitterSources.end(),
+            [&](const LightSource& emitter) { return emitter.material == source.material; });
+        if (!emits) return false;
+    }
+    for (std::size_t m = 0; m < set.materials.size(); ++m) {
+        const LightSource& source = built_.materialSources[m];
+        LitMaterial now = set.materials[m];
+        if (source.material) now.reflectance = source.material->reflectance();
+        if (built_.materialEmits[m]) now.emission = lightOf(source);
+        if (now == set.materials[m]) continue;
+        set.materials[m] = now;
+        change.colours = true;
+    }
+    for (std::uint32_t e = 0; e < set.emitters.size(); ++e) {
+        const Rgb exitance = std::numbers::pi_v<float> * lightOf(built_.emitterSources[e]);
+        if (exitance == set.emitters[e].exitance) continue;
+        set.emitters[e].exitance = exitance;
+        change.emitters.push_back(e);
+    }
+    return true;
+}
+
+void LitScene::followObjects(const PlacedScene& now, SceneChange& change) {
+    PatchSet& set = built_.patches;
+    std::unordered_map<std::string, const Object*> objects;
+    for (const Object& object : now.objects) objects[object.path] = &object;
+    std::vector<Bounds> before;
+    for (std::uint32_t o = 0; o < set.objects.size(); ++o) {
+        ObjectPart& part = set.objects[o];
+        if (!part.movable) continue;
+        const auto found = objects.find(part.path);
+        const bool present = found != objects.end() && found->second->visible;
+        const Pose pose =
+            found != objects.end() ? placementOf(found->second->toWorld).pose : part.pose;
+        if (present == part.present && pose == part.pose) continue;
+        change.objects.push_back({o});
+        before.push_back(part.present ? boundsOf(set, {o}) : Bounds());
+        if (present != part.present) rays_->show({o}, present);
+        part.present = present;
+        if (pose == part.pose) continue;
+        placeObject(set, {o}, pose);
+        rays_->move({o}, set.rayMeshes[o].vertices);
+    }
+    if (change.objects.empty()) return;
+    rays_->commit();
+    const Coverage::Change covered = coverage_->update(change.objects, before);
+    change.vertices = covered.vertices;
+    change.nodes = covered.nodes;
+    change.patches = covered.patches;
+}
+
+LitScene::Followed LitScene::follow(const PlacedScene& now) {
+    Followed followed;
+    if (!sameStructure(now) || !followColours(followed.change)) {
+        build(now, sizesOf(built_.patches));
+        followed = {true, {}};
+        return followed;
+    }
+    followObjects(now, followed.change);
+    if (!followed.change.objects.empty() &&
+        built_.enclosures.lit(built_.patches) != built_.enclosuresLit) {
+        build(now, sizesOf(built_.patches));
+        followed = {true, {}};
+        return followed;
+    }
+    solver_->apply(followed.change);
+    return followed;
+}
+
+} // namespace penumbra

@@ -1,0 +1,70 @@
+// A scene that is kept lit while it is edited.
+#pragma once
+
+#include "radiosity/BuildPatches.h"
+#include "radiosity/Coverage.h"
+#include "radiosity/RayScene.h"
+#include "radiosity/SceneChange.h"
+#include "radiosity/Solver.h"
+#include "scenegraph/Objects.h"
+
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace penumbra {
+
+/// Everything that is computed from a scene graph: patches, rays, what covers what, and light.
+///
+/// Movable objects (Transform::movable()) that are moved, hidden, shown or removed, and colours and
+/// luminances that change are taken in by follow() at a cost that goes with the change. Edits of
+/// the fixed part, of geometry or of scale, things that are added, and a lamp that gets into or out
+/// of something closed mesh the scene anew.
+class LitScene {
+public:
+    /// Meshes; solves nothing yet. The scene's nodes must outlive this. \throws Error
+    LitScene(const PlacedScene& scene, const MeshingOptions& meshing, const SolverOptions& solving);
+    ~LitScene();
+    LitScene(const LitScene&) = delete;
+    LitScene& operator=(const LitScene&) = delete;
+
+    /// What was made of an edit.
+    struct Followed {
+        bool rebuilt = false; ///< the scene was meshed anew: patches(), rays(), solver() are others
+        SceneChange change;   ///< else: what of the patch set
+    };
+    /// Takes in how the scene is now. \throws Error if it can't be meshed
+    Followed follow(const PlacedScene& now);
+
+    const PatchSet& patches() const { return built_.patches; }
+    const RayScene& rays() const { return *rays_; }
+    Solver& solver() { return *solver_; }
+    const Solver& solver() const { return *solver_; }
+    const std::vector<std::string>& warnings() const { return built_.warnings; }
+
+private:
+    /// One mesh or light of an object: what may not change.
+    struct Piece {
+        const void* node = nullptr;
+        std::string path;
+        glm::dmat4 frame{1.0}; ///< in its object's frame; in the world's for the fixed part
+        friend bool operator==(const Piece&, const Piece&) = default;
+    };
+    using Pieces = std::unordered_map<std::string, std::vector<Piece>>; ///< by object
+
+    void build(const PlacedScene& scene, const MeshingOptions& meshing);
+    static Pieces piecesOf(const PlacedScene& scene);
+    bool sameStructure(const PlacedScene& now) const;
+    bool followColours(SceneChange& change);
+    void followObjects(const PlacedScene& now, SceneChange& change);
+
+    SolverOptions solving_;
+    BuiltPatches built_;
+    std::unique_ptr<RayScene> rays_;
+    std::unique_ptr<Coverage> coverage_;
+    std::unique_ptr<Solver> solver_;
+    Pieces pieces_;
+};
+
+} // namespace penumbra
