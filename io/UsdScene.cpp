@@ -209,6 +209,21 @@ void readStageMetadata(const UsdLayer& layer, Scene& scene, Diagnostics& warning
     scene.timeCodesPerSecond = timeCodesPerSecond(layer);
 }
 
+// What the default prim says about the scene as a whole; unlike metadata of a layer this reaches
+// the layers above it.
+void readDefaultPrim(const UsdStage& stage, Scene& scene, Diagnostics& warnings) {
+    const UsdValue* name = find(stage.rootLayer().metadata, "defaultPrim");
+    const UsdPrim* prim = name && name->text() ? stage.find("/" + *name->text()) : nullptr;
+    if (!prim) return;
+    constexpr std::string_view kPatchSize = "penumbra:patchSize";
+    const UsdAttributes attributes(*prim, std::nullopt);
+    const double size = attributes.number(kPatchSize, 0);
+    if (size > 0 && std::isfinite(size))
+        scene.patchSize = size * scene.metersPerUnit;
+    else if (UsdStage::property(*prim, kPatchSize))
+        warnings.warn(attributes.location(kPatchSize), "patch size ignored: not positive");
+}
+
 } // namespace
 
 LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& options) {
@@ -219,6 +234,7 @@ LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& o
     Scene& scene = *loaded.scene;
     scene.name = file.stem().string();
     readStageMetadata(stage->rootLayer(), scene, stage->diagnostics());
+    readDefaultPrim(*stage, scene, stage->diagnostics());
     if (scene.metersPerUnit != 1) {
         auto toMetres = std::make_shared<Transform>("");
         glm::dmat4 scale(scene.metersPerUnit);

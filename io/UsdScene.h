@@ -42,7 +42,8 @@ struct LoadedScene {
 /// Each node carries its prim's name, so that paths are those of the file. A mesh, light or camera
 /// with xformOps of its own becomes a Transform that holds the node under the same name. What is
 /// inactive, invisible, abstract, only `over`, or of purpose proxy or guide is left out. A
-/// Transform is movable if its ops change with time or `bool penumbra:movable` says so.
+/// Transform is movable if its ops change with time or `bool penumbra:movable` says so. The default
+/// prim's `double penumbra:patchSize`, in units of the file, becomes Scene::patchSize.
 ///
 /// Throws SceneFileError if the file can't be read at all.
 LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& options = {});

@@ -15,6 +15,7 @@ struct Scene {
     std::shared_ptr<Group> root = std::make_shared<Group>("");
     std::string name;          ///< file name, for people
     UpAxis upAxis = UpAxis::y; ///< which axis of the scene frame points up
+    double patchSize = 0;      ///< longest edge of a patch that the file asks for [m]; 0: none
     double metersPerUnit = 1;  ///< of the file; already applied to the graph
     double startTimeCode = 0;  ///< first and last frame of the file's animation
     double endTimeCode = 0;

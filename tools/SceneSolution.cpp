@@ -37,7 +37,8 @@ void addSolveOptions(CLI::App& command, SolveSettings& settings) {
     command
         .add_option("--patch-size", settings.meshing.patchSize,
                     "Longest edge of a patch, which sends light [m]\n"
-                    "(default: follows the scene, sqrt(surface area / 1650) up to 0.5 m)")
+                    "(default: what the file asks for, or\n"
+                    "follows the scene, sqrt(surface area / 1650) up to 0.5 m)")
         ->check(positive);
     command
         .add_option("--element-size", settings.meshing.elementSize,
@@ -159,7 +160,9 @@ SceneSolution::SceneSolution(const SolveSettings& settings)
         throw SceneFileError({settings.scene},
                              "nothing to light: no visible mesh that can be read");
     const double start = now();
-    mesh(settings.meshing);
+    MeshingOptions meshing = settings.meshing;
+    if (meshing.patchSize == 0) meshing.patchSize = float(loaded_.scene->patchSize);
+    mesh(meshing);
     light();
     if (settings.frames.empty()) return;
     const SolveStatistics s = solver().statistics();

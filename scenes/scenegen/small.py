@@ -30,6 +30,7 @@ def chamber():
     """Table, pillar, boxes and one lamp in a closed room: few polygons, clear shadows."""
     scene = Scene("chamber",
                   "Penumbra chamber: a closed room with a table, a pillar, boxes and one lamp.")
+    scene.patch_size = 0.334   # 1,222 patches; Schoeffel's simple scene (1998) has 1,250
     w, d, h = 5.0, 4.0, 2.7
     scene.camera("Camera", (0.45, 0.4, 1.6), (3.0, 2.5, 0.85), 19)
     room = scene.object("Room", movable=False)

@@ -206,6 +206,7 @@ class Scene:
     def __init__(self, name, doc):
         self.name, self.doc = name, doc
         self.objects, self.cameras = [], []
+        self.patch_size = None   # longest edge of a patch that the file asks for [m]
         self.air = []   # boxes (low, high) whose union is the room's air: walls look into it
 
     def object(self, name, at=(0, 0, 0), turn=0.0, movable=True):
@@ -231,6 +232,8 @@ class Scene:
 
     def text(self):
         world = Prim("Xform", "World", ['kind = "group"'])
+        if self.patch_size:
+            world.set("penumbra:patchSize", "custom uniform double", number(self.patch_size))
         used = []
         for o in self.objects:
             used += [m for m, _ in o.parts] + [c[0] for c in o.cages]

@@ -58,6 +58,21 @@ TEST(UsdScene, TheWorldIsInMetres) {
     EXPECT_EQ(countOf(nonsense, "metersPerUnit"), 1u);
 }
 
+TEST(UsdScene, TheDefaultPrimMayAskForAPatchSize) {
+    const auto asking = [](const std::string& size) {
+        return loadText("(\n defaultPrim = \"w\"\n metersPerUnit = 0.01\n)\ndef Xform \"w\"\n{\n" +
+                        size + "}\n");
+    };
+    EXPECT_EQ(asking("").scene->patchSize, 0);
+    const std::string attribute = " custom uniform double penumbra:patchSize = ";
+    EXPECT_DOUBLE_EQ(asking(attribute + "25\n").scene->patchSize, 0.25);
+    for (const char* nonsense : {"-1\n", "0\n", "nan\n"}) {
+        const LoadedScene loaded = asking(attribute + nonsense);
+        EXPECT_EQ(loaded.scene->patchSize, 0) << nonsense;
+        EXPECT_EQ(countOf(loaded, "patch size ignored"), 1u) << nonsense;
+    }
+}
+
 TEST(UsdScene, AxesAndFramesAreRecorded) {
     const LoadedScene loaded = loadText(
         "(upAxis = \"Z\"\n startTimeCode = 3\n endTimeCode = 9\n timeCodesPerSecond = 30)\n");

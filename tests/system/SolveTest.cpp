@@ -152,4 +152,17 @@ TEST_F(Solve, SaysWhereASensorListIsWrong) {
 
 } // namespace
 
+TEST_F(Solve, PatchesAreAsLargeAsTheFileAsksUnlessTheCommandLineDoes) {
+    // The chamber is to have the 1,250 patches of Schoeffel's simple scene (1998), within 5 %.
+    const std::string chamber = PENUMBRA_SOURCE_DIR "/scenes/chamber.usda";
+    const auto patches = [&](std::vector<std::string> more) {
+        more.insert(more.begin(),
+                    {"solve", chamber, "--direct-only", "--stats", here.path("s.json")});
+        EXPECT_EQ(runPenumbra(more).exitCode, 0);
+        return nlohmann::json::parse(readFile(here.path("s.json")))["scene"]["patches"].get<int>();
+    };
+    EXPECT_NEAR(patches({}), 1250, 62);
+    EXPECT_LT(patches({"--patch-size", "0.5"}), 800);
+}
+
 } // namespace penumbra
