@@ -20,15 +20,22 @@ double cpuClock() {
 
 } // namespace
 
+LoadedScene loadScene(const std::string& name) {
+    return loadUsdScene(std::filesystem::path(PENUMBRA_SOURCE_DIR) / "scenes" / (name + ".usda"));
+}
+
+MeshingOptions meshingOf(const Scene& scene, float elementSize) {
+    MeshingOptions options;
+    options.patchSize = float(scene.patchSize);
+    options.elementSize = elementSize;
+    return options;
+}
+
 BenchScene::BenchScene(const std::string& name)
-    : loaded_(
-          loadUsdScene(std::filesystem::path(PENUMBRA_SOURCE_DIR) / "scenes" / (name + ".usda"))),
-      placed_(placeScene(*loaded_.scene)) {}
+    : loaded_(loadScene(name)), placed_(placeScene(*loaded_.scene)) {}
 
 BuiltPatches BenchScene::mesh(float elementSize) const {
-    MeshingOptions options;
-    options.elementSize = elementSize;
-    return buildPatches(placed_, options);
+    return buildPatches(placed_, meshingOf(*loaded_.scene, elementSize));
 }
 
 Stopwatch::Stopwatch() : wallStart_(wallClock()), cpuStart_(cpuClock()) {}

@@ -10,14 +10,20 @@
 
 namespace penumbra {
 
+/// Reads one of scenes/*.usda. \param name of the file, without its ending
+LoadedScene loadScene(const std::string& name);
+
+/// \param elementSize longest edge of an element [m]; 0: the default. The patch size is always what
+///                    the file asks for, or the default.
+MeshingOptions meshingOf(const Scene& scene, float elementSize);
+
 /// One of scenes/*.usda, read but not yet meshed.
 class BenchScene {
 public:
-    /// \param name of the file in scenes/, without its ending
+    /// See loadScene().
     explicit BenchScene(const std::string& name);
 
-    /// \param elementSize longest edge of an element [m]; 0: the default. The patch size is always
-    ///                    the scene's default.
+    /// See meshingOf().
     BuiltPatches mesh(float elementSize) const;
 
 private:

@@ -1,0 +1,143 @@
+// Following a move against solving from scratch: direct light of office and gallery at 10 k, 100 k
+// and 1 M elements.
+#include "bench/BenchScene.h"
+#include "bench/LeastRays.h"
+#include "bench/MoveRun.h"
+
+#include <benchmark/benchmark.h>
+
+#include <string>
+#include <string_view>
+
+namespace penumbra {
+
+namespace {
+
+struct Size {
+    const char* scene;
+    const char* name;
+    float elementSize; ///< [m], as for direct light from scratch
+};
+constexpr Size kSizes[] = {
+    {"office", "10k", 0.4f},    {"office", "100k", 0.0674f}, {"office", "1M", 0.0185f},
+    {"gallery", "10k", 0.568f}, {"gallery", "100k", 0.205f}, {"gallery", "1M", 0.0475f},
+};
+/// Moves and solutions from scratch are each repeated for about this long [s].
+constexpr double kPatience = 1.5;
+constexpr std::size_t kMostMoves = 200, kMostSolves = 5;
+
+/// Times of all moves in one direction; counts are the same each time.
+struct Times {
+    std::vector<double> wall, cpu, place, follow, settle;
+
+    void add(const MoveCost& cost) {
+        wall.push_back(cost.wall()), cpu.push_back(cost.cpu);
+        place.push_back(cost.place), follow.push_back(cost.follow), settle.push_back(cost.settle);
+    }
+};
+
+void reportTimes(benchmark::State& state, const Times& moves, const Times& scratch,
+                 const LeastRays& least) {
+    auto& counters = state.counters;
+    counters["update_s"] = median(moves.wall);
+    counters["update_cpu_s"] = median(moves.cpu);
+    counters["place_s"] = median(moves.place);
+    counters["follow_s"] = median(moves.follow);
+    counters["settle_s"] = median(moves.settle);
+    counters["scratch_s"] = median(scratch.wall);
+    counters["scratch_cpu_s"] = median(scratch.cpu);
+    counters["time_ratio"] = median(scratch.wall) / median(moves.wall);
+    counters["time_ratio_cpu"] = median(scratch.cpu) / median(moves.cpu);
+    counters["bare_s"] = least.wall;
+    counters["bare_cpu_s"] = least.cpu;
+    counters["update_over_bare"] = median(moves.wall) / least.wall;
+    counters["update_over_bare_cpu"] = median(moves.cpu) / least.cpu;
+    counters["moves"] = double(moves.wall.size());
+}
+
+void reportCounts(benchmark::State& state, const MoveCost& move, const SolveStatistics& scratch,
+                  const LeastRays& least) {
+    const RayCount& rays = move.direct.rays;
+    auto& counters = state.counters;
+    counters["update_rays"] = double(rays.total());
+    counters["update_rays_full"] = double(rays.full);
+    counters["update_rays_single"] = double(rays.single);
+    counters["scratch_rays"] = double(scratch.direct.rays.total());
+    counters["ray_ratio"] = double(scratch.direct.rays.total()) / double(rays.total());
+    counters["least_rays"] = double(least.total());
+    counters["rays_over_minimum"] = double(rays.total()) / double(least.total());
+    counters["least_own"] = double(least.own);
+    counters["least_uncovered"] = double(least.uncovered);
+    counters["least_released"] = double(least.released);
+    counters["least_met"] = double(least.met);
+    counters["least_refined"] = double(least.refined);
+    counters["self_rays"] = double(least.selfRays);
+    counters["own_entries"] = double(least.ownEntries);
+    counters["self_entries"] = double(least.selfEntries);
+    counters["entries_changed"] = double(move.direct.entriesChanged);
+    counters["entries"] = double(scratch.entries);
+    counters["bytes_per_entry"] = double(scratch.bytes) / double(scratch.entries);
+    counters["blocks_visited"] = double(move.direct.blocksVisited);
+}
+
+void edit(benchmark::State& state, const Move& move, float elementSize) {
+    using Place = MovedScene::Place;
+    SolverOptions options;
+    options.directOnly = true;
+    for (auto _ : state) {
+        MoveRun run(move, elementSize, options);
+        const PatchSet& patches = run.lit().patches();
+        state.counters["elements"] = double(patches.elements.size());
+        state.counters["lamps"] = double(patches.emitters.size());
+        state.counters["mesh_s"] = run.meshing();
+        state.counters["blocks"] =
+            double(patches.vertices.size() / PatchSet::kBlock) * double(patches.emitters.size());
+        run.go(Place::home);
+
+        Times scratch, moves;
+        std::unique_ptr<Solver> fresh;
+        const Stopwatch solving;
+        const auto solve = [&] {
+            const Seconds one = run.fromScratch(fresh);
+            scratch.wall.push_back(one.wall), scratch.cpu.push_back(one.cpu);
+        };
+        do solve();
+        while (solving.wall() < kPatience && scratch.wall.size() < kMostSolves);
+        const auto rowsOf = [&] { return run.lit().solver().emitterRows(); };
+        if (const std::string at = firstDifference(fresh->emitterRows(), rowsOf()); !at.empty())
+            return state.SkipWithError(("not what a new solver sees: " + at).c_str());
+
+        const MoveCost first = run.go(Place::there);
+        moves.add(first);
+        const LeastRays least = leastRays(patches, run.lit().rays(), options.samples, first.change,
+                                          fresh->emitterRows(), rowsOf());
+        reportCounts(state, first, fresh->statistics(), least);
+        fresh.reset();
+        const Stopwatch moving;
+        while (moving.wall() < kPatience && moves.wall.size() < kMostMoves) {
+            run.go(Place::home);
+            moves.add(run.go(Place::there));
+        }
+        reportTimes(state, moves, scratch, least);
+        state.SetIterationTime(median(moves.wall));
+    }
+}
+
+const bool registered = [] {
+    for (const Move& move : kMoves)
+        for (const Size& size : kSizes) {
+            const std::string_view name(move.name);
+            if (name.substr(0, name.find('/')) != size.scene) continue;
+            benchmark::RegisterBenchmark(
+                ("edit/direct/" + std::string(name) + "/" + size.name).c_str(), edit, move,
+                size.elementSize)
+                ->UseManualTime()
+                ->Iterations(1)
+                ->Unit(benchmark::kMillisecond);
+        }
+    return true;
+}();
+
+} // namespace
+
+} // namespace penumbra

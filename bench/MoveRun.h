@@ -1,0 +1,66 @@
+// A lit scene in which something is moved, and what each move costs.
+#pragma once
+
+#include "bench/MovedScene.h"
+#include "radiosity/LitScene.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace penumbra {
+
+/// What one move cost, from the edited graph to the settled light.
+struct MoveCost {
+    double place = 0;  ///< placeScene(): the walk over the graph, wall [s]
+    double follow = 0; ///< LitScene::follow(): diff, placement, refit, coverage, wall [s]
+    double settle = 0; ///< Solver::settle(), wall [s]
+    double cpu = 0;    ///< of all of that, processor time [s]
+    WorkCount direct, indirect;
+    std::uint64_t shots = 0;
+    SceneChange change;
+
+    double wall() const { return place + follow + settle; }
+};
+
+/// Wall and processor time [s].
+struct Seconds {
+    double wall = 0, cpu = 0;
+};
+
+/// Keeps the scene of a Move lit. It begins with the object `there`.
+class MoveRun {
+public:
+    using Place = MovedScene::Place;
+
+    MoveRun(const Move& move, float elementSize, const SolverOptions& options, int copies = 1);
+
+    /// Moves and settles. \throws Error if the scene was meshed anew
+    MoveCost go(Place place);
+    /// Solves the scene as it stands anew: same meshes, same rays, empty rows.
+    Seconds fromScratch(std::unique_ptr<Solver>& solver) const;
+
+    const LitScene& lit() const { return *lit_; }
+    double meshing() const { return meshing_; }                       ///< wall [s]
+    Seconds firstSolve() const { return solve_; }                     ///< from scratch as well
+    const SolveStatistics& statistics() const { return statistics_; } ///< now
+
+private:
+    MovedScene scene_;
+    SolverOptions options_;
+    std::unique_ptr<LitScene> lit_;
+    double meshing_ = 0;
+    Seconds solve_;
+    SolveStatistics statistics_;
+};
+
+/// The middle one; the upper one of two.
+double median(std::vector<double> values);
+
+/// Total of some rows.
+RowSize sizeOf(std::span<const Row> rows);
+
+/// The first block, row by row, in which two solutions do not see the same, as text; empty: none.
+std::string firstDifference(std::span<const Row> a, std::span<const Row> b);
+
+} // namespace penumbra
