@@ -85,7 +85,7 @@ void edit(benchmark::State& state, const Move& move, float elementSize) {
     SolverOptions options;
     options.directOnly = true;
     for (auto _ : state) {
-        MoveRun run(move, elementSize, options);
+        MoveRun run(move, {.elementSize = elementSize}, options);
         const PatchSet& patches = run.lit().patches();
         state.counters["elements"] = double(patches.elements.size());
         state.counters["lamps"] = double(patches.emitters.size());

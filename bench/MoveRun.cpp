@@ -7,13 +7,16 @@
 
 namespace penumbra {
 
-MoveRun::MoveRun(const Move& move, float elementSize, const SolverOptions& options, int copies)
+MoveRun::MoveRun(const Move& move, const MeshingOptions& meshing, const SolverOptions& options,
+                 int copies)
     : scene_(move, copies), options_(options) {
     scene_.put(Place::there);
     const PlacedScene placed = scene_.placed();
-    const Stopwatch meshing;
-    lit_ = std::make_unique<LitScene>(placed, meshingOf(scene_.scene(), elementSize), options);
-    meshing_ = meshing.wall();
+    MeshingOptions sizes = meshing;
+    if (sizes.patchSize == 0) sizes.patchSize = float(scene_.scene().patchSize);
+    const Stopwatch building;
+    lit_ = std::make_unique<LitScene>(placed, sizes, options);
+    meshing_ = building.wall();
     const Stopwatch solving;
     lit_->solver().settle();
     solve_ = {solving.wall(), solving.cpu()};

@@ -33,7 +33,9 @@ class MoveRun {
 public:
     using Place = MovedScene::Place;
 
-    MoveRun(const Move& move, float elementSize, const SolverOptions& options, int copies = 1);
+    /// \param meshing a patch size of 0 stands for what the file asks for, or the default
+    MoveRun(const Move& move, const MeshingOptions& meshing, const SolverOptions& options,
+            int copies = 1);
 
     /// Moves and settles. \throws Error if the scene was meshed anew
     MoveCost go(Place place);

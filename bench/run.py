@@ -19,6 +19,24 @@ DIRECT = ["elements", "lamps", "mesh_s", "direct_s", "direct_cpu_s", "rays", "Mr
 INDIRECT = ["patches", "nodes", "shots", "indirect_s", "indirect_cpu_s", "rays", "Mrays_per_s",
             "entries", "bytes_per_entry", "rows_MB", "detail_s", "detail_cpu_s", "detail_rays",
             "peak_MB"]
+EDIT = ["elements", "lamps", "scratch_s", "scratch_cpu_s", "update_s", "update_cpu_s", "place_s",
+        "follow_s", "settle_s", "time_ratio", "time_ratio_cpu", "scratch_rays", "update_rays",
+        "update_rays_full", "update_rays_single", "ray_ratio", "least_rays", "rays_over_minimum",
+        "least_own", "least_uncovered", "least_released", "least_met", "least_refined",
+        "self_rays", "update_over_bare", "update_over_bare_cpu", "own_entries", "entries_changed",
+        "entries", "blocks_visited", "blocks", "bytes_per_entry"]
+TOTAL = ["patches", "elements", "scratch_s", "scratch_cpu_s", "update_s", "update_cpu_s",
+         "follow_s", "direct_s", "indirect_s", "time_ratio", "scratch_shots", "update_shots",
+         "scratch_rays", "update_rays", "direct_rays", "indirect_rays_full",
+         "indirect_rays_single", "ray_ratio", "entries_changed", "blocks_visited",
+         "patches_affected", "certificate", "emitter_entries", "emitter_bytes_per_entry",
+         "patch_entries", "patch_bytes_per_entry", "bytes_per_entry", "rows_MB", "peak_MB"]
+PLAY = ["patches", "elements", "scratch_s", "updates", "updates_per_s", "update_s", "longest_s"]
+BUILDING = ["elements", "lamps", "mesh_s", "scratch_s", "scratch_rays", "update_s",
+            "update_cpu_s", "follow_s", "update_rays", "update_rays_full", "update_rays_single",
+            "entries_changed", "blocks_visited"]
+GROWTH = ["update_s", "update_cpu_s", "follow_s", "update_rays", "entries_changed",
+          "blocks_visited"]
 
 
 def figure(value):
@@ -29,14 +47,26 @@ def figure(value):
     return f"{value:.0f}" if value >= 1000 else f"{value:.3g}"
 
 
+def rows_of(results, prefix):
+    return [r for r in results if r["name"].startswith(prefix) and not r.get("error_occurred")]
+
+
 def table(results, prefix, columns):
-    rows = [r for r in results if r["name"].startswith(prefix) and not r.get("error_occurred")]
+    rows = rows_of(results, prefix)
     if not rows:
         return
     names = [r["name"].removeprefix(prefix).split("/iterations")[0] for r in rows]
     print("\n| | " + " | ".join(names) + " |\n| --- |" + " ---: |" * len(rows))
     for column in columns:
         print(f"| {column} | " + " | ".join(figure(r.get(column, "")) for r in rows) + " |")
+
+
+def add_growth(results, prefix):
+    """Says of each case how its cost compares with that of the first one, as `..._over_first`."""
+    rows = rows_of(results, prefix)
+    for row in rows:
+        for name in GROWTH:
+            row[name + "_over_first"] = row[name] / rows[0][name] if rows[0][name] else 0
 
 
 def main():
@@ -62,9 +92,15 @@ def main():
                 if result.get("error_occurred"):
                     print(f"{name}: {result['error_message']}", file=sys.stderr)
                     failed = True
+    add_growth(merged["benchmarks"], "edit/building/")
     options.out.write_text(json.dumps(merged, indent=2) + "\n")
     table(merged["benchmarks"], "direct/", DIRECT)
     table(merged["benchmarks"], "indirect/", INDIRECT)
+    table(merged["benchmarks"], "edit/direct/", EDIT)
+    table(merged["benchmarks"], "edit/total/", TOTAL)
+    table(merged["benchmarks"], "edit/play/", PLAY)
+    table(merged["benchmarks"], "edit/building/",
+          BUILDING + [name + "_over_first" for name in GROWTH])
     print()
     for result in merged["benchmarks"]:
         if result["name"].startswith(("formFactor/", "occluded/")):

@@ -1,0 +1,62 @@
+// The cost of an edit follows what the edit changes: the same seat is moved in buildings of 1, 4
+// and 16 offices. Direct light.
+#include "bench/MoveRun.h"
+
+#include <benchmark/benchmark.h>
+
+#include <string>
+
+namespace penumbra {
+
+namespace {
+
+/// About 50 k elements an office. Default sizes would follow the building's area.
+constexpr MeshingOptions kMeshing{.patchSize = 0.4f, .elementSize = 0.1f};
+constexpr int kRounds = 15;
+
+void building(benchmark::State& state, int copies) {
+    using Place = MovedScene::Place;
+    SolverOptions options;
+    options.directOnly = true;
+    for (auto _ : state) {
+        MoveRun run(kMoves[0], kMeshing, options, copies);
+        const double scratchRays = double(run.statistics().direct.rays.total());
+        std::vector<double> wall, cpu, follow;
+        MoveCost cost;
+        for (int i = 0; i < kRounds; ++i) {
+            run.go(Place::home);
+            cost = run.go(Place::there);
+            wall.push_back(cost.wall()), cpu.push_back(cost.cpu);
+            follow.push_back(cost.place + cost.follow);
+        }
+        auto& counters = state.counters;
+        counters["elements"] = double(run.lit().patches().elements.size());
+        counters["lamps"] = double(run.lit().patches().emitters.size());
+        counters["mesh_s"] = run.meshing();
+        counters["scratch_s"] = run.firstSolve().wall;
+        counters["scratch_rays"] = scratchRays;
+        counters["update_s"] = median(wall);
+        counters["update_cpu_s"] = median(cpu);
+        counters["follow_s"] = median(follow);
+        counters["update_rays"] = double(cost.direct.rays.total());
+        counters["update_rays_full"] = double(cost.direct.rays.full);
+        counters["update_rays_single"] = double(cost.direct.rays.single);
+        counters["entries_changed"] = double(cost.direct.entriesChanged);
+        counters["blocks_visited"] = double(cost.direct.blocksVisited);
+        state.SetIterationTime(median(wall));
+    }
+}
+
+const bool registered = [] {
+    for (const int copies : {1, 4, 16})
+        benchmark::RegisterBenchmark(("edit/building/" + std::to_string(copies)).c_str(), building,
+                                     copies)
+            ->UseManualTime()
+            ->Iterations(1)
+            ->Unit(benchmark::kMillisecond);
+    return true;
+}();
+
+} // namespace
+
+} // namespace penumbra

@@ -1,0 +1,147 @@
+// Following edits of the whole solution, direct and indirect, at default sizes.
+#include "bench/BenchScene.h"
+#include "bench/MoveRun.h"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <string>
+
+namespace penumbra {
+
+namespace {
+
+/// Working tolerance: the certificate against the brightest lamp's exitance.
+constexpr double kTolerance = 1e-4;
+constexpr int kRounds = 3; ///< in each direction
+
+/// Patches whose radiosity differs by more than 1 % of what it was.
+std::size_t affected(const std::vector<Rgb>& before, const std::vector<Rgb>& after) {
+    std::size_t count = 0;
+    for (std::size_t p = 0; p < before.size(); ++p)
+        count += maxChannel(absolute(after[p] - before[p])) > 0.01f * maxChannel(before[p]);
+    return count;
+}
+
+void reportRays(benchmark::State& state, const SolveStatistics& scratch, const MoveCost& move) {
+    const RayCount& direct = move.direct.rays;
+    const RayCount& indirect = move.indirect.rays;
+    const double all = double(scratch.direct.rays.total() + scratch.indirect.rays.total());
+    auto& counters = state.counters;
+    counters["update_rays"] = double(direct.total() + indirect.total());
+    counters["direct_rays"] = double(direct.total());
+    counters["indirect_rays_full"] = double(indirect.full);
+    counters["indirect_rays_single"] = double(indirect.single);
+    counters["scratch_rays"] = all;
+    counters["ray_ratio"] = all / double(direct.total() + indirect.total());
+    counters["entries_changed"] = double(move.direct.entriesChanged + move.indirect.entriesChanged);
+    counters["blocks_visited"] = double(move.direct.blocksVisited + move.indirect.blocksVisited);
+}
+
+void reportRows(benchmark::State& state, const Solver& solver) {
+    const RowSize emitters = sizeOf(solver.emitterRows()), patches = sizeOf(solver.patchRows());
+    auto& counters = state.counters;
+    counters["emitter_entries"] = double(emitters.entries);
+    counters["emitter_bytes_per_entry"] = double(emitters.bytes) / double(emitters.entries);
+    counters["patch_entries"] = double(patches.entries);
+    counters["patch_bytes_per_entry"] = double(patches.bytes) / double(patches.entries);
+    counters["rows_MB"] = 1e-6 * double(emitters.bytes + patches.bytes);
+    counters["bytes_per_entry"] =
+        double(emitters.bytes + patches.bytes) / double(emitters.entries + patches.entries);
+}
+
+void total(benchmark::State& state, const Move& move) {
+    using Place = MovedScene::Place;
+    SolverOptions options;
+    options.residual = kTolerance;
+    for (auto _ : state) {
+        resetPeakMemory();
+        MoveRun run(move, {}, options);
+        const SolveStatistics scratch = run.statistics();
+        auto& counters = state.counters;
+        counters["elements"] = double(run.lit().patches().elements.size());
+        counters["patches"] = double(run.lit().patches().patches.size());
+        counters["scratch_s"] = run.firstSolve().wall;
+        counters["scratch_cpu_s"] = run.firstSolve().cpu;
+        counters["scratch_shots"] = double(scratch.shots);
+
+        std::vector<double> wall, cpu, follow, direct, indirect;
+        for (int i = 0; i < kRounds; ++i) {
+            const bool last = i + 1 == kRounds;
+            run.go(Place::home);
+            const std::vector<Rgb> before = run.lit().solver().radiosity();
+            const MoveCost cost = run.go(Place::there);
+            wall.push_back(cost.wall()), cpu.push_back(cost.cpu);
+            follow.push_back(cost.place + cost.follow);
+            direct.push_back(cost.direct.seconds), indirect.push_back(cost.indirect.seconds);
+            if (!last) continue;
+            counters["patches_affected"] = double(affected(before, run.lit().solver().radiosity()));
+            counters["update_shots"] = double(cost.shots);
+            reportRays(state, scratch, cost);
+        }
+        counters["update_s"] = median(wall);
+        counters["update_cpu_s"] = median(cpu);
+        counters["follow_s"] = median(follow);
+        counters["direct_s"] = median(direct);
+        counters["indirect_s"] = median(indirect);
+        counters["time_ratio"] = run.firstSolve().wall / median(wall);
+        counters["certificate"] = run.statistics().certificate / run.statistics().brightest;
+        reportRows(state, run.lit().solver());
+        counters["peak_MB"] = peakMemory() * 1e-6;
+        state.SetIterationTime(median(wall));
+    }
+}
+
+/// The paper's continuous moves: an animation is played, every frame to the working tolerance.
+void play(benchmark::State& state, const std::string& layer, bool directOnly) {
+    SolverOptions options;
+    options.residual = kTolerance;
+    options.directOnly = directOnly;
+    for (auto _ : state) {
+        const LoadedScene loaded = loadScene(layer);
+        const Scene& scene = *loaded.scene;
+        LitScene lit(placeScene(scene), meshingOf(scene, 0), options);
+        const Stopwatch solving;
+        lit.solver().settle();
+        state.counters["scratch_s"] = solving.wall();
+        std::vector<double> seconds;
+        const Stopwatch playing;
+        for (double time = scene.startTimeCode + 1; time <= scene.endTimeCode; ++time) {
+            loaded.animation->setTime(time);
+            const Stopwatch one;
+            if (lit.follow(placeScene(scene)).rebuilt)
+                return state.SkipWithError("meshed anew while the animation was played");
+            lit.solver().settle();
+            seconds.push_back(one.wall());
+        }
+        const double all = playing.wall();
+        auto& counters = state.counters;
+        counters["patches"] = double(lit.patches().patches.size());
+        counters["elements"] = double(lit.patches().elements.size());
+        counters["updates"] = double(seconds.size());
+        counters["updates_per_s"] = double(seconds.size()) / all;
+        counters["update_s"] = median(seconds);
+        counters["longest_s"] = *std::max_element(seconds.begin(), seconds.end());
+        state.SetIterationTime(all);
+    }
+}
+
+const bool registered = [] {
+    for (const Move& move : kMoves)
+        benchmark::RegisterBenchmark((std::string("edit/total/") + move.name).c_str(), total, move)
+            ->UseManualTime()
+            ->Iterations(1)
+            ->Unit(benchmark::kMillisecond);
+    for (const bool directOnly : {true, false})
+        benchmark::RegisterBenchmark(
+            (std::string("edit/play/chamber/") + (directOnly ? "direct" : "total")).c_str(), play,
+            "chamber-move", directOnly)
+            ->UseManualTime()
+            ->Iterations(1)
+            ->Unit(benchmark::kSecond);
+    return true;
+}();
+
+} // namespace
+
+} // namespace penumbra
