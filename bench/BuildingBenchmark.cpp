@@ -1,5 +1,6 @@
 // The cost of an edit follows what the edit changes: the same seat is moved in buildings of 1, 4
 // and 16 offices. Direct light.
+#include "bench/BenchScene.h"
 #include "bench/MoveRun.h"
 
 #include <benchmark/benchmark.h>
@@ -19,6 +20,7 @@ void building(benchmark::State& state, int copies) {
     SolverOptions options;
     options.directOnly = true;
     for (auto _ : state) {
+        resetPeakMemory();
         MoveRun run(kMoves[0], kMeshing, options, copies);
         const double scratchRays = double(run.statistics().direct.rays.total());
         std::vector<double> wall, cpu, follow;
@@ -43,6 +45,9 @@ void building(benchmark::State& state, int copies) {
         counters["update_rays_single"] = double(cost.direct.rays.single);
         counters["entries_changed"] = double(cost.direct.entriesChanged);
         counters["blocks_visited"] = double(cost.direct.blocksVisited);
+        counters["entries"] = double(run.statistics().entries);
+        counters["rows_MB"] = 1e-6 * double(run.statistics().bytes);
+        counters["peak_MB"] = 1e-6 * peakMemory();
         state.SetIterationTime(median(wall));
     }
 }

@@ -24,7 +24,7 @@ constexpr Size kSizes[] = {
 };
 /// Moves and solutions from scratch are each repeated for about this long [s].
 constexpr double kPatience = 1.5;
-constexpr std::size_t kMostMoves = 200, kMostSolves = 5;
+constexpr std::size_t kLeastMoves = 3, kMostMoves = 200, kMostSolves = 5;
 
 /// Times of all moves in one direction; counts are the same each time.
 struct Times {
@@ -52,6 +52,7 @@ void reportTimes(benchmark::State& state, const Times& moves, const Times& scrat
     counters["bare_cpu_s"] = least.cpu;
     counters["update_over_bare"] = median(moves.wall) / least.wall;
     counters["update_over_bare_cpu"] = median(moves.cpu) / least.cpu;
+    counters["settle_over_bare"] = median(moves.settle) / least.wall;
     counters["moves"] = double(moves.wall.size());
 }
 
@@ -114,7 +115,8 @@ void edit(benchmark::State& state, const Move& move, float elementSize) {
         reportCounts(state, first, fresh->statistics(), least);
         fresh.reset();
         const Stopwatch moving;
-        while (moving.wall() < kPatience && moves.wall.size() < kMostMoves) {
+        while (moves.wall.size() < kLeastMoves ||
+               (moving.wall() < kPatience && moves.wall.size() < kMostMoves)) {
             run.go(Place::home);
             moves.add(run.go(Place::there));
         }

@@ -23,8 +23,9 @@ EDIT = ["elements", "lamps", "scratch_s", "scratch_cpu_s", "update_s", "update_c
         "follow_s", "settle_s", "time_ratio", "time_ratio_cpu", "scratch_rays", "update_rays",
         "update_rays_full", "update_rays_single", "ray_ratio", "least_rays", "rays_over_minimum",
         "least_own", "least_uncovered", "least_released", "least_met", "least_refined",
-        "self_rays", "update_over_bare", "update_over_bare_cpu", "own_entries", "entries_changed",
-        "entries", "blocks_visited", "blocks", "bytes_per_entry"]
+        "self_rays", "update_over_bare", "update_over_bare_cpu", "settle_over_bare",
+        "own_entries", "entries_changed", "entries", "blocks_visited", "blocks",
+        "bytes_per_entry"]
 TOTAL = ["patches", "elements", "scratch_s", "scratch_cpu_s", "update_s", "update_cpu_s",
          "follow_s", "direct_s", "indirect_s", "time_ratio", "scratch_shots", "update_shots",
          "scratch_rays", "update_rays", "direct_rays", "indirect_rays_full",
@@ -34,7 +35,7 @@ TOTAL = ["patches", "elements", "scratch_s", "scratch_cpu_s", "update_s", "updat
 PLAY = ["patches", "elements", "scratch_s", "updates", "updates_per_s", "update_s", "longest_s"]
 BUILDING = ["elements", "lamps", "mesh_s", "scratch_s", "scratch_rays", "update_s",
             "update_cpu_s", "follow_s", "update_rays", "update_rays_full", "update_rays_single",
-            "entries_changed", "blocks_visited"]
+            "entries_changed", "blocks_visited", "entries", "rows_MB", "peak_MB"]
 GROWTH = ["update_s", "update_cpu_s", "follow_s", "update_rays", "entries_changed",
           "blocks_visited"]
 
