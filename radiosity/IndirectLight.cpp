@@ -217,19 +217,24 @@ void IndirectLight::updateResiduals() {
     meanRadiosity_ = area > 0 ? radiosity / area : 0;
 }
 
-std::vector<std::uint32_t> IndirectLight::chooseSenders() const {
+/// The most power first, of those that owe too much: large patches that owe next to nothing would
+/// be served again and again before small ones that owe a lot.
+std::vector<std::uint32_t> IndirectLight::chooseSenders(double enough) const {
     std::vector<double> power(set_.patches.size());
     for (std::size_t p = 0; p < power.size(); ++p)
-        power[p] = largest(residuals_[p]) * double(set_.patches[p].area);
+        if (largest(residuals_[p]) > enough)
+            power[p] = largest(residuals_[p]) * double(set_.patches[p].area);
     return mostValuable(power, kBatch);
 }
 
-bool IndirectLight::relax(std::size_t effort) {
+bool IndirectLight::relax(std::size_t effort, double target) {
     if (residualsStale_) {
         updateResiduals();
         return true;
     }
-    if (!shot_) load(chooseSenders(), false);
+    constexpr double kBelow = 0.3; // what a patch may owe, of what the certificate allows
+    const double allowed = most_ > 0 ? target * most_ / certificate_ : 0;
+    if (!shot_) load(chooseSenders(kBelow * allowed), false);
     if (!shot_) return false;
     serveFor(effort);
     return true;

@@ -35,8 +35,9 @@ public:
     /// Brings rows up to date: a piece of work of about `effort` rays; false: there is none left.
     bool update(std::size_t effort);
     /// Relaxes: serves about `effort` rays' worth of receivers. \pre update() has nothing to do
-    /// \return false: nobody owes anything
-    bool relax(std::size_t effort);
+    /// \param target certificate that is wanted [lm/m^2]
+    /// \return false: nobody owes enough to matter for it
+    bool relax(std::size_t effort, double target);
     /// Builds rows of patches that light reaches but that have nothing to send: row sums are to be
     /// those of the scene and not of its history. \return false: there is none left
     bool complete(std::size_t effort);
@@ -76,7 +77,7 @@ private:
     bool isReached(const Patch& patch) const;
     void restart();
 
-    std::vector<std::uint32_t> chooseSenders() const;
+    std::vector<std::uint32_t> chooseSenders(double enough) const;
     void load(const std::vector<std::uint32_t>& senders, bool dark);
     void serveFor(std::size_t effort);
     void serve(std::size_t blocks);

@@ -44,6 +44,7 @@ void Solver::apply(const SceneChange& change) {
     direct_.apply(change);
     handedOver_ = false;
     firstCertificate_ = 0;
+    completed_ = false;
     if (!indirect_) return;
     indirect_->apply(change);
     shotsBefore_ = indirect_->shots();
@@ -85,11 +86,16 @@ bool Solver::work(std::size_t effort, const Progress& progress) {
     bool more = indirect_->update(effort);
     if (more && progress && !indirect_->updates().done())
         progress("shadows of indirect light", indirect_->updates().share());
-    const bool goOn =
-        indirect_->relaxing() || indirect_->residualsStale() || !(settled() || spent());
-    if (!more && !goOn && !spent()) more = indirect_->complete(effort);
-    if (!more && goOn) {
-        more = indirect_->relax(effort);
+    // Rows that are missing come all at once, for each changes a little of what is owed, and
+    // early, so that this is sent along with the rest.
+    constexpr double kEarly = 100;
+    if (!more && !completed_ && !spent() && !indirect_->relaxing() &&
+        !indirect_->residualsStale() && indirect_->certificate() <= kEarly * target())
+        completing_ = completed_ = true;
+    if (!more && completing_) completing_ = more = indirect_->complete(effort);
+    const bool done = settled() || spent();
+    if (!more && (!done || indirect_->relaxing() || indirect_->residualsStale())) {
+        more = indirect_->relax(effort, target());
         const double now = indirect_->certificate();
         firstCertificate_ = std::max(firstCertificate_, now);
         if (progress && now > 0) {
