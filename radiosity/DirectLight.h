@@ -36,6 +36,8 @@ public:
     /// Whether patchLit() is not what it was when this was called last.
     bool takeLitChanged() { return std::exchange(litChanged_, false); }
 
+    /// The emitters with their visibility samples, one a row.
+    std::span<const EmitterSender> senders() const { return emitters_; }
     const RowTable& rows() const { return table_; }
     const RowUpdates& updates() const { return updates_; }
     double brightest() const; ///< largest exitance [lm/m^2]

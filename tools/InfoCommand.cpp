@@ -1,5 +1,8 @@
 #include "io/UsdScene.h"
+#include "radiosity/LightAccount.h"
 #include "radiosity/LightShapes.h"
+#include "radiosity/NearestDrawn.h"
+#include "radiosity/Parallel.h"
 #include "scenegraph/Camera.h"
 #include "scenegraph/Error.h"
 #include "scenegraph/Light.h"
@@ -11,6 +14,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <memory>
 #include <numbers>
 
@@ -18,11 +24,26 @@ namespace penumbra {
 
 namespace {
 
+/// A point given by hand is this near to the surface that is meant [m], or as near as an element.
+constexpr float kReach = 0.1f;
+
 struct InfoCommand {
-    std::string scene;
-    std::optional<double> frame;
-    bool verbose = false;
+    SolveSettings solve; ///< most of it counts with --at only
+    std::string at;      ///< as it was given; empty: about the scene
 };
+
+/// Reads "x,y,z" [m].
+std::optional<glm::vec3> pointOf(const std::string& text) {
+    glm::vec3 point;
+    const char *at = text.data(), *const end = at + text.size();
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto [next, error] = std::from_chars(at, end, point[axis]);
+        const bool ends = axis < 2 ? next != end && *next == ',' : next == end;
+        if (error != std::errc() || !std::isfinite(point[axis]) || !ends) return std::nullopt;
+        at = next + 1;
+    }
+    return point;
+}
 
 /// One line a lamp, in the units people compare: nits, lumens, and lux one metre in front.
 void printLamp(const std::string& path, const char* kind, Rgb nits, double area) {
@@ -41,7 +62,12 @@ void printLamps(const PlacedScene& placed) {
     }
 }
 
-void run(const InfoCommand& command) {
+void checkStandardOutput() {
+    if (std::fflush(stdout) != 0 || std::ferror(stdout))
+        throw Error("standard output: error: can't be written");
+}
+
+void describeScene(const SolveSettings& command) {
     LoadOptions options;
     options.time = command.frame;
     const LoadedScene loaded = loadUsdScene(command.scene, options);
@@ -70,20 +96,124 @@ void run(const InfoCommand& command) {
         for (std::size_t i = 0; i < placed.objects.size(); ++i)
             fmt::print("  object {:>4} {}{}\n", i, placed.objects[i].path,
                        placed.objects[i].movable ? " (movable)" : "");
-    if (std::fflush(stdout) != 0 || std::ferror(stdout))
-        throw Error("standard output: error: can't be written");
+    checkStandardOutput();
     reportDiagnostics(loaded.diagnostics, command.verbose);
+}
+
+std::string text(glm::vec3 v) {
+    const auto tidy = [](float x) { return std::abs(x) < 5e-5f ? 0.0f : x; }; // no 1e-9, no -0
+    return fmt::format("({:.4g}, {:.4g}, {:.4g})", tidy(v.x), tidy(v.y), tidy(v.z));
+}
+
+std::string nameOf(const PatchSet& patches, ObjectId object) {
+    const std::string& path = patches.objects[object.value].path;
+    return path == "/" ? "/ (what belongs to no object)" : path;
+}
+
+/// A line of the table; figures of light are luminance-weighted, as people compare them.
+void printRow(const std::string& name, Rgb unoccluded, Rgb arrives) {
+    const double all = luminance(unoccluded), lost = all - luminance(arrives);
+    fmt::print("  {:<44} {:>10.4g} {:>10.4g} {:>10.4g} {:>5.1f} %\n", name, all, luminance(arrives),
+               lost, all > 0 ? 100 * lost / all : 0.0);
+}
+
+/// What single objects take of a lamp. Those below 1 % of it share a line.
+void printLosses(const PatchSet& patches, const LampAccount& lamp) {
+    const double all = luminance(lamp.unoccluded);
+    const auto print = [&](const std::string& name, double lux) {
+        fmt::print("    {:<64} {:>10.4g} {:>5.1f} %\n", name, lux, 100 * lux / all);
+    };
+    double rest = 0;
+    std::size_t others = 0;
+    for (const LightLoss& loss : lamp.losses) {
+        const double lux = luminance(loss.lux);
+        if (lux >= 0.01 * all)
+            print("to " + nameOf(patches, loss.object), lux);
+        else if (lux > 0)
+            rest += lux, ++others;
+    }
+    if (others > 0) print(fmt::format("to {} more", others), rest);
+}
+
+void printAccount(const SceneSolution& solution, const DrawnHit& at, bool directOnly) {
+    const PatchSet& patches = solution.patches();
+    fmt::print("\n  {:<44} {:>10} {:>10} {:>10}\n", "[lux]", "unoccluded", "arrives", "lost");
+    Rgb unoccluded, arrives, indirect;
+    std::vector<std::string> silent;
+    for (const LampAccount& lamp : accountForLight(patches, solution.solver().direct(), at)) {
+        unoccluded += lamp.unoccluded;
+        arrives += lamp.arrives;
+        if (luminance(lamp.unoccluded) > 0) {
+            printRow(lamp.path, lamp.unoccluded, lamp.arrives);
+            printLosses(patches, lamp);
+        } else {
+            silent.push_back(lamp.path);
+        }
+    }
+    for (const std::string& path : silent)
+        fmt::print("  {:<44} {:>10}   off, hidden, turned away or behind the surface\n", path, 0);
+    printRow("direct light, all lamps", unoccluded, arrives);
+    if (directOnly) return;
+    for (std::size_t k = 0; k < 3; ++k)
+        indirect += at.weights[k] * solution.lighting().indirect[at.vertices[k]];
+    fmt::print("  {:<44} {:>10} {:>10.4g}\n", "indirect light", "", luminance(indirect));
+    fmt::print("  {:<44} {:>10} {:>10.4g}\n", "together", "", luminance(arrives + indirect));
+}
+
+/// Why it is as bright as it is at a point.
+void explain(const SolveSettings& settings, glm::vec3 point) {
+    const ThreadLimit limit(settings.threads);
+    const SceneSolution solution(settings);
+    const PatchSet& patches = solution.patches();
+    const float reach = std::max(kReach, patches.elementSize);
+    const DrawnHit at = nearestDrawn(patches, point, reach);
+    if (!at.met())
+        throw Error(fmt::format("{}: error: no surface within {:.2g} m of {}", settings.scene,
+                                reach, text(point)));
+    fmt::print("{} at {}\n", settings.scene, text(point));
+    fmt::print("  on {}, {:.4g} mm away at {}, facing {}\n",
+               nameOf(patches, patches.elementObject[at.element]),
+               std::round(1e4 * double(at.distance)) / 10, text(positionOf(patches, at)),
+               text(normalOf(patches, at)));
+    if (!patches.receives(at.element))
+        fmt::print("  something lies on it there: nobody sees it and no light gets there\n");
+    printAccount(solution, at, settings.solver.directOnly);
+    checkStandardOutput();
+}
+
+void run(const InfoCommand& command) {
+    if (command.at.empty())
+        describeScene(command.solve);
+    else
+        explain(command.solve, *pointOf(command.at));
 }
 
 } // namespace
 
 void addInfoCommand(CLI::App& app) {
     auto command = std::make_shared<InfoCommand>();
-    CLI::App* const info =
-        app.add_subcommand("info", "What is in a scene, and what of it was not understood.");
-    info->add_option("SCENE", command->scene, "USD text file (.usda)")->required();
-    info->add_option("--frame", command->frame, "Time code to look at (default: its start)");
-    info->add_flag("--verbose", command->verbose, "List objects and everything that was skipped");
+    CLI::App* const info = app.add_subcommand(
+        "info", "What is in a scene, and what of it was not understood; with --at, why it is as\n"
+                "bright or dark as it is at a point.\n"
+                "Example: penumbra info room.usda --at 1.5,1,0 --direct-only");
+    addSolveOptions(*info, command->solve);
+    for (const char* name : {"--frames", "--from-scratch", "--stats"})
+        info->remove_option(info->get_option(name));
+    CLI::Option* const at = info->add_option(
+        "--at", command->at,
+        "x,y,z (metres, scene frame): light the scene and say for the nearest surface, within\n"
+        "0.1 m or an element, what each lamp would give there, what arrives and which objects\n"
+        "take the rest. Where several stand in line one of them is charged. Indirect light is\n"
+        "one figure; without it (--direct-only) the answer comes sooner");
+    at->check(CLI::Validator(
+        [](std::string& text) {
+            return pointOf(text) ? std::string()
+                                 : fmt::format("'{}' is not x,y,z: three numbers, in metres", text);
+        },
+        ""));
+    for (const char* name : {"--patch-size", "--element-size", "--samples", "--residual",
+                             "--direct-only", "--threads", "--progress", "--quiet"})
+        info->get_option(name)->needs(at);
     info->callback([command] { run(*command); });
 }
 

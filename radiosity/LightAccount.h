@@ -1,0 +1,48 @@
+// Why it is dark here: what every lamp would give to a point, what arrives, and who takes the rest.
+#pragma once
+
+#include "radiosity/DirectLight.h"
+#include "radiosity/DrawnSurface.h"
+#include "radiosity/PatchSet.h"
+#include "scenegraph/ObjectId.h"
+#include "scenegraph/Rgb.h"
+
+#include <string>
+#include <vector>
+
+namespace penumbra {
+
+/// What one object takes of a lamp's light.
+struct LightLoss {
+    ObjectId object;
+    Rgb lux;
+};
+
+/// What a lamp has to do with a point: unoccluded = arrives + the sum of the losses, to rounding.
+struct LampAccount {
+    std::string path;              ///< of the light or the emissive mesh in the scene
+    Rgb unoccluded;                ///< if nothing stood in the way [lux]
+    Rgb arrives;                   ///< as it is drawn [lux]
+    std::vector<LightLoss> losses; ///< one an object, the largest first
+
+    Rgb lost() const { return unoccluded - arrives; }
+};
+
+/// The direct light of a point of the drawn surface, lamp by lamp: who loses most comes first, then
+/// who gives most. Read off the rows of the shadow-form-factor-list; nothing is traced.
+///
+/// Between the corners c of the drawn triangle, with barycentric weights b, and the lamp's emitters
+/// e of exitance E:
+///
+///     unoccluded = Σc Σe b F E,   arrives = Σc Σe b F V E,   loss of object o = Σc Σe b F Wo E
+///
+/// where Wo is the share of the visibility samples, by their weights, that o was found to block:
+/// the sum of all Wo is 1 - V. A sample that several objects stand before is charged to one of
+/// them, so that taking this one away alone need not bring its light back.
+///
+/// \param light worked off: its rows are those of `patches` as it is now
+/// \param at    a place that was met
+std::vector<LampAccount> accountForLight(const PatchSet& patches, const DirectLight& light,
+                                         const DrawnHit& at);
+
+} // namespace penumbra

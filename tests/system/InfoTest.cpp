@@ -1,0 +1,114 @@
+// penumbra info --at: why it is as bright or dark as it is at a point.
+#include "Program.h"
+
+#include <gmock/gmock.h>
+
+#include <sstream>
+
+namespace penumbra {
+
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class InfoAt : public testing::Test {
+protected:
+    Workplace here;
+    std::string room = here.write("room.usda", smallRoom());
+
+    Outcome at(const std::string& point, std::vector<std::string> more = coarse()) {
+        std::vector<std::string> arguments{"info", room, "--at", point};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runPenumbra(arguments);
+    }
+};
+
+/// The first numbers of the line that begins with these words.
+std::vector<double> figures(const std::string& text, const std::string& words) {
+    std::istringstream lines(text);
+    std::vector<double> numbers;
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t start = line.find(words);
+        if (start == std::string::npos) continue;
+        std::istringstream rest(line.substr(start + words.size()));
+        for (double number; rest >> number;) numbers.push_back(number);
+        break;
+    }
+    return numbers;
+}
+
+TEST_F(InfoAt, NamesTheSurfaceTheLampsAndWhatArrives) {
+    const Outcome info = at("0.4,0.4,0");
+    EXPECT_EQ(info.exitCode, 0) << info.err;
+    for (const char* word : {"on / (what belongs to no object)", "0 mm away", "facing (0, 0, 1)",
+                             "/Lamp", "indirect light"})
+        EXPECT_THAT(info.out, HasSubstr(word));
+    const auto lamp = figures(info.out, "/Lamp/Lamp");
+    ASSERT_EQ(lamp.size(), 4u) << info.out; // unoccluded, arrives, lost, percent
+    EXPECT_GT(lamp[0], 1);
+    EXPECT_EQ(lamp[1], lamp[0]);
+    EXPECT_EQ(lamp[2], 0);
+    const auto direct = figures(info.out, "direct light, all lamps"),
+               indirect = figures(info.out, "indirect light"),
+               together = figures(info.out, "together");
+    ASSERT_TRUE(direct.size() == 4 && indirect.size() == 1 && together.size() == 1) << info.out;
+    EXPECT_GT(indirect[0], 0.1 * direct[1]);
+    EXPECT_NEAR(together[0], direct[1] + indirect[0], 2e-3 * together[0]);
+}
+
+TEST_F(InfoAt, SaysWhoIsInTheWayAndWhatThatCosts) {
+    // A low board over the floor, in the umbra of which nothing arrives.
+    room = here.write("board.usda", smallRoom() + R"(
+def Cube "Board"
+{
+    double size = 1
+    double3 xformOp:translate = (0.6, 0.6, 0.2)
+    float3 xformOp:scale = (0.6, 0.6, 0.02)
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]
+}
+)");
+    const Outcome info = at("0.6,0.6,0", {"--element-size", "0.05", "--direct-only"});
+    EXPECT_EQ(info.exitCode, 0) << info.err;
+    const auto lamp = figures(info.out, "/Lamp/Lamp"), board = figures(info.out, "to /Board");
+    ASSERT_TRUE(lamp.size() == 4 && board.size() == 2) << info.out;
+    EXPECT_EQ(lamp[1], 0);
+    EXPECT_EQ(lamp[2], lamp[0]);
+    EXPECT_EQ(board[0], lamp[0]);
+    EXPECT_EQ(board[1], 100);
+    EXPECT_THAT(info.out, Not(HasSubstr("indirect")));
+}
+
+TEST_F(InfoAt, FindsTheNearestSurfaceAndSaysHowFarItIs) {
+    const Outcome info = at("0.02,1.1,1");
+    EXPECT_EQ(info.exitCode, 0) << info.err;
+    EXPECT_THAT(info.out, HasSubstr("no object), 20 mm away at (0, 1.1, 1), facing (1, 0, 0)"));
+}
+
+TEST_F(InfoAt, AFarPointIsOneLine) {
+    const Outcome info = at("-7,0.4,0");
+    EXPECT_EQ(info.exitCode, 1);
+    EXPECT_THAT(info.err, HasSubstr("room.usda: error: no surface within 0.25 m of (-7, 0.4, 0)"));
+    EXPECT_EQ(lineCount(info.err), 1u) << info.err;
+    EXPECT_THAT(info.out, IsEmpty());
+}
+
+TEST_F(InfoAt, AWrongPointIsAWrongCommandLine) {
+    for (const char* point : {"1,2", "1,2,3,4", "nan,0,0", "0,inf,0", "1e39,0,0", "1,,2", "a,b,c",
+                              "1, 2,3", "1,2,3 ", ","}) {
+        const Outcome info = at(point);
+        EXPECT_EQ(info.exitCode, 2) << point;
+        EXPECT_THAT(info.err, HasSubstr("three numbers")) << point;
+        EXPECT_THAT(info.out, IsEmpty()) << point;
+    }
+}
+
+TEST_F(InfoAt, MeshingIsOnlyAskedForWithAPoint) {
+    const Outcome info = runPenumbra({"info", room, "--patch-size", "0.5"});
+    EXPECT_EQ(info.exitCode, 2);
+    EXPECT_THAT(info.err, HasSubstr("requires --at"));
+}
+
+} // namespace
+
+} // namespace penumbra
