@@ -88,6 +88,10 @@ void DirectLight::apply(const SceneChange& change) {
     if (!change.objects.empty() || !masks.empty()) updates_.add(change.objects, std::move(masks));
 }
 
+void DirectLight::invalidate(const Bounds& region) {
+    updates_.add({}, {}, {region});
+}
+
 void DirectLight::touchBlock(std::uint32_t block) {
     if (std::exchange(blockTouched_[block], 1)) return;
     touchedBlocks_.push_back(block);

@@ -25,6 +25,7 @@ public:
     DirectLight(const PatchSet& set, const RayScene& rays, int samples);
 
     void apply(const SceneChange& change);
+    void invalidate(const Bounds& region); ///< see LitScene
     /// Does a piece of work of about `effort` rays; false: there is none left.
     bool work(std::size_t effort);
 

@@ -109,6 +109,13 @@ void IndirectLight::apply(const SceneChange& change) {
     updates_.add(change.objects, std::move(masks));
 }
 
+void IndirectLight::invalidate(const Bounds& region) {
+    while (shot_) serve(blockCount());
+    residualsStale_ = true;
+    if (rowsMissing_) restart();
+    updates_.add({}, {}, {region});
+}
+
 void IndirectLight::directChanged(bool litChanged) {
     reachStale_ |= litChanged;
     residualsStale_ = true;

@@ -29,6 +29,7 @@ public:
                   std::size_t rowMemory);
 
     void apply(const SceneChange& change);
+    void invalidate(const Bounds& region); ///< see LitScene
     /// The direct light of patches is not what it was. \param litChanged see takeLitChanged()
     void directChanged(bool litChanged);
 

@@ -1,5 +1,6 @@
 #include "radiosity/LitScene.h"
 
+#include "radiosity/Shaft.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Material.h"
 #include "scenegraph/Mesh.h"
@@ -143,6 +144,11 @@ LitScene::Followed LitScene::follow(const PlacedScene& now) {
     }
     solver_->apply(followed.change);
     return followed;
+}
+
+void LitScene::invalidate(const Bounds& box) {
+    if (box.empty()) return;
+    solver_->invalidate(grown(box, 2 * patches().skin)); // receivers hover over what is lit
 }
 
 } // namespace penumbra

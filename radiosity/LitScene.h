@@ -37,6 +37,16 @@ public:
     /// Takes in how the scene is now. \throws Error if it can't be meshed
     Followed follow(const PlacedScene& now);
 
+    /// Has what lies in a box, or is crossed by light through it, evaluated anew by the steps that
+    /// follow: receivers whose block meets the box, and entries of the shadow-form-factor-list
+    /// whose shaft between sender and block meets it. Light stays as it is where nothing was wrong,
+    /// within the certificate where rows were not kept. What things cover of each other is not
+    /// looked at again.
+    ///
+    /// \param box axis-aligned [m, world], taken a hair larger; its sides may be infinite; an empty
+    ///            one changes nothing
+    void invalidate(const Bounds& box);
+
     const PatchSet& patches() const { return built_.patches; }
     const RayScene& rays() const { return *rays_; }
     Solver& solver() { return *solver_; }

@@ -61,6 +61,11 @@ std::vector<BlockMask> RowTable::concerned(std::size_t row, const Bounds& sender
                           masks.push_back({std::uint32_t(block), 0});
                       });
     }
+    for (const Bounds& region : change.regions)
+        blocks_.query([&](std::size_t n) { return shaftMeets(sender, blocks_.node(n), region); },
+                      [&](std::size_t block) {
+                          masks.push_back({std::uint32_t(block), ~std::uint64_t(0)});
+                      });
     unite(masks);
     return masks;
 }

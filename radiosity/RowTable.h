@@ -24,6 +24,8 @@ void unite(std::vector<BlockMask>& masks);
 struct PendingChange {
     std::vector<MovedObject> moved;
     std::vector<BlockMask> receivers; ///< to be evaluated anew, one entry a block, in order
+    /// Blocks whose shaft meets one of these are evaluated anew [m, world].
+    std::vector<Bounds> regions = {};
 
     bool moves(std::uint32_t object) const;
 };

@@ -22,9 +22,10 @@ std::size_t effortOf(const UpdateItem& item) {
 RowUpdates::RowUpdates(const PatchSet& set, const RayScene& rays, RowTable& table)
     : set_(set), rayScene_(rays), table_(table), row_(table.size()) {}
 
-void RowUpdates::add(std::vector<ObjectId> objects, std::vector<BlockMask> receivers) {
+void RowUpdates::add(std::vector<ObjectId> objects, std::vector<BlockMask> receivers,
+                     std::vector<Bounds> regions) {
     unite(receivers);
-    edits_.push_back({std::move(objects), std::move(receivers)});
+    edits_.push_back({std::move(objects), std::move(receivers), std::move(regions)});
     change_.reset();
     row_ = 0;
 }
@@ -36,6 +37,8 @@ std::shared_ptr<const PendingChange> RowUpdates::changeSince(std::uint64_t edits
     for (std::size_t i = edits - forgotten_; i < edits_.size(); ++i) {
         change->receivers.insert(change->receivers.end(), edits_[i].receivers.begin(),
                                  edits_[i].receivers.end());
+        change->regions.insert(change->regions.end(), edits_[i].regions.begin(),
+                               edits_[i].regions.end());
         for (ObjectId object : edits_[i].objects) {
             if (change->moves(object.value)) continue;
             MovedObject moved{object.value, set_.objects[object.value].present, {}};

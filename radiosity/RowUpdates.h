@@ -29,8 +29,9 @@ public:
     RowUpdates(const PatchSet& set, const RayScene& rays, RowTable& table);
 
     /// Objects were placed anew, hidden or shown; receivers lie elsewhere. Their own receivers are
-    /// to be among these.
-    void add(std::vector<ObjectId> objects, std::vector<BlockMask> receivers);
+    /// to be among these. What crosses one of the regions is to be evaluated anew [m, world].
+    void add(std::vector<ObjectId> objects, std::vector<BlockMask> receivers,
+             std::vector<Bounds> regions = {});
     /// A row that is built in the scene as it is now has nothing to catch up with.
     void setCurrent(std::size_t row) { table_.edits(row) = forgotten_ + edits_.size(); }
 
@@ -61,6 +62,7 @@ private:
     struct Edit {
         std::vector<ObjectId> objects;
         std::vector<BlockMask> receivers;
+        std::vector<Bounds> regions;
     };
     void find(std::size_t count, const Facts& facts);
     std::shared_ptr<const PendingChange> changeSince(std::uint64_t edits);

@@ -50,6 +50,16 @@ void Solver::apply(const SceneChange& change) {
     shotsBefore_ = indirect_->shots();
 }
 
+void Solver::invalidate(const Bounds& region) {
+    direct_.invalidate(region);
+    handedOver_ = false;
+    firstCertificate_ = 0;
+    completed_ = false;
+    if (!indirect_) return;
+    indirect_->invalidate(region);
+    shotsBefore_ = indirect_->shots();
+}
+
 bool Solver::step(double budget, const Progress& progress) {
     const double start = seconds();
     for (double now = start; now - start < budget;) {

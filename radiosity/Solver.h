@@ -81,6 +81,8 @@ public:
 
     /// Takes note of an edit that has been made to the patch set and the ray scene. Traces nothing.
     void apply(const SceneChange& change);
+    /// Takes note that light which ends in a box or crosses it [m, world] is to be evaluated anew.
+    void invalidate(const Bounds& region);
 
     /// Works for `budget` seconds, or until everything is settled, and returns whether it is. What
     /// it leaves undone it goes on with at the next call.
