@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace penumbra {
 
@@ -179,22 +180,35 @@ float coverDistance(float elementSize, float skin) {
 }
 
 Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point, glm::vec3 normal,
-          float cover, ObjectId* above) {
+          float cover, ObjectId* by) {
     // Not quite along the normal, so as not to run along edges that stand on the surface.
     const glm::vec3 direction = normal + glm::vec3(0.0123f, 0.0234f, -0.0171f);
-    const RayHit hit = rays.nearest(point, direction, 1e30f);
-    if (above) *above = hit.object;
-    if (!hit.met()) return Lie::free;
-    const auto isBack = [&](const RayHit& met) {
-        return met.met() && glm::dot(met.normal, direction) > 0 &&
-               meshes[met.object.value].solid[met.triangle];
-    };
-    if (isBack(hit)) return Lie::buried;
-    if (hit.distance < cover) return Lie::covered;
-    // Something may stand exactly on what the point is buried in: then either may be met first.
-    const float reach = hit.distance * (1 + 1e-5f) + 0.1f * cover;
-    return isBack(rays.nearest(point, direction, reach, RayScene::Faces::back)) ? Lie::buried
-                                                                                : Lie::free;
+    thread_local std::vector<RayHit> hits;
+    rays.all(point, direction, hits);
+    // Inside of a solid is what is left once more than it is entered.
+    thread_local std::vector<std::pair<ObjectId, int>> left;
+    left.clear();
+    Lie lie = Lie::free;
+    for (const RayHit& hit : hits) {
+        if (hit.distance < cover) {
+            if (by && (lie == Lie::free || *by < hit.object)) *by = hit.object;
+            lie = Lie::covered;
+        }
+        if (!meshes[hit.object.value].solid[hit.triangle]) continue;
+        const int side = glm::dot(hit.normal, direction) > 0 ? 1 : -1;
+        const auto known = std::find_if(left.begin(), left.end(),
+                                        [&](const auto& l) { return l.first == hit.object; });
+        if (known == left.end())
+            left.emplace_back(hit.object, side);
+        else
+            known->second += side;
+    }
+    for (const auto& [object, times] : left) {
+        if (times <= 0) continue;
+        if (by && (lie != Lie::buried || *by < object)) *by = object;
+        lie = Lie::buried;
+    }
+    return lie;
 }
 
 std::vector<std::uint8_t> resolveContacts(const RayScene& rays, std::span<const RayMesh> meshes,

@@ -33,9 +33,9 @@ enum class Lie {
     buried   ///< inside of something solid
 };
 /// \param cover [m], see coverDistance()
-/// \param above set to the first object above the point, if any
+/// \param by set to the object that covers the point or that it is buried in; the last of several
 Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point, glm::vec3 normal,
-          float cover, ObjectId* above = nullptr);
+          float cover, ObjectId* by = nullptr);
 
 /// Something this close above a surface with elements of this size counts as lying on it [m].
 float coverDistance(float elementSize, float skin);

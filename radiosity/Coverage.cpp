@@ -65,46 +65,36 @@ void Coverage::orderElements() {
         }
     }
     chunkFirst_.push_back(std::uint32_t(order_.size()));
-    std::vector<Bounds> none(chunkObject_.size());
-    places_.assign(none);
-    directions_.assign(std::move(none));
+    places_.assign(std::vector<Bounds>(chunkObject_.size()));
     for (std::size_t c = 0; c < chunkObject_.size(); ++c) updateChunk(c);
 }
 
-/// Where the rays that tell how an element lies begin, and the directions that they may have.
-Bounds Coverage::boxOf(std::uint32_t element, Bounds& directions) const {
+Bounds Coverage::boxOf(std::uint32_t element) const {
     Bounds box;
-    for (std::uint32_t v : shared_[element].vertices) {
-        box.add(set_.vertices[v].position);
-        directions.add(set_.vertices[v].receiver.normal);
-    }
+    for (std::uint32_t v : shared_[element].vertices) box.add(set_.vertices[v].position);
     return box;
 }
 
 void Coverage::updateChunk(std::size_t chunk) {
-    Bounds place, directions;
-    for (std::uint32_t i = chunkFirst_[chunk]; i < chunkFirst_[chunk + 1]; ++i)
-        place.add(boxOf(order_[i], directions));
+    Bounds place;
+    for (std::uint32_t i = chunkFirst_[chunk]; i < chunkFirst_[chunk + 1]; ++i) {
+        const Bounds box = boxOf(order_[i]);
+        place.add(box);
+        largest_ = std::max(largest_, box.diagonal());
+    }
     places_.set(chunk, place);
-    directions_.set(chunk, directions);
 }
 
-/// Elements whose lie an object within `box` may decide: whose rays may meet it.
+/// Elements whose lie an object within `box` may decide: those that it can touch or hold.
 void Coverage::collectNear(const Bounds& box, std::vector<std::uint32_t>& elements) const {
     if (box.empty()) return;
-    constexpr float kSkew = 0.03f; // more than lieOf() adds to the normal
-    const Bounds target = grown(box, 8 * set_.skin + 1e-5f * set_.extent);
-    const auto meets = [&](const Bounds& place, const Bounds& directions) {
-        return raysMeet(place, directions.lower - kSkew, directions.upper + kSkew, target);
-    };
-    places_.query([&](std::size_t n) { return meets(places_.node(n), directions_.node(n)); },
+    const float reach = coverDistance(largest_, set_.skin) + 8 * set_.skin;
+    const Bounds target = grown(box, reach);
+    places_.query([&](std::size_t n) { return target.overlaps(places_.node(n)); },
                   [&](std::size_t chunk) {
                       if (!set_.objects[chunkObject_[chunk].value].present) return;
-                      for (std::uint32_t i = chunkFirst_[chunk]; i < chunkFirst_[chunk + 1]; ++i) {
-                          Bounds directions;
-                          const Bounds place = boxOf(order_[i], directions);
-                          if (meets(place, directions)) elements.push_back(order_[i]);
-                      }
+                      for (std::uint32_t i = chunkFirst_[chunk]; i < chunkFirst_[chunk + 1]; ++i)
+                          if (target.overlaps(boxOf(order_[i]))) elements.push_back(order_[i]);
                   });
 }
 
@@ -247,11 +237,11 @@ void Coverage::settleNode(std::uint32_t node, Change& change) {
     const ObjectPart& part = set_.objects[set_.nodeBlockObject[node / PatchSet::kBlock].value];
     Receiver wanted = set_.uncoveredNodes[node];
     const float cover = coverDistance(set_.elementSize, set_.skin);
-    ObjectId above;
+    ObjectId by;
     const bool free =
-        lieOf(rays_, set_.rayMeshes, wanted.position, wanted.normal, cover, &above) == Lie::free;
+        lieOf(rays_, set_.rayMeshes, wanted.position, wanted.normal, cover, &by) == Lie::free;
     // The fixed part has taken care of itself.
-    if (part.present && !free && (part.movable || set_.objects[above.value].movable)) {
+    if (part.present && !free && (part.movable || set_.objects[by.value].movable)) {
         const glm::vec3 place = wanted.position;
         float nearest = std::numeric_limits<float>::infinity();
         for (std::uint32_t i = nodePatchFirst_[node]; i < nodePatchFirst_[node + 1]; ++i) {

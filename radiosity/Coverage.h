@@ -38,7 +38,7 @@ private:
     void orderElements();
     void updateChunk(std::size_t chunk);
     void collectNear(const Bounds& box, std::vector<std::uint32_t>& elements) const;
-    Bounds boxOf(std::uint32_t element, Bounds& directions) const;
+    Bounds boxOf(std::uint32_t element) const;
     void examine(const std::vector<std::uint32_t>& elements);
     bool parted(std::uint32_t vertex) const;
     void settleCorner(std::uint32_t element, std::uint32_t corner, bool parted, Change& change);
@@ -56,7 +56,8 @@ private:
     std::vector<std::uint32_t> order_;      ///< elements, object by object along a curve
     std::vector<ObjectId> chunkObject_;     ///< kChunk consecutive ones of one object
     std::vector<std::uint32_t> chunkFirst_; ///< into order_; one more than chunks
-    BoundsTree places_, directions_;        ///< of the chunks
+    BoundsTree places_;                     ///< of the chunks
+    float largest_ = 0;                     ///< diagonal of an element's box, at most [m]
     std::unordered_map<std::uint32_t, Result> results_; ///< of elements that are not all free
     std::unordered_map<std::uint32_t, std::uint32_t>
         own_; ///< private vertex of element * 4 + corner

@@ -17,9 +17,10 @@ namespace {
 
 /// What our filters want to know of a query.
 struct QueryContext {
-    RTCIntersectContext context;                   // first, so that Embree's pointer is ours
-    std::uint32_t* blocker = nullptr;              // where to note who is in the way
-    RayScene::Faces faces = RayScene::Faces::both; // that are met
+    RTCIntersectContext context;      // first, so that Embree's pointer is ours
+    std::uint32_t* blocker = nullptr; // where to note who is in the way
+    bool frontOnly = false;
+    std::vector<RayHit>* all = nullptr; // where to note every hit; none ends the ray
 
     QueryContext() {
         rtcInitIntersectContext(&context);
@@ -37,16 +38,30 @@ void noteBlocker(const RTCFilterFunctionNArguments* args) {
     }
 }
 
-/// Rejects hits of the side that the query does not ask for.
-void rejectOtherSide(const RTCFilterFunctionNArguments* args) {
-    const RayScene::Faces faces = reinterpret_cast<const QueryContext*>(args->context)->faces;
-    if (faces == RayScene::Faces::both) return;
+/// Rejects what the query does not ask for.
+void chooseHits(const RTCFilterFunctionNArguments* args) {
+    const auto* const context = reinterpret_cast<const QueryContext*>(args->context);
+    if (context->all) {
+        for (unsigned i = 0; i < args->N; ++i) {
+            if (args->valid[i] == 0) continue;
+            RayHit hit;
+            hit.distance = RTCRayN_tfar(args->ray, args->N, i);
+            hit.object.value = RTCHitN_geomID(args->hit, args->N, i);
+            hit.triangle = RTCHitN_primID(args->hit, args->N, i);
+            hit.normal = {RTCHitN_Ng_x(args->hit, args->N, i), RTCHitN_Ng_y(args->hit, args->N, i),
+                          RTCHitN_Ng_z(args->hit, args->N, i)};
+            context->all->push_back(hit);
+            args->valid[i] = 0;
+        }
+        return;
+    }
+    if (!context->frontOnly) return;
     for (unsigned i = 0; i < args->N; ++i) {
         const float facing =
             RTCRayN_dir_x(args->ray, args->N, i) * RTCHitN_Ng_x(args->hit, args->N, i) +
             RTCRayN_dir_y(args->ray, args->N, i) * RTCHitN_Ng_y(args->hit, args->N, i) +
             RTCRayN_dir_z(args->ray, args->N, i) * RTCHitN_Ng_z(args->hit, args->N, i);
-        if (faces == RayScene::Faces::front ? facing >= 0 : facing <= 0) args->valid[i] = 0;
+        if (facing >= 0) args->valid[i] = 0;
     }
 }
 
@@ -107,7 +122,7 @@ struct RayScene::Impl {
         std::memcpy(indices, mesh.triangles.data(),
                     mesh.triangles.size() * 3 * sizeof(std::uint32_t));
         rtcSetGeometryOccludedFilterFunction(geometry, noteBlocker);
-        rtcSetGeometryIntersectFilterFunction(geometry, rejectOtherSide);
+        rtcSetGeometryIntersectFilterFunction(geometry, chooseHits);
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(scene, geometry, id);
         members[id].geometry = geometry;
@@ -223,13 +238,24 @@ bool RayScene::occluded(glm::vec3 origin, glm::vec3 target) const {
     return ray.tfar < 0;
 }
 
+void RayScene::all(glm::vec3 origin, glm::vec3 direction, std::vector<RayHit>& hits) const {
+    hits.clear();
+    RTCRayHit query{};
+    query.ray = {origin.x,    origin.y, origin.z, 0,           direction.x, direction.y,
+                 direction.z, 0,        1e30f,    0xffffffffu, 0,           0};
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    QueryContext context;
+    context.all = &hits;
+    rtcIntersect1(impl_->scene, &context.context, &query);
+}
+
 RayHit RayScene::nearest(glm::vec3 origin, glm::vec3 direction, float reach, Faces faces) const {
     RTCRayHit query{};
     query.ray = {origin.x,    origin.y, origin.z, 0,           direction.x, direction.y,
                  direction.z, 0,        reach,    0xffffffffu, 0,           0};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     QueryContext context;
-    context.faces = faces;
+    context.frontOnly = faces == Faces::front;
     rtcIntersect1(impl_->scene, &context.context, &query);
     RayHit hit;
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;

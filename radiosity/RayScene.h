@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace penumbra {
 
@@ -66,11 +67,14 @@ public:
     /// The same against one object alone. For a segment that nothing else blocks, the answer is
     /// that of the whole scene, bit for bit.
     void occludedBy(ObjectId object, ShadowRays& rays) const;
-    enum class Faces { both, front, back };
+    enum class Faces { both, front };
     /// The nearest triangle, up to `reach` times the length of `direction`; on request only of
-    /// those that show this side.
+    /// those that show their front.
     RayHit nearest(glm::vec3 origin, glm::vec3 direction, float reach,
                    Faces faces = Faces::both) const;
+
+    /// All triangles on a ray without end, in no order; `hits` is emptied first.
+    void all(glm::vec3 origin, glm::vec3 direction, std::vector<RayHit>& hits) const;
 
 private:
     float reach(float length) const;

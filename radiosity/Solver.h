@@ -118,7 +118,7 @@ private:
     std::unique_ptr<IndirectLight> indirect_; ///< null: direct light only
     bool handedOver_ = false; ///< whether the indirect light knows of the direct light as it is
     bool completing_ = false, completed_ = false; ///< see IndirectLight::complete()
-    std::uint64_t shotsBefore_ = 0; ///< before the last edit
+    std::uint64_t shotsBefore_ = 0;               ///< before the last edit
     double firstCertificate_ = 0, effort_ = 4096;
     double directSeconds_ = 0, indirectSeconds_ = 0;
 };
