@@ -7,8 +7,11 @@
 
 namespace penumbra {
 
-/// What changes with time in a scene that was loaded from USD: transforms, the luminance of lights,
-/// the constants of materials, lenses. Geometry, sizes of lights and visibility are held.
+/// What changes with time in a scene that was loaded from USD: transforms, visibility, the
+/// luminance of lights, the constants of materials, lenses. Geometry and sizes of lights are held.
+///
+/// A prim whose visibility has time samples becomes a Switch of its name with a movable Transform
+/// of its name below, so that it is one object that comes and goes: "/Room/Lamp/Lamp".
 class UsdAnimation {
 public:
     virtual ~UsdAnimation() = default;

@@ -72,9 +72,7 @@ private:
         const Place& parent = places_[prim.parent];
         if (!parent.container || !prim.defined || prim.abstract || isData(prim.typeName)) return;
         const UsdAttributes attributes(prim, time_);
-        if (UsdStage::animated(prim, "visibility"))
-            warnings_.warn(attributes.location("visibility"), "animated visibility is held");
-        if (attributes.text("visibility", "inherited") == "invisible") return;
+        if (usdHidden(attributes) && !comesAndGoes(prim)) return;
         if (prim.typeName == "PointInstancer") {
             warnings_.warn(prim.location(), "PointInstancer not supported yet: left out");
             return;
@@ -108,13 +106,18 @@ private:
         return place;
     }
 
-    // A Transform if the prim has, or may get, a place of its own; else null.
+    // Whether the animation hides it and shows it: it becomes a Switch.
+    static bool comesAndGoes(const UsdPrim& prim) { return UsdStage::animated(prim, "visibility"); }
+
+    // A Transform if the prim has, or may get, a place of its own; else null. What comes and goes
+    // is movable, for only movable objects can be hidden without meshing the scene anew.
     std::shared_ptr<Transform> makeTransform(const UsdAttributes& attributes, const Place& parent,
                                              Place& place) {
         const UsdPrim& prim = attributes.prim();
         UsdLocalTransform local;
         if (isXformable(prim.typeName)) local = usdLocalTransform(attributes, warnings_);
-        const bool movable = local.animated || attributes.flag("penumbra:movable", false);
+        const bool movable =
+            local.animated || comesAndGoes(prim) || attributes.flag("penumbra:movable", false);
         if (prim.typeName != "Xform" && !local.authored && !movable) return nullptr;
         if (local.resetsStack) local.matrix = relativeToParent(local, parent.toWorld);
         auto transform = std::make_shared<Transform>(prim.name);
@@ -174,7 +177,15 @@ private:
         place.container = transform;
         if (!transform) place.container = std::make_shared<Group>(prim.name);
         if (leaf) place.container->add(leaf);
-        parent.container->add(place.container);
+        parent.container->add(comesAndGoes(prim) ? makeSwitch(prim, place) : place.container);
+    }
+
+    NodePtr makeSwitch(const UsdPrim& prim, const Place& place) {
+        auto choice = std::make_shared<Switch>(prim.name);
+        choice->add(place.container);
+        choice->setVisible(!usdHidden(UsdAttributes(prim, time_)));
+        tracks_.addSwitch(choice, prim);
+        return choice;
     }
 
     UsdStage& stage_;

@@ -41,13 +41,22 @@ bool equal(const Lens& a, const Lens& b) {
 
 } // namespace
 
+bool usdHidden(const UsdAttributes& attributes) {
+    return attributes.text("visibility", "inherited") == "invisible";
+}
+
 bool UsdTracks::empty() const {
-    return transforms_.empty() && lights_.empty() && cameras_.empty() && materials_.empty();
+    return transforms_.empty() && switches_.empty() && lights_.empty() && cameras_.empty() &&
+           materials_.empty();
 }
 
 void UsdTracks::addTransform(std::shared_ptr<Transform> node, const UsdPrim& prim,
                              const glm::dmat4& parentToWorld) {
     if (changes(prim, "xformOp:")) transforms_.push_back({std::move(node), &prim, parentToWorld});
+}
+
+void UsdTracks::addSwitch(std::shared_ptr<Switch> node, const UsdPrim& prim) {
+    switches_.push_back({std::move(node), &prim});
 }
 
 void UsdTracks::addLight(const NodePtr& node, const UsdPrim& prim, const glm::dmat4& toWorld) {
@@ -76,6 +85,10 @@ void UsdTracks::setTime(double timeCode) {
         const glm::dmat4 matrix =
             local.resetsStack ? relativeToParent(local, track.parentToWorld) : local.matrix;
         if (matrix != track.node->matrix()) track.node->setMatrix(matrix);
+    }
+    for (const SwitchTrack& track : switches_) {
+        const bool visible = !usdHidden(UsdAttributes(*track.prim, timeCode));
+        if (visible != track.node->visible()) track.node->setVisible(visible);
     }
     for (const LightTrack& track : lights_) {
         const UsdAttributes attributes(*track.prim, timeCode);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/UsdAnimation.h"
+#include "io/UsdAttributes.h"
 #include "io/UsdMaterial.h"
 #include "io/UsdStage.h"
 #include "scenegraph/Camera.h"
@@ -14,6 +15,9 @@
 
 namespace penumbra {
 
+/// Whether a prim's visibility says that it and all below it is hidden.
+bool usdHidden(const UsdAttributes& attributes);
+
 /// Remembers which prim each changing node came from, and reads those prims again at other times.
 class UsdTracks : public UsdAnimation {
 public:
@@ -24,6 +28,8 @@ public:
     /// Each remembers a node if its prim changes with time. Frames as in makeUsdLight().
     void addTransform(std::shared_ptr<Transform> node, const UsdPrim& prim,
                       const glm::dmat4& parentToWorld);
+    /// \param node hides what `prim` became; always remembered
+    void addSwitch(std::shared_ptr<Switch> node, const UsdPrim& prim);
     /// \param node a Light, or the Mesh that stands for a CylinderLight
     void addLight(const NodePtr& node, const UsdPrim& prim, const glm::dmat4& toWorld);
     void addCamera(std::shared_ptr<Camera> node, const UsdPrim& prim);
@@ -42,6 +48,10 @@ private:
         const UsdPrim* prim;
         glm::dmat4 toWorld;
     };
+    struct SwitchTrack {
+        std::shared_ptr<Switch> node;
+        const UsdPrim* prim;
+    };
     struct CameraTrack {
         std::shared_ptr<Camera> node;
         const UsdPrim* prim;
@@ -53,6 +63,7 @@ private:
 
     std::shared_ptr<const UsdStage> stage_; // the prims live in it
     std::vector<TransformTrack> transforms_;
+    std::vector<SwitchTrack> switches_;
     std::vector<LightTrack> lights_;
     std::vector<CameraTrack> cameras_;
     std::vector<MaterialTrack> materials_;
