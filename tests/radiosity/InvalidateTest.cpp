@@ -1,5 +1,6 @@
 // Light that a region concerns is evaluated anew on request.
 #include "tests/support/EditedScenes.h"
+#include "tests/support/LitDifference.h"
 
 #include <gtest/gtest.h>
 

@@ -1,72 +1,119 @@
 #include "tests/support/EditedScenes.h"
 
-#include <cmath>
-#include <map>
-#include <numbers>
-#include <sstream>
+#include <algorithm>
 
 namespace penumbra {
 
 namespace {
 
-glm::dmat4 turned(double angle, glm::dvec3 axis) {
-    return glm::rotate(glm::dmat4(1.0), angle, axis);
+// Lengths are sums of powers of two where things are to touch to the last bit.
+constexpr glm::dvec3 kRoom(3, 2.5, 2);
+constexpr glm::dvec3 kTableLower(1.125, 0.75, 0), kTableUpper(1.75, 1.5, 0.625);
+
+std::shared_ptr<Mesh> meshOf(MeshData data) {
+    return std::make_shared<Mesh>("mesh", std::move(data));
 }
 
 std::shared_ptr<Mesh> block(glm::vec3 size, std::shared_ptr<Material> material) {
-    return std::make_shared<Mesh>("mesh",
-                                  boxData(-0.5f * size, 0.5f * size, false, std::move(material)));
+    return meshOf(boxData(-0.5f * size, 0.5f * size, false, std::move(material)));
 }
 
 std::shared_ptr<Mesh> plate(float width, float depth, std::shared_ptr<Material> material) {
     MeshData data = floorData(-width / 2, width / 2, -depth / 2, depth / 2, 0, std::move(material));
     data.doubleSided = true;
-    return std::make_shared<Mesh>("mesh", std::move(data));
+    return meshOf(std::move(data));
+}
+
+std::shared_ptr<Mesh> pebble(glm::vec3 cage, std::shared_ptr<Material> material) {
+    MeshData data = boxData(-0.5f * cage, 0.5f * cage, false, std::move(material));
+    data.scheme = SubdivisionScheme::catmullClark;
+    return meshOf(std::move(data));
+}
+
+glm::dmat4 stretched(double x, double y, double z) {
+    return glm::scale(glm::dmat4(1.0), glm::dvec3(x, y, z));
+}
+
+/// Quarter turns about z, exact.
+glm::dmat4 quarterTurned(std::size_t quarters) {
+    constexpr double kCosine[] = {1, 0, -1, 0};
+    const double c = kCosine[quarters % 4], s = kCosine[(quarters + 3) % 4];
+    glm::dmat4 turn(1.0);
+    turn[0] = {c, s, 0, 0};
+    turn[1] = {-s, c, 0, 0};
+    return turn;
+}
+
+glm::dmat4 turned(double angle, glm::dvec3 axis) {
+    return glm::rotate(glm::dmat4(1.0), angle, axis);
 }
 
 } // namespace
 
 EditableRoom::EditableRoom(std::uint32_t seed) : random_(seed) {
-    const auto paintOf = [&] {
-        paints_.push_back(paint({float(uniform(0.1, 0.8)), float(uniform(0.1, 0.8)), 0.5f}));
-        return paints_.back();
-    };
-    scene_.root->add(object("room", boxData({0, 0, 0}, {3, 2.4f, 2}, true, paintOf())));
-    scene_.root->add(
-        object("table", boxData({1.1f, 0.8f, 0}, {1.7f, 1.5f, 0.6f}, false, paintOf())));
-    auto lamp = std::make_shared<Light>("light", RectShape{0.6f, 0.4f}, Rgb(10));
-    lights_.push_back(lamp);
-    scene_.root->add(placed("ceilingLamp", moved(1.5, 1.2, 1.95), {lamp}));
-
-    addMovable("box", block({0.4f, 0.5f, 0.6f}, paintOf()));
-    const auto shared = block({0.3f, 0.3f, 0.3f}, paintOf());
-    addMovable("left", shared);
-    addMovable("right", shared);
-    addMovable("plate", plate(0.7f, 0.5f, paintOf()));
-    const auto small = std::make_shared<Light>("light", RectShape{0.2f, 0.2f}, Rgb(30));
-    lights_.push_back(small);
-    const auto head = make<Group>("head", {small});
-    head->add(placed("housing", moved(0, 0, 0.06), {block({0.26f, 0.26f, 0.1f}, paintOf())}));
-    addMovable("lamp", head);
-    // Below a frame that stretches: what is movable in it is rigid in the world all the same.
-    const auto frame = placed("frame", scaled(0.5), {});
-    const auto inside = movable("inside", {block({0.8f, 0.6f, 0.4f}, paintOf())});
-    frame->add(inside);
-    scene_.root->add(frame);
-    things_.push_back(inside);
-    for (const auto& thing : things_) {
-        thing->setMatrix(anywhere());
-        home_.push_back(thing->matrix());
+    addFixed();
+    addThings();
+    for (Thing& thing : things_) {
+        place(thing, anywhere(thing));
+        thing.home = thing.place;
+        if (below(6) == 0) thing.choice->setVisible(false);
     }
 }
 
-std::shared_ptr<Transform> EditableRoom::addMovable(const std::string& name, NodePtr content) {
-    auto thing = movable(name, {std::move(content)});
-    auto choice = make<Switch>(name + "Switch", {thing});
-    scene_.root->add(choice);
-    things_.push_back(thing);
-    switches_.push_back(choice);
-    return thing;
+void EditableRoom::addFixed() {
+    scene_.root->add(object("room", boxData({0, 0, 0}, glm::vec3(kRoom), true, newPaint())));
+    table_ = placed(
+        "table", glm::dmat4(1.0),
+        {meshOf(boxData(glm::vec3(kTableLower), glm::vec3(kTableUpper), false, newPaint()))});
+    scene_.root->add(table_);
+    scene_.root->add(
+        placed("ceilingLamp", moved(1.5, 1.25, 1.95), {newLight(RectShape{0.6f, 0.4f}, 10)}));
+    scene_.root->add(placed("wallLamp", moved(0.05, 1, 1) * turned(-1.5707963267948966, {0, 1, 0}),
+                            {newLight(DiskShape{0.2f}, 8)}));
+}
+
+void EditableRoom::addThings() {
+    addThing("box", {block({0.375f, 0.5f, 0.625f}, newPaint())}, {0.1875, 0.25, 0.3125});
+    const auto shared = block(glm::vec3(0.25f), newPaint());
+    addThing("left", {shared}, glm::dvec3(0.125));
+    addThing("right", {shared}, glm::dvec3(0.125));
+    addThing("plate", {plate(0.75f, 0.5f, newPaint())}, {0.375, 0.25, 0});
+    addThing("pebble", {pebble(glm::vec3(0.5f), newPaint())}, glm::dvec3(0.17));
+    const auto head = make<Group>("head", {newLight(RectShape{0.2f, 0.2f}, 30)});
+    head->add(placed("housing", moved(0, 0, 0.06), {block({0.26f, 0.26f, 0.1f}, newPaint())}));
+    addThing("lamp", {head}, {0.13, 0.13, 0.11});
+    things_.back().shines = true;
+    addThing("bulb", {newLight(SphereShape{0.06f}, 60)}, glm::dvec3(0.06));
+    things_.back().shines = true;
+    shining_.push_back(paint(Rgb(0.3f), {6, 4, 2}));
+    addThing("glow", {block({0.3f, 0.2f, 0.1f}, shining_.back())}, {0.15, 0.1, 0.05});
+    things_.back().shines = true;
+    // Below frames that stretch: what is movable in them is rigid in the world all the same.
+    addThing("halved", {block({0.75f, 0.5f, 0.5f}, newPaint())}, {0.1875, 0.125, 0.125},
+             stretched(0.5, 0.5, 0.5));
+    addThing("mirrored", {block({0.5f, 0.25f, 0.25f}, newPaint())}, {0.125, 0.125, 0.25},
+             stretched(-0.5, 1, 2));
+}
+
+void EditableRoom::addThing(const std::string& name, std::initializer_list<NodePtr> content,
+                            glm::dvec3 half, const glm::dmat4& frame) {
+    const auto thing = movable(name, content);
+    const auto choice = make<Switch>(name + "Switch", {thing});
+    things_.push_back({thing, choice, frame, half, {}, {}});
+    if (frame == glm::dmat4(1.0))
+        scene_.root->add(choice);
+    else
+        scene_.root->add(placed(name + "Frame", frame, {choice}));
+}
+
+std::shared_ptr<Material> EditableRoom::newPaint() {
+    paints_.push_back(paint({float(uniform(0.1, 0.8)), float(uniform(0.1, 0.8)), 0.5f}));
+    return paints_.back();
+}
+
+std::shared_ptr<Light> EditableRoom::newLight(LightShape shape, float nits) {
+    lights_.push_back(std::make_shared<Light>("light", shape, Rgb(nits)));
+    return lights_.back();
 }
 
 double EditableRoom::uniform(double low, double high) {
@@ -77,154 +124,84 @@ std::size_t EditableRoom::below(std::size_t count) {
     return random_() % count;
 }
 
-/// In the room, through its walls, on the floor or on the table.
-glm::dmat4 EditableRoom::anywhere() {
-    glm::dvec3 place(uniform(-0.2, 3.2), uniform(-0.2, 2.6), uniform(0.2, 1.7));
-    const std::size_t how = below(4);
-    if (how == 0) place.z = 0.15; // what is 0.3 high stands on the floor
-    if (how == 1) place = {uniform(1.1, 1.7), uniform(0.8, 1.5), 0.75};
-    glm::dmat4 pose = moved(place.x, place.y, place.z);
-    if (below(2) == 0) pose = pose * turned(uniform(0, 6.28), {0, 0, 1});
-    if (below(4) == 0) pose = pose * turned(uniform(0, 6.28), {1, 0, 0});
-    return pose;
+void EditableRoom::place(Thing& thing, const glm::dmat4& where) {
+    thing.place = where;
+    thing.node->setMatrix(glm::inverse(thing.frame) * where * thing.frame);
+}
+
+/// In the room, through its walls, or in contact with something.
+glm::dmat4 EditableRoom::anywhere(const Thing& thing) {
+    const std::size_t quarters = below(4);
+    glm::dvec3 half = thing.half;
+    if (quarters % 2 == 1) std::swap(half.x, half.y);
+    glm::dvec3 at(uniform(-0.2, 3.2), uniform(-0.2, 2.7), uniform(0.2, 1.7));
+    switch (below(4)) {
+    case 0: // on the floor
+        at.z = half.z;
+        break;
+    case 1: // on the table, over its edge perhaps
+        at = {uniform(1.1, 1.8), uniform(0.7, 1.5), kTableUpper.z + half.z};
+        break;
+    default: // free, at any angle
+        return moved(at.x, at.y, at.z) * turned(uniform(0, 6.28), {0, 0, 1}) *
+               turned(below(2) == 0 ? uniform(0, 6.28) : 0, {1, 0, 0});
+    }
+    return moved(at.x, at.y, at.z) * quarterTurned(quarters);
 }
 
 std::string EditableRoom::edit() {
-    std::ostringstream said;
-    for (std::size_t again = 0; again < 1 + (below(4) == 0 ? 2u : 0u); ++again) {
-        const std::size_t i = below(things_.size());
-        switch (below(9)) {
-        case 0: {
-            const std::size_t s = below(switches_.size());
-            switches_[s]->setVisible(!switches_[s]->visible());
-            said << "switch " << switches_[s]->name() << "; ";
-            break;
-        }
-        case 1:
-            lights_[below(lights_.size())]->setLuminance(
-                below(3) == 0 ? Rgb() : Rgb(float(uniform(1, 40)), float(uniform(1, 40)), 5));
-            said << "luminance; ";
-            break;
-        case 2:
-            paints_[below(paints_.size())]->setReflectance(
-                {float(uniform(0, 0.85)), float(uniform(0, 0.85)), float(uniform(0, 0.85))});
-            said << "paint; ";
-            break;
-        case 3:
-            things_[i]->setMatrix(home_[i]);
-            said << things_[i]->name() << " home; ";
-            break;
-        case 4: // a nudge
-            things_[i]->setMatrix(moved(uniform(-0.05, 0.05), uniform(-0.05, 0.05), 0) *
-                                  things_[i]->matrix());
-            said << things_[i]->name() << " nudged; ";
-            break;
-        default:
-            things_[i]->setMatrix(anywhere());
-            said << things_[i]->name() << " moved; ";
-        }
+    std::string said;
+    for (std::size_t left = below(4) == 0 ? 1 + below(5) : 1; left > 0; --left) {
+        Thing& thing = things_[below(things_.size())];
+        const std::size_t what = below(10);
+        said += what < 6 ? editThing(thing) : what < 8 ? editColour() : editGraph(thing);
     }
-    return said.str();
+    return said;
 }
 
-namespace {
-
-struct Comparison {
-    const PatchSet& a;
-    const PatchSet& b;
-    std::ostringstream said;
-    int differences = 0;
-
-    template <class... Text>
-    bool expect(bool same, const Text&... text) {
-        if (same) return true;
-        if (++differences <= 5) ((said << text), ..., (said << "\n"));
-        return false;
+std::string EditableRoom::editThing(Thing& thing) {
+    const std::size_t how = below(6);
+    if (how == 0) {
+        place(thing, thing.home);
+        return thing.node->name() + " home; ";
     }
-};
-
-bool sameVisibility(const RowBlock::Entry& a, const RowBlock::Entry& b) {
-    return a.present == b.present && a.formFactor == b.formFactor && a.visible == b.visible &&
-           a.visibility == b.visibility;
+    if (how == 1) {
+        place(thing, moved(uniform(-0.05, 0.05), uniform(-0.05, 0.05), 0) * thing.place);
+        return thing.node->name() + " nudged; ";
+    }
+    place(thing, anywhere(thing));
+    return thing.node->name() + " moved; ";
 }
 
-RowBlock::Entry entryOf(const Row& row, std::uint32_t receiver) {
-    return row[receiver / PatchSet::kBlock].entry(int(receiver % PatchSet::kBlock));
-}
-
-void compareDirect(Comparison& with, const Row& a, const Row& b, const ObjectPart& pa,
-                   const ObjectPart& pb, const std::string& emitter) {
-    for (std::uint32_t i = 0; i < pa.elements.count; ++i) {
-        const std::uint32_t ea = pa.elements.first + i, eb = pb.elements.first + i;
-        if (!with.expect(with.a.receives(ea) == with.b.receives(eb), pa.path, " element ", i,
-                         " covered in one only"))
-            continue;
-        if (!with.a.receives(ea)) continue;
-        for (std::size_t k = 0; k < 4; ++k) {
-            const std::uint32_t va = with.a.elements[ea].vertices[k];
-            const std::uint32_t vb = with.b.elements[eb].vertices[k];
-            const glm::vec3 one = with.a.vertices[va].receiver.position,
-                            other = with.b.vertices[vb].receiver.position;
-            with.expect(one == other, pa.path, " element ", i, " corner ", k, " is lit at ", one.x,
-                        " ", one.y, " ", one.z, " against ", other.x, " ", other.y, " ", other.z);
-            const auto seenA = entryOf(a, va), seenB = entryOf(b, vb);
-            with.expect(sameVisibility(seenA, seenB), emitter, " onto ", pa.path, " element ", i,
-                        " corner ", k, ": ", seenA.formFactor, " ", std::hex, seenA.visible,
-                        " against ", seenB.formFactor, " ", seenB.visible, std::dec);
-        }
+std::string EditableRoom::editColour() {
+    const auto any = [&](double low, double high) {
+        return Rgb(float(uniform(low, high)), float(uniform(low, high)), float(uniform(low, high)));
+    };
+    switch (below(3)) {
+    case 0:
+        lights_[below(lights_.size())]->setLuminance(below(3) == 0 ? Rgb() : any(1, 40));
+        return "luminance; ";
+    case 1: // never dark: from scratch it would be no emitter at all
+        shining_[below(shining_.size())]->setEmission(any(0.1, 20));
+        return "emission; ";
+    default:
+        paints_[below(paints_.size())]->setReflectance(below(6) == 0 ? Rgb() : any(0, 0.85));
+        return "paint; ";
     }
 }
 
-} // namespace
-
-std::string difference(const LitScene& one, const LitScene& other) {
-    Comparison with{one.patches(), other.patches(), {}};
-    std::map<std::string, const ObjectPart*> parts;
-    for (const ObjectPart& part : with.b.objects) parts[part.path] = &part;
-    const double allowed =
-        one.solver().statistics().certificate + other.solver().statistics().certificate + 1e-4;
-    const auto ra = one.solver().radiosity(), rb = other.solver().radiosity();
-    const auto rowsA = one.solver().patchRows(), rowsB = other.solver().patchRows();
-    for (const ObjectPart& pa : with.a.objects) {
-        if (!with.expect(parts.count(pa.path) == 1, pa.path, " is missing")) continue;
-        const ObjectPart& pb = *parts[pa.path];
-        with.expect(pa.present == pb.present, pa.path, " is there in one only");
-        if (!with.expect(
-                pa.elements.count == pb.elements.count && pa.patches.count == pb.patches.count &&
-                    pa.nodes.count == pb.nodes.count && pa.emitters.count == pb.emitters.count,
-                pa.path, " is meshed in another way") ||
-            !pa.present)
-            continue;
-        for (const ObjectPart& sa : with.a.objects) {
-            const ObjectPart& sb = *parts[sa.path];
-            if (!sa.present) continue;
-            for (std::uint32_t i = 0; i < sa.emitters.count; ++i)
-                compareDirect(with, one.solver().emitterRows()[sa.emitters.first + i],
-                              other.solver().emitterRows()[sb.emitters.first + i], pa, pb, sa.path);
-            for (std::uint32_t i = 0; i < sa.patches.count && !rowsA.empty(); ++i) {
-                const Row& a = rowsA[sa.patches.first + i];
-                const Row& b = rowsB[sb.patches.first + i];
-                if (a.empty() || b.empty()) continue;
-                for (std::uint32_t n = 0; n < pa.nodes.count; ++n) {
-                    const auto ea = entryOf(a, pa.nodes.first + n);
-                    const auto eb = entryOf(b, pb.nodes.first + n);
-                    with.expect(sameVisibility(ea, eb), sa.path, " patch ", i, " onto ", pa.path,
-                                " node ", n, ": ", ea.formFactor, " ", std::hex, ea.visible,
-                                " against ", eb.formFactor, " ", eb.visible, std::dec);
-                }
-            }
-        }
+std::string EditableRoom::editGraph(Thing& thing) {
+    if (below(16) == 0) { // rare: it takes as long as from scratch
+        table_->setMatrix(moved(uniform(-0.1, 0.1), 0, 0));
+        return "table moved; ";
     }
-    for (const ObjectPart& pa : with.a.objects) { // what follows from the rest comes last
-        const ObjectPart& pb = *parts[pa.path];
-        for (std::uint32_t p = 0; with.differences == 0 && p < pa.patches.count; ++p) {
-            const Rgb a = ra[pa.patches.first + p], b = rb[pb.patches.first + p];
-            with.expect(maxChannel(absolute(a - b)) <= allowed, pa.path, " patch ", p, " sends ",
-                        a.g, " against ", b.g, " of +-", allowed);
-        }
+    // A lamp that is taken out of a closed thing leaves it solid, one that is hidden does not.
+    if (!thing.shines && below(3) == 0) {
+        if (!thing.choice->remove(thing.node)) thing.choice->add(thing.node);
+        return thing.node->name() + (thing.choice->children().empty() ? " removed; " : " added; ");
     }
-    if (with.differences > 5) with.said << "and " << with.differences - 5 << " more\n";
-    return with.said.str();
+    thing.choice->setVisible(!thing.choice->visible());
+    return thing.node->name() + (thing.choice->visible() ? " shown; " : " hidden; ");
 }
 
 } // namespace penumbra

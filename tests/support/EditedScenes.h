@@ -1,4 +1,4 @@
-// Random rooms, random edits, and the comparison with a scene that is lit from scratch.
+// Random rooms and random edits.
 #pragma once
 
 #include "radiosity/LitScene.h"
@@ -12,8 +12,10 @@
 
 namespace penumbra {
 
-/// A room with things that move, made from a seed: boxes and plates that touch and overlap, an
-/// instanced pair, one below a scaled parent, lamps with housings, switches.
+/// A room with things that move, made from a seed: boxes and plates, an instanced pair, a
+/// subdivision surface, things below scaled and mirrored parents, lamps of all shapes with and
+/// without housings, a shining mesh; some hidden at first. Edits place them anywhere in the room,
+/// through its walls, on the floor and on the table.
 class EditableRoom {
 public:
     explicit EditableRoom(std::uint32_t seed);
@@ -22,25 +24,37 @@ public:
     std::string edit();
 
     const Scene& scene() const { return scene_; }
-    static constexpr MeshingOptions meshing() { return {.patchSize = 0.7f, .elementSize = 0.24f}; }
+    static constexpr MeshingOptions meshing() { return {.patchSize = 0.9f, .elementSize = 0.3f}; }
 
 private:
-    std::shared_ptr<Transform> addMovable(const std::string& name, NodePtr content);
-    glm::dmat4 anywhere();
+    struct Thing {
+        std::shared_ptr<Transform> node;
+        std::shared_ptr<Switch> choice;   ///< hides it
+        glm::dmat4 frame;                 ///< of its parent, a stretch
+        glm::dvec3 half;                  ///< half its size when it stands upright [m]
+        glm::dmat4 place{1.0}, home{1.0}; ///< rigid, in the world
+        bool shines = false;
+    };
+    std::shared_ptr<Material> newPaint();
+    std::shared_ptr<Light> newLight(LightShape shape, float nits);
+    void addFixed();
+    void addThings();
+    void addThing(const std::string& name, std::initializer_list<NodePtr> content, glm::dvec3 half,
+                  const glm::dmat4& frame = glm::dmat4(1.0));
+    void place(Thing& thing, const glm::dmat4& where);
+    glm::dmat4 anywhere(const Thing& thing);
+    std::string editThing(Thing& thing);
+    std::string editColour();
+    std::string editGraph(Thing& thing);
     double uniform(double low, double high);
     std::size_t below(std::size_t count);
 
     std::mt19937 random_;
     Scene scene_;
-    std::vector<std::shared_ptr<Transform>> things_;
-    std::vector<glm::dmat4> home_; ///< a pose to come back to
-    std::vector<std::shared_ptr<Switch>> switches_;
+    std::vector<Thing> things_;
+    std::shared_ptr<Transform> table_; ///< fixed: an edit of it meshes anew
     std::vector<std::shared_ptr<Light>> lights_;
-    std::vector<std::shared_ptr<Material>> paints_;
+    std::vector<std::shared_ptr<Material>> paints_, shining_;
 };
-
-/// What differs between two lit scenes of the same things, object by object: empty if visibility is
-/// the same bit for bit and radiosity agrees within both certificates.
-std::string difference(const LitScene& a, const LitScene& b);
 
 } // namespace penumbra

@@ -1,0 +1,118 @@
+#include "tests/support/LitDifference.h"
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+namespace penumbra {
+
+namespace {
+
+struct Comparison {
+    const PatchSet& a;
+    const PatchSet& b;
+    std::ostringstream said;
+    int differences = 0;
+
+    template <class... Text>
+    bool expect(bool same, const Text&... text) {
+        if (same) return true;
+        if (++differences <= 5) ((said << text), ..., (said << "\n"));
+        return false;
+    }
+};
+
+bool sameVisibility(const RowBlock::Entry& a, const RowBlock::Entry& b) {
+    return a.present == b.present && a.formFactor == b.formFactor && a.visible == b.visible &&
+           a.visibility == b.visibility;
+}
+
+RowBlock::Entry entryOf(const Row& row, std::uint32_t receiver) {
+    return row[receiver / PatchSet::kBlock].entry(int(receiver % PatchSet::kBlock));
+}
+
+void compareDirect(Comparison& with, const Row& a, const Row& b, const ObjectPart& pa,
+                   const ObjectPart& pb, const std::string& emitter) {
+    for (std::uint32_t i = 0; i < pa.elements.count; ++i) {
+        const std::uint32_t ea = pa.elements.first + i, eb = pb.elements.first + i;
+        if (!with.expect(with.a.receives(ea) == with.b.receives(eb), pa.path, " element ", i,
+                         " covered in one only"))
+            continue;
+        if (!with.a.receives(ea)) continue;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::uint32_t va = with.a.elements[ea].vertices[k];
+            const std::uint32_t vb = with.b.elements[eb].vertices[k];
+            const glm::vec3 one = with.a.vertices[va].receiver.position,
+                            other = with.b.vertices[vb].receiver.position;
+            with.expect(one == other, pa.path, " element ", i, " corner ", k, " is lit at ", one.x,
+                        " ", one.y, " ", one.z, " against ", other.x, " ", other.y, " ", other.z);
+            const auto seenA = entryOf(a, va), seenB = entryOf(b, vb);
+            with.expect(sameVisibility(seenA, seenB), emitter, " onto ", pa.path, " element ", i,
+                        " corner ", k, ": ", seenA.formFactor, " ", std::hex, seenA.visible,
+                        " against ", seenB.formFactor, " ", seenB.visible, std::dec);
+        }
+    }
+}
+
+} // namespace
+
+std::string difference(const LitScene& one, const LitScene& other) {
+    Comparison with{one.patches(), other.patches(), {}};
+    std::map<std::string, const ObjectPart*> parts;
+    for (const ObjectPart& part : with.b.objects) parts[part.path] = &part;
+    for (const ObjectPart& part : with.b.objects)
+        with.expect(!part.present ||
+                        std::any_of(with.a.objects.begin(), with.a.objects.end(),
+                                    [&](const ObjectPart& p) { return p.path == part.path; }),
+                    part.path, " is in one only");
+    const double allowed =
+        one.solver().statistics().certificate + other.solver().statistics().certificate + 1e-4;
+    const auto ra = one.solver().radiosity(), rb = other.solver().radiosity();
+    const auto rowsA = one.solver().patchRows(), rowsB = other.solver().patchRows();
+    for (const ObjectPart& pa : with.a.objects) {
+        if (parts.count(pa.path) == 0) {
+            with.expect(!pa.present, pa.path, " is missing");
+            continue;
+        }
+        const ObjectPart& pb = *parts[pa.path];
+        with.expect(pa.present == pb.present, pa.path, " is there in one only");
+        if (!with.expect(
+                pa.elements.count == pb.elements.count && pa.patches.count == pb.patches.count &&
+                    pa.nodes.count == pb.nodes.count && pa.emitters.count == pb.emitters.count,
+                pa.path, " is meshed in another way") ||
+            !pa.present)
+            continue;
+        for (const ObjectPart& sa : with.a.objects) {
+            if (!sa.present || parts.count(sa.path) == 0) continue;
+            const ObjectPart& sb = *parts[sa.path];
+            for (std::uint32_t i = 0; i < sa.emitters.count; ++i)
+                compareDirect(with, one.solver().emitterRows()[sa.emitters.first + i],
+                              other.solver().emitterRows()[sb.emitters.first + i], pa, pb, sa.path);
+            for (std::uint32_t i = 0; i < sa.patches.count && !rowsA.empty(); ++i) {
+                const Row& a = rowsA[sa.patches.first + i];
+                const Row& b = rowsB[sb.patches.first + i];
+                if (a.empty() || b.empty()) continue;
+                for (std::uint32_t n = 0; n < pa.nodes.count; ++n) {
+                    const auto ea = entryOf(a, pa.nodes.first + n);
+                    const auto eb = entryOf(b, pb.nodes.first + n);
+                    with.expect(sameVisibility(ea, eb), sa.path, " patch ", i, " onto ", pa.path,
+                                " node ", n, ": ", ea.formFactor, " ", std::hex, ea.visible,
+                                " against ", eb.formFactor, " ", eb.visible, std::dec);
+                }
+            }
+        }
+    }
+    for (const ObjectPart& pa : with.a.objects) { // what follows from the rest comes last
+        if (with.differences > 0 || parts.count(pa.path) == 0) continue;
+        const ObjectPart& pb = *parts[pa.path];
+        for (std::uint32_t p = 0; with.differences == 0 && p < pa.patches.count; ++p) {
+            const Rgb a = ra[pa.patches.first + p], b = rb[pb.patches.first + p];
+            with.expect(maxChannel(absolute(a - b)) <= allowed, pa.path, " patch ", p, " sends ",
+                        a.g, " against ", b.g, " of +-", allowed);
+        }
+    }
+    if (with.differences > 5) with.said << "and " << with.differences - 5 << " more\n";
+    return with.said.str();
+}
+
+} // namespace penumbra
