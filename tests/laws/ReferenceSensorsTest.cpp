@@ -1,7 +1,9 @@
 // Light in whole rooms against an independent path tracer (tests/data/*_truth.csv), which Radiance
 // confirms to 0.04 %: the bounds that people are promised, as drawn and gathered.
+#include "io/UsdAnimation.h"
 #include "io/UsdScene.h"
 #include "radiosity/Contact.h"
+#include "radiosity/DetailGather.h"
 #include "radiosity/LitSurface.h"
 #include "radiosity/PointGather.h"
 #include "tests/support/Reference.h"
@@ -23,30 +25,19 @@ std::ostream& operator<<(std::ostream& out, const Room& room) {
     return out << room.scene;
 }
 
-class ReferenceRoom : public testing::TestWithParam<Room> {
-protected:
-    ReferenceRoom()
-        : solution(*loadUsdScene(dataFile(GetParam().scene)).scene,
-                   {.patchSize = GetParam().patchSize, .elementSize = GetParam().elementSize}),
-          sensors(readTruth(GetParam().truth)) {
-        for (const TruthSensor& sensor : sensors) truth.push_back(sensor.all);
-    }
-
-    Solution solution;
-    std::vector<TruthSensor> sensors;
-    std::vector<Rgb> truth; ///< of the sensors
-};
-
-TEST_P(ReferenceRoom, IsMetAsDrawnAndGathered) {
-    const LitSurface surface(solution.patches(), solution.lighting);
-    const PointGather point(solution.patches(), solution.rays, solution.lighting);
-    std::vector<Rgb> drawn, gathered;
-    const PatchSet& patches = solution.patches();
+/// As `penumbra solve` reads them: what is buried is dark, what is covered is not drawn.
+void expectMet(const LitScene& lit, const std::vector<TruthSensor>& sensors) {
+    const PatchSet& patches = lit.patches();
+    Lighting lighting = lit.solver().lighting();
+    DetailGather(patches).apply(lit.solver().nodeIlluminance(), lighting);
+    const LitSurface surface(patches, lighting);
+    const PointGather point(patches, lit.rays(), lighting);
+    std::vector<Rgb> drawn, gathered, truth;
     for (const TruthSensor& sensor : sensors) {
+        truth.push_back(sensor.all);
         Receiver lifted = sensor.receiver;
         lifted.position += patches.skin * lifted.normal;
-        // As `penumbra solve` does it: what is buried is dark, what is covered is not drawn.
-        const Lie lie = lieOf(solution.rays, patches.rayMeshes, lifted.position, lifted.normal,
+        const Lie lie = lieOf(lit.rays(), patches.rayMeshes, lifted.position, lifted.normal,
                               coverDistance(patches.elementSize, patches.skin));
         gathered.push_back(lie == Lie::buried ? Rgb()
                                               : point.direct(lifted) + point.indirect(lifted));
@@ -64,16 +55,41 @@ TEST_P(ReferenceRoom, IsMetAsDrawnAndGathered) {
     EXPECT_LT(std::abs(asGathered.bias), 0.005);
 }
 
+class ReferenceRoom : public testing::TestWithParam<Room> {};
+
+TEST_P(ReferenceRoom, IsMetAsDrawnAndGathered) {
+    const Solution solution(
+        *loadUsdScene(dataFile(GetParam().scene)).scene,
+        {.patchSize = GetParam().patchSize, .elementSize = GetParam().elementSize});
+    expectMet(solution.lit, readTruth(GetParam().truth));
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Rooms, ReferenceRoom,
     testing::Values(Room{"cornell.usda", "cornell_truth.csv", 0.03f, 0.0075f},
                     Room{"emptybox.usda", "emptybox_truth.csv", 0.3f, 0.075f},
                     Room{"emptybox_rectlight.usda", "emptybox_truth.csv", 0.3f, 0.075f},
-                    Room{"tworoom_pos0.usda", "tworoom_pos0_truth.csv", 0.3f, 0.075f}),
+                    Room{"tworoom_anim.usda", "tworoom_pos0_truth.csv", 0.3f, 0.075f}),
     [](const auto& room) {
         const std::string scene = room.param.scene;
         return scene.substr(0, scene.find('.'));
     });
+
+TEST(ReferenceRooms, AreMetAfterAMoveAndAfterItIsTakenBack) {
+    const LoadedScene loaded = loadUsdScene(dataFile("tworoom_anim.usda"));
+    // Relaxed further than a picture needs: the second room is dim, and lit by what is owed
+    // longest.
+    LitScene lit(placeScene(*loaded.scene), {.patchSize = 0.3f, .elementSize = 0.075f},
+                 {.residual = 1e-5});
+    lit.solver().settle();
+    for (const int frame : {1, 0}) {
+        loaded.animation->setTime(frame);
+        EXPECT_FALSE(lit.follow(placeScene(*loaded.scene)).rebuilt);
+        lit.solver().settle();
+        SCOPED_TRACE(frame);
+        expectMet(lit, readTruth(frame == 0 ? "tworoom_pos0_truth.csv" : "tworoom_pos1_truth.csv"));
+    }
+}
 
 } // namespace
 
