@@ -1,0 +1,114 @@
+// Colours and luminances move no form factor: taking them in traces no ray.
+#include "tests/support/Scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace penumbra {
+
+namespace {
+
+/// A room with a lamp that shines and one that is off, a shining panel, a black box and a screen.
+struct PaintedRoom {
+    std::shared_ptr<Material> walls = paint({0.7f, 0.5f, 0.3f}), black = paint(Rgb()),
+                              panel = paint(Rgb(0.2f), Rgb(5));
+    std::shared_ptr<Light> lamp = std::make_shared<Light>("light", RectShape{0.6f, 0.4f}, Rgb(10));
+    std::shared_ptr<Light> off = std::make_shared<Light>("light", SphereShape{0.1f}, Rgb());
+    Scene scene = sceneOf(
+        {object("room", boxData({-1, -1, -1}, {1, 1, 1}, true, walls)),
+         movable("box",
+                 {std::make_shared<Mesh>(
+                     "mesh", boxData({-0.5f, -0.3f, -1}, {0.1f, 0.4f, -0.2f}, false, black))}),
+         object("screen", floorData(0.3f, 0.9f, -0.5f, 0.5f, 0.1f)),
+         object("panel", floorData(-0.9f, -0.6f, -0.5f, 0.5f, -0.9f, panel)),
+         placed("lamp", moved(0, 0, 0.99), {lamp}), placed("off", moved(0.6, 0.6, -0.5), {off})});
+};
+
+class EditCost : public testing::Test {
+protected:
+    EditCost() { lit.solver().settle(); }
+
+    std::uint64_t rays() const {
+        const SolveStatistics s = lit.solver().statistics();
+        return s.direct.rays.total() + s.indirect.rays.total();
+    }
+    /// Takes in an edit to the end; what the floor's first patch sends tells whether it was seen.
+    void expectNoRay(const char* what) {
+        const std::uint64_t before = rays();
+        const std::vector<Rgb> sent = lit.solver().radiosity();
+        EXPECT_FALSE(lit.follow(placeScene(room.scene)).rebuilt) << what;
+        lit.solver().settle();
+        EXPECT_TRUE(lit.solver().statistics().settled) << what;
+        EXPECT_EQ(rays(), before) << what;
+        EXPECT_NE(lit.solver().radiosity(), sent) << what;
+    }
+
+    PaintedRoom room;
+    LitScene lit{placeScene(room.scene), {.patchSize = 0.4f, .elementSize = 0.2f}, {}};
+};
+
+TEST_F(EditCost, DimmingSwitchingAndRecolouringALampTraceNoRay) {
+    room.lamp->setLuminance(Rgb(3));
+    expectNoRay("dimmed");
+    room.lamp->setLuminance({3, 9, 1});
+    expectNoRay("recoloured");
+    room.lamp->setLuminance(Rgb());
+    expectNoRay("switched off");
+    room.lamp->setLuminance(Rgb(10));
+    expectNoRay("switched on again");
+}
+
+TEST_F(EditCost, SwitchingOnALampThatNeverShoneTracesNoRay) {
+    room.off->setLuminance({1, 20, 40});
+    expectNoRay("a lamp that was loaded dark");
+}
+
+TEST_F(EditCost, AnEmittingSurfaceIsDimmedAndSwitchedLikeALamp) {
+    room.panel->setEmission({1, 2, 3});
+    expectNoRay("dimmed");
+    room.panel->setEmission(Rgb());
+    expectNoRay("switched off");
+    room.panel->setEmission(Rgb(5));
+    expectNoRay("switched on again");
+}
+
+TEST_F(EditCost, RepaintingTracesNoRayEvenWhereNothingWasReflectedBefore) {
+    // Black surfaces have rows too: those that light reaches are completed when all is settled.
+    room.walls->setReflectance({0.1f, 0.8f, 0.8f});
+    expectNoRay("repainted");
+    room.black->setReflectance(Rgb(0.8f));
+    expectNoRay("painted white what was black from the start");
+    room.walls->setReflectance(Rgb());
+    expectNoRay("painted black");
+    room.walls->setReflectance(Rgb(0.7f));
+    expectNoRay("painted again");
+}
+
+TEST_F(EditCost, WhatDidNotShineWhenTheSceneWasMeshedIsMeshedAnewToShine) {
+    // An emitting face is cut and sampled as one, which is decided when meshing.
+    room.black->setEmission(Rgb(1));
+    EXPECT_TRUE(lit.follow(placeScene(room.scene)).rebuilt);
+}
+
+TEST_F(EditCost, FollowingNoEditChangesNothing) {
+    const std::uint64_t before = rays();
+    const std::vector<Rgb> sent = lit.solver().radiosity();
+    const LitScene::Followed followed = lit.follow(placeScene(room.scene));
+    EXPECT_FALSE(followed.rebuilt);
+    EXPECT_TRUE(followed.change.empty());
+    lit.solver().settle();
+    EXPECT_EQ(rays(), before);
+    EXPECT_EQ(lit.solver().radiosity(), sent);
+}
+
+TEST_F(EditCost, AMoveTracesFewerRaysThanTheSceneDoesFromScratch) {
+    auto& box = dynamic_cast<Transform&>(*room.scene.root->children()[1]);
+    const std::uint64_t scratch = rays();
+    box.setMatrix(moved(0.01, 0, 0));
+    EXPECT_FALSE(lit.follow(placeScene(room.scene)).rebuilt);
+    lit.solver().settle();
+    EXPECT_LT(rays() - scratch, scratch);
+}
+
+} // namespace
+
+} // namespace penumbra

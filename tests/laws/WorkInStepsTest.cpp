@@ -1,0 +1,73 @@
+// Results do not depend on how the work is cut into steps: a budget is only a matter of time.
+#include "tests/support/EditedScenes.h"
+#include "tests/support/LitDifference.h"
+
+#include <gtest/gtest.h>
+
+namespace penumbra {
+
+namespace {
+
+constexpr SolverOptions kTight{.residual = 1e-5};
+
+/// Works in the smallest steps there are. \return how many
+int settleInCrumbs(Solver& solver) {
+    int steps = 1;
+    while (!solver.step(1e-9)) ++steps;
+    return steps;
+}
+
+TEST(WorkInSteps, AFirstSolutionInCrumbsIsThatInOneGo) {
+    const EditableRoom room(1);
+    LitScene whole(placeScene(room.scene()), EditableRoom::meshing(), kTight);
+    LitScene crumbs(placeScene(room.scene()), EditableRoom::meshing(), kTight);
+    whole.solver().settle();
+    EXPECT_GT(settleInCrumbs(crumbs.solver()), 100);
+    EXPECT_EQ(crumbs.solver().lighting().direct, whole.solver().lighting().direct);
+    EXPECT_EQ(difference(crumbs, whole), "");
+}
+
+TEST(WorkInSteps, EditsInCrumbsAreThoseInOneGo) {
+    for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+        EditableRoom room(seed);
+        LitScene whole(placeScene(room.scene()), EditableRoom::meshing(), kTight);
+        LitScene crumbs(placeScene(room.scene()), EditableRoom::meshing(), kTight);
+        std::string said;
+        for (int i = 0; i < 4; ++i) {
+            said += room.edit();
+            for (LitScene* lit : {&whole, &crumbs}) lit->follow(placeScene(room.scene()));
+            whole.solver().settle();
+            settleInCrumbs(crumbs.solver());
+            ASSERT_EQ(crumbs.solver().lighting().direct, whole.solver().lighting().direct) << said;
+            ASSERT_EQ(difference(crumbs, whole), "") << "seed " << seed << ": " << said;
+        }
+    }
+}
+
+TEST(WorkInSteps, EditsThatComeBeforeTheLastIsWorkedOffAreThoseInOneGo) {
+    for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+        EditableRoom room(seed);
+        LitScene whole(placeScene(room.scene()), EditableRoom::meshing(), kTight);
+        LitScene hurried(placeScene(room.scene()), EditableRoom::meshing(), kTight);
+        std::string said;
+        for (int i = 0; i < 12; ++i) {
+            said += room.edit();
+            for (LitScene* lit : {&whole, &hurried}) lit->follow(placeScene(room.scene()));
+            whole.solver().settle();
+            for (int step = 0; step < 7 * i; ++step) hurried.solver().step(1e-9);
+        }
+        hurried.solver().settle();
+        ASSERT_EQ(difference(hurried, whole), "") << "seed " << seed << ": " << said;
+    }
+}
+
+TEST(WorkInSteps, NoBudgetDoesNoWork) {
+    const EditableRoom room(1);
+    LitScene lit(placeScene(room.scene()), EditableRoom::meshing(), kTight);
+    EXPECT_FALSE(lit.solver().step(0));
+    EXPECT_EQ(lit.solver().statistics().direct.rays.total(), 0u);
+}
+
+} // namespace
+
+} // namespace penumbra
