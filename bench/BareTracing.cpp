@@ -80,7 +80,7 @@ struct BareTracing::EmbreeScene {
 
 BareTracing::BareTracing(const PatchSet& patches, const RayScene& rays,
                          const SolverOptions& options)
-    : set_(patches), rays_(rays), embree_(std::make_unique<EmbreeScene>(patches)) {
+    : set_(patches), rays_(rays), walls_(patches), embree_(std::make_unique<EmbreeScene>(patches)) {
     const int base = std::min(options.samples, RowBlock::kSize);
     for (const Emitter& emitter : set_.emitters)
         senders_.emplace_back(emitter, base, std::min(4 * base, RowBlock::kSize));
@@ -93,7 +93,11 @@ BareTracing::Packets BareTracing::packetsOf(std::size_t firstReceiver,
                                             std::size_t lastReceiver) const {
     Packets packets;
     SampleGroup group;
-    for (const EmitterSender& sender : senders_)
+    Bounds box;
+    for (std::size_t r = firstReceiver; r < lastReceiver; ++r)
+        if (!isPadding(set_.vertices[r].receiver)) box.add(set_.vertices[r].receiver.position);
+    for (const EmitterSender& sender : senders_) {
+        if (walls_.between(sender.box(), box).valid()) continue;
         for (std::size_t r = firstReceiver; r < lastReceiver; ++r) {
             const Receiver& receiver = set_.vertices[r].receiver;
             const float factor = sender.formFactor(receiver);
@@ -111,6 +115,7 @@ BareTracing::Packets BareTracing::packetsOf(std::size_t firstReceiver,
                 if (first + 16 == base && seen && blocked) count = sender.allSamples();
             }
         }
+    }
     return packets;
 }
 

@@ -5,6 +5,7 @@
 #include "radiosity/PatchSet.h"
 #include "radiosity/RayScene.h"
 #include "radiosity/Solver.h"
+#include "radiosity/Walls.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -40,6 +41,7 @@ private:
 
     const PatchSet& set_;
     const RayScene& rays_;
+    Walls walls_;
     std::vector<EmitterSender> senders_;
     std::unique_ptr<EmbreeScene> embree_;
 };

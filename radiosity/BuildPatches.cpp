@@ -219,6 +219,27 @@ void addEmitters(const Surface& surface, const Tessellation& tessellation, Built
     }
 }
 
+/// Notes the faces that may hide a room from the next.
+void addWalls(const Surface& surface, PatchSet& set) {
+    if (set.objects[surface.object.value].movable || surface.mesh.subdivided()) return;
+    const double least = 4.0 * set.patchSize * set.patchSize; // [m^2]
+    for (const SurfaceFace& face : surface.mesh.faces) {
+        const auto corners = surface.mesh.cornersOf(face);
+        const glm::dvec3 normal = newellNormal(surface.mesh.points, corners);
+        if (0.5 * glm::length(normal) < least) continue;
+        Wall wall;
+        wall.object = surface.object;
+        wall.normal = glm::vec3(glm::normalize(normal));
+        bool flat = true;
+        for (std::uint32_t corner : corners) {
+            wall.outline.push_back(surface.mesh.points[corner]);
+            const glm::vec3 d = wall.outline.back() - wall.outline[0];
+            flat &= std::abs(glm::dot(wall.normal, d)) <= 1e-6f * set.extent;
+        }
+        if (flat) set.walls.push_back(std::move(wall));
+    }
+}
+
 /// Stops before a slip of a digit fills the memory or overflows the ray tracer's single precision.
 void refuseTooMuch(const PatchSet& set, double area) {
     constexpr double kWidest = 1e7; // [m]
@@ -263,6 +284,7 @@ BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& option
     refuseTooMuch(out, litArea(surfaces));
     out.skin = std::max(1e-5f * out.extent, 1e-7f);
 
+    for (const Surface& surface : surfaces) addWalls(surface, out);
     PatchAssembly assembly(out);
     for (const Surface& surface : surfaces) {
         bool understood = true;

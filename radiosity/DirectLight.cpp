@@ -19,8 +19,8 @@ EmitterSender sender(const Emitter& emitter, int samples) {
 } // namespace
 
 DirectLight::DirectLight(const PatchSet& set, const RayScene& rays, int samples)
-    : set_(set), samples_(samples), table_(set.emitters.size()), updates_(set, rays, table_),
-      patchTouched_(set.patches.size()), patches_(set.patches.size()),
+    : set_(set), samples_(samples), walls_(set), table_(set.emitters.size()),
+      updates_(set, rays, table_), patchTouched_(set.patches.size()), patches_(set.patches.size()),
       patchLit_(set.patches.size()) {
     for (const Emitter& emitter : set.emitters) emitters_.push_back(sender(emitter, samples));
     blockPatches_.resize(set.firstPrivate / kBlock);
@@ -114,7 +114,10 @@ bool DirectLight::updateRows(std::size_t effort) {
     const auto update = [&](RowBuilder& builder, const UpdateItem& item, std::size_t) {
         const bool present = set_.objects[set_.emitters[item.row].object.value].present &&
                              set_.objects[set_.vertexBlockObject[item.block].value].present;
-        const ReceiverBlock receivers{receiversOf(item.block), present ? ~std::uint64_t(0) : 0, 0};
+        ReceiverBlock receivers{receiversOf(item.block), present ? ~std::uint64_t(0) : 0, 0, {}};
+        if (item.anew != 0)
+            receivers.behind =
+                walls_.between(emitters_[item.row].box(), table_.blocks()[item.block]);
         return builder.updateEmitterBlock(emitters_[item.row], receivers, item.anew,
                                           item.change->moved, table_[item.row][item.block]);
     };

@@ -7,6 +7,7 @@
 #include "radiosity/RowTable.h"
 #include "radiosity/RowUpdates.h"
 #include "radiosity/SceneChange.h"
+#include "radiosity/Walls.h"
 #include "scenegraph/Rgb.h"
 
 #include <glm/glm.hpp>
@@ -56,6 +57,7 @@ private:
 
     const PatchSet& set_;
     int samples_;
+    Walls walls_;
     std::vector<EmitterSender> emitters_;
     std::vector<Receiver> receivers_;
     std::vector<std::vector<std::uint32_t>> blockPatches_; ///< lit by the vertices of each block

@@ -17,7 +17,8 @@ void Enclosures::addLight(glm::vec3 point, ObjectId object) {
 std::vector<bool> Enclosures::lit(const PatchSet& set) const {
     std::vector<glm::vec3> lights;
     for (const Light& light : lights_)
-        lights.push_back(set.objects[light.object.value].pose.point(light.point));
+        if (!set.objects[light.object.value].removed)
+            lights.push_back(set.objects[light.object.value].pose.point(light.point));
     std::vector<bool> lit;
     for (const Closed& closed : closed_) {
         const Pose& pose = set.objects[closed.object.value].pose;

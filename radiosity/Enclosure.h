@@ -22,7 +22,7 @@ public:
     void addLight(glm::vec3 point, ObjectId object);
 
     /// For each closed surface whether it has a lamp inside, as the objects stand now. Lamps that
-    /// are dark or hidden count as well.
+    /// are dark or hidden count as well, those that were removed do not.
     std::vector<bool> lit(const PatchSet& set) const;
 
 private:

@@ -77,7 +77,9 @@ PatchSender IndirectLight::senderOf(std::uint32_t index) const {
 ReceiverBlock IndirectLight::receiversOf(std::uint32_t block) const {
     const ObjectPart& part = set_.objects[set_.nodeBlockObject[block].value];
     return {std::span(set_.nodes).subspan(block * kBlock, kBlock),
-            part.present ? reached_[block] : 0, keyOf(part, block * kBlock - part.nodes.first)};
+            part.present ? reached_[block] : 0,
+            keyOf(part, block * kBlock - part.nodes.first),
+            {}};
 }
 
 void IndirectLight::placeNodes(std::span<const BlockMask> masks) {

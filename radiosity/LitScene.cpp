@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 namespace penumbra {
 
@@ -99,16 +100,19 @@ bool LitScene::followColours(SceneChange& change) {
     return true;
 }
 
-void LitScene::followObjects(const PlacedScene& now, SceneChange& change) {
+/// \return whether lamps may be in other closed things than before
+bool LitScene::followObjects(const PlacedScene& now, SceneChange& change) {
     PatchSet& set = built_.patches;
     std::unordered_map<std::string, const Object*> objects;
     for (const Object& object : now.objects) objects[object.path] = &object;
     std::vector<Bounds> before;
+    bool removals = false;
     for (std::uint32_t o = 0; o < set.objects.size(); ++o) {
         ObjectPart& part = set.objects[o];
         if (!part.movable) continue;
         const auto found = objects.find(part.path);
-        const bool present = found != objects.end() && found->second->visible;
+        removals |= std::exchange(part.removed, found == objects.end()) != part.removed;
+        const bool present = !part.removed && found->second->visible;
         const Pose pose =
             found != objects.end() ? placementOf(found->second->toWorld).pose : part.pose;
         if (present == part.present && pose == part.pose) continue;
@@ -120,12 +124,13 @@ void LitScene::followObjects(const PlacedScene& now, SceneChange& change) {
         placeObject(set, {o}, pose);
         rays_->move({o}, set.rayMeshes[o].vertices);
     }
-    if (change.objects.empty()) return;
+    if (change.objects.empty()) return removals;
     rays_->commit();
     const Coverage::Change covered = coverage_->update(change.objects, before);
     change.vertices = covered.vertices;
     change.nodes = covered.nodes;
     change.patches = covered.patches;
+    return true;
 }
 
 LitScene::Followed LitScene::follow(const PlacedScene& now) {
@@ -135,8 +140,7 @@ LitScene::Followed LitScene::follow(const PlacedScene& now) {
         followed = {true, {}};
         return followed;
     }
-    followObjects(now, followed.change);
-    if (!followed.change.objects.empty() &&
+    if (followObjects(now, followed.change) &&
         built_.enclosures.lit(built_.patches) != built_.enclosuresLit) {
         build(now, sizesOf(built_.patches));
         followed = {true, {}};

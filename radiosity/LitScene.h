@@ -67,7 +67,7 @@ private:
     static Pieces piecesOf(const PlacedScene& scene);
     bool sameStructure(const PlacedScene& now) const;
     bool followColours(SceneChange& change);
-    void followObjects(const PlacedScene& now, SceneChange& change);
+    bool followObjects(const PlacedScene& now, SceneChange& change);
 
     SolverOptions solving_;
     BuiltPatches built_;

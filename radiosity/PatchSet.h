@@ -114,10 +114,18 @@ struct ObjectPart {
     std::uint64_t key = 0; ///< of its path: the same in every scene that has it
     bool movable = false;  ///< may be moved, hidden and shown; others are the fixed part
     bool present = true;   ///< false: hidden, neither blocks nor sends nor receives
+    bool removed = false;  ///< hidden because it is not in the scene any more
     Pose pose;             ///< of a movable object; identity for the fixed part
     glm::dmat3 stretch{1.0};
     Range vertices, elements, patches, nodes, corners, emitters;
     ObjectShape shape; ///< empty for the fixed part
+};
+
+/// A large convex face of the fixed part, see Walls.h.
+struct Wall {
+    ObjectId object;
+    glm::vec3 normal{};             ///< unit
+    std::vector<glm::vec3> outline; ///< counter-clockwise around the normal [m, world]
 };
 
 /// A scene, meshed: hot loops see these arrays and nothing else. The fixed part never changes;
@@ -147,6 +155,7 @@ struct PatchSet {
     std::vector<LitMaterial> materials;
     std::vector<Emitter> emitters;
     std::vector<ObjectPart> objects;
+    std::vector<Wall> walls;
     std::vector<RayMesh> rayMeshes;      ///< one an object
     std::vector<ObjectId> elementObject; ///< one an element
     Bounds bounds;

@@ -197,8 +197,13 @@ void RayScene::occluded(ShadowRays& rays) const {
 }
 
 void RayScene::occludedBy(ObjectId object, ShadowRays& rays) const {
-    assert(impl_->members[object.value].alone); // it has been moved or shown
-    trace(impl_->members[object.value].alone, rays);
+    const Impl::Member& member = impl_->members[object.value];
+    if (member.geometry) {    // else it has no triangle
+        assert(member.alone); // it has been moved or shown
+        trace(member.alone, rays);
+        return;
+    }
+    std::fill_n(rays.blocker, ShadowRays::kMost, ObjectId::kNone);
 }
 
 void RayScene::trace(void* scene, ShadowRays& rays) const {

@@ -26,6 +26,7 @@ struct ReceiverBlock {
     std::span<const Receiver> receivers;
     std::uint64_t wanted = ~std::uint64_t(0); ///< bits: receivers that need an entry
     std::uint32_t key = 0;                    ///< of the first; names it in every scene that has it
+    ObjectId behind; ///< valid: an object that hides the sender from all of them
 };
 
 /// An object that is not where it was.
@@ -61,14 +62,12 @@ class RowBuilder {
 public:
     explicit RowBuilder(const RayScene& rays) : rays_(rays), drafts_(RowBlock::kSize) {}
 
-    /// Direct light: an emitter onto up to 64 receivers.
-    void emitterBlock(const EmitterSender& sender, const ReceiverBlock& receivers, RowBlock& block);
-
     /// Indirect light: a patch onto up to 64 receivers. The number of samples follows the form
     /// factor (1, 4 or 16); which ones is a fixed function of the pair's keys.
     void patchBlock(const PatchSender& sender, const ReceiverBlock& receivers, RowBlock& block);
 
-    /// Brings a block up to date. \param anew bits: entries to be evaluated anew
+    /// Brings a block up to date: direct light from an emitter, indirect light from a patch.
+    /// \param anew bits: entries to be evaluated anew
     /// \return the number of entries that are not what they were
     int updateEmitterBlock(const EmitterSender& sender, const ReceiverBlock& receivers,
                            std::uint64_t anew, std::span<const MovedObject> moved, RowBlock& block);
@@ -85,7 +84,7 @@ private:
         float weight;          ///< share of the pair's samples
         std::uint32_t blocker; ///< ObjectId::kNone: visible
     };
-    void emitterEntry(const EmitterSender& sender, const Receiver& receiver,
+    void emitterEntry(const EmitterSender& sender, const Receiver& receiver, ObjectId behind,
                       RowBlock::Draft& draft);
     bool retestEmitterEntry(const EmitterSender& sender, const Receiver& receiver,
                             std::span<const MovedObject> moved, RowBlock::Draft& draft);

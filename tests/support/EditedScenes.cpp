@@ -82,12 +82,9 @@ void EditableRoom::addThings() {
     const auto head = make<Group>("head", {newLight(RectShape{0.2f, 0.2f}, 30)});
     head->add(placed("housing", moved(0, 0, 0.06), {block({0.26f, 0.26f, 0.1f}, newPaint())}));
     addThing("lamp", {head}, {0.13, 0.13, 0.11});
-    things_.back().shines = true;
     addThing("bulb", {newLight(SphereShape{0.06f}, 60)}, glm::dvec3(0.06));
-    things_.back().shines = true;
     shining_.push_back(paint(Rgb(0.3f), {6, 4, 2}));
     addThing("glow", {block({0.3f, 0.2f, 0.1f}, shining_.back())}, {0.15, 0.1, 0.05});
-    things_.back().shines = true;
     // Below frames that stretch: what is movable in them is rigid in the world all the same.
     addThing("halved", {block({0.75f, 0.5f, 0.5f}, newPaint())}, {0.1875, 0.125, 0.125},
              stretched(0.5, 0.5, 0.5));
@@ -131,16 +128,39 @@ void EditableRoom::place(Thing& thing, const glm::dmat4& where) {
 
 /// In the room, through its walls, or in contact with something.
 glm::dmat4 EditableRoom::anywhere(const Thing& thing) {
+    const Thing& other = things_[below(things_.size())];
     const std::size_t quarters = below(4);
     glm::dvec3 half = thing.half;
     if (quarters % 2 == 1) std::swap(half.x, half.y);
     glm::dvec3 at(uniform(-0.2, 3.2), uniform(-0.2, 2.7), uniform(0.2, 1.7));
-    switch (below(4)) {
+    const glm::dvec3 there(other.place[3]);
+    switch (below(12)) {
     case 0: // on the floor
         at.z = half.z;
         break;
     case 1: // on the table, over its edge perhaps
         at = {uniform(1.1, 1.8), uniform(0.7, 1.5), kTableUpper.z + half.z};
+        break;
+    case 2: // against a wall
+        at.x = below(2) == 0 ? half.x : kRoom.x - half.x;
+        break;
+    case 3: // in a corner, on the floor or under the ceiling
+        at = {half.x, kRoom.y - half.y, below(2) == 0 ? half.z : kRoom.z - half.z};
+        break;
+    case 4: // on something, or under it
+        at = there + glm::dvec3(0, 0, (below(3) == 0 ? -1 : 1) * (other.half.z + half.z));
+        if (below(2) == 0) at += glm::dvec3(uniform(-0.1, 0.1), uniform(-0.1, 0.1), 0);
+        break;
+    case 5: // beside something
+        at = there + glm::dvec3(other.half.x + half.x, uniform(-0.1, 0.1), 0);
+        break;
+    case 6: // at the very place of something: equal faces if the two are alike
+        return other.place;
+    case 7: // let into the table, its top in the table's top
+        at = {uniform(1.1, 1.8), uniform(0.7, 1.5), kTableUpper.z - half.z};
+        break;
+    case 8: // half in the floor or in the wall
+        (below(2) == 0 ? at.z : at.y) = 0;
         break;
     default: // free, at any angle
         return moved(at.x, at.y, at.z) * turned(uniform(0, 6.28), {0, 0, 1}) *
@@ -195,8 +215,7 @@ std::string EditableRoom::editGraph(Thing& thing) {
         table_->setMatrix(moved(uniform(-0.1, 0.1), 0, 0));
         return "table moved; ";
     }
-    // A lamp that is taken out of a closed thing leaves it solid, one that is hidden does not.
-    if (!thing.shines && below(3) == 0) {
+    if (below(3) == 0) {
         if (!thing.choice->remove(thing.node)) thing.choice->add(thing.node);
         return thing.node->name() + (thing.choice->children().empty() ? " removed; " : " added; ");
     }
