@@ -20,8 +20,8 @@ EmitterSender sender(const Emitter& emitter, int samples) {
 
 DirectLight::DirectLight(const PatchSet& set, const RayScene& rays, int samples)
     : set_(set), samples_(samples), walls_(set), table_(set.emitters.size()),
-      updates_(set, rays, table_), patchTouched_(set.patches.size()), patches_(set.patches.size()),
-      patchLit_(set.patches.size()) {
+      updates_(set, rays, table_, 256), patchTouched_(set.patches.size()),
+      patches_(set.patches.size()), patchLit_(set.patches.size()) {
     for (const Emitter& emitter : set.emitters) emitters_.push_back(sender(emitter, samples));
     blockPatches_.resize(set.firstPrivate / kBlock);
     for (std::uint32_t e = 0; e < set.uncoveredElements.size(); ++e) {
@@ -164,8 +164,9 @@ void DirectLight::sum(std::uint32_t block) {
 
 bool DirectLight::averagePatches(std::size_t effort) {
     if (touchedPatches_.empty()) return false;
+    const std::size_t cost = 16 + 4 * set_.elements.size() / set_.patches.size(); // in rays
     const std::size_t count =
-        std::min(touchedPatches_.size(), std::max<std::size_t>(4, effort / 64));
+        std::min(touchedPatches_.size(), std::max<std::size_t>(2, effort / cost));
     const auto some = std::span(touchedPatches_).last(count);
     std::vector<std::uint8_t> before(count);
     for (std::size_t i = 0; i < count; ++i) before[i] = patchLit_[some[i]];

@@ -41,7 +41,7 @@ std::uint32_t keyOf(const ObjectPart& part, std::uint32_t index) {
 IndirectLight::IndirectLight(const PatchSet& set, const RayScene& rays, const DirectLight& direct,
                              std::size_t rowMemory)
     : set_(set), rays_(rays), direct_(direct), rowMemory_(rowMemory), table_(set.patches.size()),
-      updates_(set, rays, table_), samples_(set.patches.size() * kPatchSamples),
+      updates_(set, rays, table_, 48), samples_(set.patches.size() * kPatchSamples),
       boxes_(set.patches.size()), keys_(set.patches.size()), reached_(set.nodes.size() / kBlock),
       nodes_(set.nodes.size()), rowSums_(set.nodes.size()), sent_(set.patches.size()),
       residuals_(set.patches.size()), known_(set.patches.size()) {
@@ -158,7 +158,7 @@ bool IndirectLight::update(std::size_t effort) {
         std::uint32_t node;
         double factor;
     };
-    std::vector<std::vector<Delta>> deltas(effort / 64 + 2); // an item counts for 64 rays at least
+    std::vector<std::vector<Delta>> deltas(effort / 48 + 2); // an item counts for 48 at least
     const auto facts = [&](std::uint32_t p) {
         return RowUpdates::RowFacts{!table_[p].empty(), boxes_[p], set_.patches[p].object};
     };

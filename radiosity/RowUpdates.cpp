@@ -10,17 +10,17 @@ namespace penumbra {
 namespace {
 
 constexpr std::size_t kSamples = 20; ///< rays of an entry that is evaluated anew, about
-constexpr std::size_t kVisit = 64;   ///< what looking at a block costs, in rays
-constexpr std::size_t kGrain = 4;    ///< items a task
-
-std::size_t effortOf(const UpdateItem& item) {
-    return kVisit + kSamples * std::size_t(std::popcount(item.anew));
-}
 
 } // namespace
 
-RowUpdates::RowUpdates(const PatchSet& set, const RayScene& rays, RowTable& table)
-    : set_(set), rayScene_(rays), table_(table), row_(table.size()) {}
+RowUpdates::RowUpdates(const PatchSet& set, const RayScene& rays, RowTable& table,
+                       std::size_t visitCost)
+    : set_(set), rayScene_(rays), table_(table), visitCost_(visitCost),
+      grain_(std::max<std::size_t>(1, 256 / visitCost)), row_(table.size()) {}
+
+std::size_t RowUpdates::effortOf(const UpdateItem& item) const {
+    return visitCost_ + kSamples * std::size_t(std::popcount(item.anew));
+}
 
 void RowUpdates::add(std::vector<ObjectId> objects, std::vector<BlockMask> receivers,
                      std::vector<Bounds> regions) {
@@ -63,7 +63,7 @@ void RowUpdates::find(std::size_t effort, const Facts& facts) {
         const RowFacts row = facts(std::uint32_t(row_));
         if (row.known) {
             const auto change = changeSince(known);
-            found += 4; // looking for it costs as well
+            found += 16; // looking for it costs as well
             for (const BlockMask& mask : table_.concerned(row_, row.box, row.object, *change)) {
                 items_.push_back({std::uint32_t(row_), mask.block, mask.receivers, change});
                 found += effortOf(items_.back());
@@ -85,23 +85,23 @@ std::span<const UpdateItem> RowUpdates::work(std::size_t effort, const Facts& fa
     for (std::size_t sum = 0; last < items_.size() && sum < effort; ++last)
         sum += effortOf(items_[last]);
     const auto items = std::span<const UpdateItem>(items_).subspan(next_, last - next_);
-    const std::size_t tasks = (items.size() + kGrain - 1) / kGrain;
+    const std::size_t tasks = (items.size() + grain_ - 1) / grain_;
     while (builders_.size() < std::min<std::size_t>(tasks, 64)) builders_.emplace_back(rayScene_);
     // A builder a task of a round: results do not depend on which thread does what.
     for (std::size_t round = 0; round < tasks; round += builders_.size()) {
-        const std::size_t first = round * kGrain;
-        const std::size_t count = std::min(items.size() - first, builders_.size() * kGrain);
+        const std::size_t first = round * grain_;
+        const std::size_t count = std::min(items.size() - first, builders_.size() * grain_);
         std::vector<std::uint64_t> changed(builders_.size());
         std::vector<std::vector<RowTable::BlockerNote>> notes(builders_.size());
-        parallelFor(count, kGrain, [&](std::size_t begin, std::size_t end) {
-            RowBuilder& builder = builders_[begin / kGrain];
+        parallelFor(count, grain_, [&](std::size_t begin, std::size_t end) {
+            RowBuilder& builder = builders_[begin / grain_];
             for (std::size_t i = begin; i < end; ++i) {
                 const UpdateItem& item = items[first + i];
                 const int entries = update(builder, item, first + i);
                 if (entries == 0) continue;
-                changed[begin / kGrain] += std::uint64_t(entries);
+                changed[begin / grain_] += std::uint64_t(entries);
                 RowTable::listBlockers(set_, item.row, item.block, table_[item.row][item.block],
-                                       notes[begin / kGrain]);
+                                       notes[begin / grain_]);
             }
         });
         for (std::uint64_t n : changed) entriesChanged_ += n;

@@ -26,7 +26,8 @@ struct UpdateItem {
 class RowUpdates {
 public:
     /// Nothing is open at first. All must outlive this.
-    RowUpdates(const PatchSet& set, const RayScene& rays, RowTable& table);
+    /// \param visitCost what looking at a block and retesting some of it costs, about [rays]
+    RowUpdates(const PatchSet& set, const RayScene& rays, RowTable& table, std::size_t visitCost);
 
     /// Objects were placed anew, hidden or shown; receivers lie elsewhere. Their own receivers are
     /// to be among these. What crosses one of the regions is to be evaluated anew [m, world].
@@ -64,14 +65,16 @@ private:
         std::vector<BlockMask> receivers;
         std::vector<Bounds> regions;
     };
+    std::size_t effortOf(const UpdateItem& item) const;
     void find(std::size_t count, const Facts& facts);
     std::shared_ptr<const PendingChange> changeSince(std::uint64_t edits);
 
     const PatchSet& set_;
     const RayScene& rayScene_;
     RowTable& table_;
-    std::vector<Edit> edits_;     ///< that not all rows have been told of
-    std::uint64_t forgotten_ = 0; ///< edits before those
+    std::size_t visitCost_, grain_; ///< [rays]; items a task
+    std::vector<Edit> edits_;       ///< that not all rows have been told of
+    std::uint64_t forgotten_ = 0;   ///< edits before those
     std::vector<UpdateItem> items_;
     std::size_t next_ = 0, row_ = 0;
     std::vector<RowBuilder> builders_;

@@ -12,6 +12,7 @@ namespace penumbra {
 namespace {
 
 constexpr std::size_t kLeastEffort = 512, kMostEffort = std::size_t(1) << 20; ///< [rays]
+constexpr std::size_t kMostPromptEffort = 1536; ///< of a piece within a short budget [rays]
 constexpr double kPause = 3e-4; ///< a piece of work within a budget takes about this long [s]
 
 double seconds() {
@@ -62,6 +63,8 @@ void Solver::invalidate(const Bounds& region) {
 
 bool Solver::step(double budget, const Progress& progress) {
     const double start = seconds();
+    const double most = double(budget > 1 ? kMostEffort : kMostPromptEffort);
+    effort_ = std::min(effort_, most);
     for (double now = start; now - start < budget;) {
         if (!work(std::size_t(effort_), progress)) return true;
         const double after = seconds();
@@ -69,7 +72,7 @@ bool Solver::step(double budget, const Progress& progress) {
         const double left = std::max(0.0, budget - (after - start));
         const double aim = std::min(budget > 1 ? 0.05 : kPause, std::max(left, 0.5 * kPause));
         effort_ = std::clamp(effort_ * std::clamp(aim / std::max(after - now, 1e-7), 0.25, 2.0),
-                             double(kLeastEffort), double(kMostEffort));
+                             double(kLeastEffort), most);
         now = after;
     }
     return false;
