@@ -14,7 +14,7 @@
 
 namespace penumbra {
 
-/// Repeats the shadow rays of Solver::solveDirect(): the same segments, in the same packets and
+/// Repeats the shadow rays of DirectLight::work(): the same segments, in the same packets and
 /// order, on as many threads. They are made in advance, a chunk of receivers at a time, and only
 /// tracing is timed.
 class BareTracing {
