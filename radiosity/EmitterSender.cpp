@@ -65,9 +65,9 @@ void EmitterSender::sampleGroup(const Receiver& receiver, int first, SampleGroup
     for (int i = 0; i < 16; ++i) {
         const float dx = x[i] - p.x, dy = y[i] - p.y, dz = z[i] - p.z;
         const float d2 = dx * dx + dy * dy + dz * dz;
-        const float here = std::max(0.0f, n.x * dx + n.y * dy + n.z * dz);
-        const float there = std::max(0.0f, -(nx[i] * dx + ny[i] * dy + nz[i] * dz));
-        group.weight[i] = here * there / (d2 * d2);
+        const float here = n.x * dx + n.y * dy + n.z * dz;
+        const float there = -(nx[i] * dx + ny[i] * dy + nz[i] * dz);
+        group.weight[i] = facing(here, there, d2) / (d2 * d2);
         rays.originX[i] = p.x, rays.originY[i] = p.y, rays.originZ[i] = p.z;
         rays.directionX[i] = dx, rays.directionY[i] = dy, rays.directionZ[i] = dz;
     }
@@ -87,8 +87,8 @@ void EmitterSender::sphereGroup(const Receiver& receiver, int first, SampleGroup
         const glm::vec3 q = disk.centre + x_[k] * u + y_[k] * v;
         const glm::vec3 d = q - p;
         const float d2 = glm::dot(d, d);
-        group.weight[i] = std::max(0.0f, glm::dot(receiver.normal, d)) *
-                          std::max(0.0f, -glm::dot(disk.axis, d)) / (d2 * d2);
+        group.weight[i] =
+            facing(glm::dot(receiver.normal, d), -glm::dot(disk.axis, d), d2) / (d2 * d2);
         if (group.weight[i] > 0)
             group.rays.set(i, p, ontoSphere(p, q, emitter_->centre, emitter_->radius));
     }

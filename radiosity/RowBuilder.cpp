@@ -253,8 +253,9 @@ void RowBuilder::listPatchRays(const PatchSender& sender, const ReceiverBlock& r
                                                   : hash & 15;
         const glm::vec3 d = sender.samples[sample] - receiver.position;
         const float d2 = glm::dot(d, d);
-        const float weight = std::max(0.0f, glm::dot(receiver.normal, d)) *
-                             std::max(0.0f, -glm::dot(sender.patch->normal, d)) / (d2 * d2);
+        const float weight =
+            facing(glm::dot(receiver.normal, d), -glm::dot(sender.patch->normal, d), d2) /
+            (d2 * d2);
         if (!(weight > 0)) continue;
         total += weight;
         patchRays_.push_back({std::uint8_t(r), std::uint8_t(sample), weight, kNone});

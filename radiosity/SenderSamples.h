@@ -35,6 +35,16 @@ EmitterSamples sampleEmitter(const Emitter& emitter, std::size_t count);
 inline constexpr std::size_t kPatchSamples = 16;
 void samplePatch(const PatchSet& set, const Patch& patch, glm::vec3* points);
 
+/// The factor cos cos of a segment d [m] to a sample of a sender: `here` and `there` are the
+/// heights [m] of its ends over the other's plane. 0 below either plane, and where the receiver
+/// lies in the sender's plane up to rounding: nothing to speak of is sent there, and along faces in
+/// that plane it would be rounding that decides whether they are in the way.
+inline float facing(float here, float there, float d2) {
+    constexpr float kInPlane = 1e-5f; // cosine
+    const bool counts = (here > 0) & (there > 0) & (there * there > kInPlane * kInPlane * d2);
+    return counts ? here * there : 0.0f;
+}
+
 /// An arbitrary but fixed number for a pair of indices: decides which samples the pair uses.
 std::uint32_t pairHash(std::uint32_t a, std::uint32_t b);
 

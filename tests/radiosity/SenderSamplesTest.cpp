@@ -143,6 +143,14 @@ TEST(PatchSamples, OfACurvedPatchLieOnItsElements) {
     }
 }
 
+TEST(Facing, IsTheProductOfTheHeightsButForReceiversInTheSendersPlane) {
+    EXPECT_EQ(facing(0.5f, 0.25f, 4), 0.125f);
+    EXPECT_EQ(facing(-0.5f, 0.25f, 4), 0);
+    EXPECT_EQ(facing(0.5f, -0.25f, 4), 0);
+    EXPECT_EQ(facing(0.5f, 6e-8f, 4), 0); // one rounding step of a coordinate
+    EXPECT_EQ(facing(0.5f, 1e-4f, 4), 0.5f * 1e-4f);
+}
+
 } // namespace
 
 } // namespace penumbra
