@@ -104,7 +104,7 @@ def main():
           BUILDING + [name + "_over_first" for name in GROWTH])
     print()
     for result in merged["benchmarks"]:
-        if result["name"].startswith(("formFactor/", "occluded/")):
+        if result["name"].startswith(("formFactor/", "occluded/", "order/")):
             rate = f", {result['Mrays_per_s']:.3g} Mrays/s" if "Mrays_per_s" in result else ""
             print(f"{result['name']}: {result['real_time']:.3g} {result['time_unit']}{rate}")
     return 1 if failed else 0

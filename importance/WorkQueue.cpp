@@ -1,0 +1,191 @@
+#include "importance/WorkQueue.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace penumbra {
+
+/// Whether place a comes before place b. Of equals, one whose key is only a bound comes first: what
+/// it holds may be older.
+bool WorkQueue::before(std::uint32_t a, std::uint32_t b) const {
+    const Place &one = places_[a], &other = places_[b];
+    if (one.key != other.key) return one.key > other.key;
+    if (one.ordered != other.ordered) return !one.ordered;
+    if (one.ordered) return one.tasks.front().serial < other.tasks.front().serial;
+    return a < b;
+}
+
+/// At least the value of any task of a place, also after rounding.
+double WorkQueue::boundOf(const Place& at) {
+    return at.tasks.empty() ? 0 : (1 + 1e-9) * workValue(at.value, at.mostChange, at.leastCost);
+}
+
+void WorkQueue::add(const Task& task) {
+    assert(task.cost > 0 && task.change >= 0);
+    if (task.place >= places_.size()) places_.resize(task.place + 1);
+    if (free_.empty()) {
+        free_.push_back(std::uint32_t(slots_.size()));
+        slots_.emplace_back();
+    }
+    const std::uint32_t slot = free_.back();
+    free_.pop_back();
+    slots_[slot] = {task, ++serial_};
+    ages_.push_back({serial_, slot});
+    ++size_;
+
+    Place& at = places_[task.place];
+    at.mostChange = std::max(at.mostChange, task.change);
+    at.leastCost = std::min(at.leastCost, task.cost);
+    at.tasks.push_back({workValue(at.value, task.change, task.cost), serial_, slot});
+    if (at.ordered) std::push_heap(at.tasks.begin(), at.tasks.end());
+    if (at.position == kOut) {
+        at.position = heap_.size();
+        heap_.push_back(task.place);
+    }
+    settle(task.place);
+}
+
+void WorkQueue::rekey(const std::function<PlaceValue(std::uint32_t)>& value) {
+    for (std::uint32_t index : heap_) {
+        Place& at = places_[index];
+        at.value = value(index);
+        at.ordered = false;
+        at.key = boundOf(at);
+    }
+    const auto after = [&](std::uint32_t a, std::uint32_t b) { return before(b, a); };
+    std::make_heap(heap_.begin(), heap_.end(), after);
+    for (std::size_t i = 0; i < heap_.size(); ++i) places_[heap_[i]].position = i;
+}
+
+void WorkQueue::rekey(std::uint32_t index, const PlaceValue& value) {
+    if (index >= places_.size()) places_.resize(index + 1);
+    places_[index].value = value;
+    places_[index].ordered = false;
+    if (places_[index].position != kOut) settle(index);
+}
+
+/// Ranks all tasks of a place, and finds its exact key and bounds.
+void WorkQueue::order(Place& at) {
+    std::erase_if(at.tasks, [&](const Ranked& ranked) { return taken(ranked); });
+    at.mostChange = 0;
+    at.leastCost = std::numeric_limits<float>::infinity();
+    for (Ranked& ranked : at.tasks) {
+        const Task& task = slots_[ranked.slot].task;
+        ranked.value = workValue(at.value, task.change, task.cost);
+        at.mostChange = std::max(at.mostChange, task.change);
+        at.leastCost = std::min(at.leastCost, task.cost);
+    }
+    std::make_heap(at.tasks.begin(), at.tasks.end());
+    at.ordered = true;
+}
+
+/// Tasks that were overdue are gone from their place's list only now.
+void WorkQueue::skipTaken(Place& at) {
+    while (!at.tasks.empty() && taken(at.tasks.front())) {
+        std::pop_heap(at.tasks.begin(), at.tasks.end());
+        at.tasks.pop_back();
+    }
+}
+
+/// Brings a place of the heap to where it belongs, or takes it out if nothing is left in it.
+void WorkQueue::settle(std::uint32_t index) {
+    Place& at = places_[index];
+    if (at.ordered) skipTaken(at);
+    if (at.tasks.empty()) {
+        const std::size_t hole = std::exchange(at.position, kOut);
+        at.mostChange = 0;
+        at.leastCost = std::numeric_limits<float>::infinity();
+        const std::uint32_t last = heap_.back();
+        heap_.pop_back();
+        if (last == index) return;
+        place(hole, last);
+        rise(hole), sink(places_[last].position);
+        return;
+    }
+    at.key = at.ordered ? at.tasks.front().value : boundOf(at);
+    rise(at.position), sink(at.position);
+}
+
+WorkQueue::Task WorkQueue::remove(std::uint32_t slot) {
+    const Task task = slots_[slot].task;
+    slots_[slot].serial = 0;
+    free_.push_back(slot);
+    --size_;
+    return task;
+}
+
+WorkQueue::Task WorkQueue::takeBest() {
+    for (;;) {
+        const std::uint32_t index = heap_.front();
+        Place& at = places_[index];
+        if (!at.ordered) {
+            order(at);
+            settle(index);
+            continue;
+        }
+        const Task task = remove(at.tasks.front().slot);
+        settle(index);
+        return task;
+    }
+}
+
+const WorkQueue::Age* WorkQueue::front() {
+    while (!ages_.empty() && slots_[ages_.front().slot].serial != ages_.front().serial)
+        ages_.pop_front();
+    return ages_.empty() ? nullptr : &ages_.front();
+}
+
+std::optional<WorkQueue::Task> WorkQueue::take(double now) {
+    const Age* const oldest = front();
+    if (!oldest) return {};
+    const Task& task = slots_[oldest->slot].task;
+    const bool overdue = now - task.since >= fairness_.patience;
+    if (!overdue) owed_ = 0;
+    if (overdue && owed_ >= task.cost * (1 - fairness_.reserve)) {
+        owed_ -= task.cost * (1 - fairness_.reserve);
+        const std::uint32_t index = task.place;
+        const Task taken = remove(oldest->slot);
+        settle(index);
+        return taken;
+    }
+    const Task best = takeBest();
+    if (overdue) owed_ += fairness_.reserve * best.cost;
+    return best;
+}
+
+double WorkQueue::oldest(double now) {
+    const Age* const age = front();
+    return age ? slots_[age->slot].task.since : now;
+}
+
+void WorkQueue::place(std::size_t position, std::uint32_t index) {
+    heap_[position] = index;
+    places_[index].position = position;
+}
+
+void WorkQueue::rise(std::size_t position) {
+    const std::uint32_t index = heap_[position];
+    while (position > 0) {
+        const std::size_t parent = (position - 1) / 2;
+        if (!before(index, heap_[parent])) break;
+        place(position, heap_[parent]);
+        position = parent;
+    }
+    place(position, index);
+}
+
+void WorkQueue::sink(std::size_t position) {
+    const std::uint32_t index = heap_[position];
+    for (;;) {
+        std::size_t child = 2 * position + 1;
+        if (child >= heap_.size()) break;
+        if (child + 1 < heap_.size() && before(heap_[child + 1], heap_[child])) ++child;
+        if (!before(heap_[child], index)) break;
+        place(position, heap_[child]);
+        position = child;
+    }
+    place(position, index);
+}
+
+} // namespace penumbra

@@ -1,0 +1,115 @@
+// Open work in the order of its worth, re-ordered at once when the viewer moves.
+#pragma once
+
+#include "importance/WorkValue.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace penumbra {
+
+/// A priority queue of tasks. What a task is worth has a part that is its own (how far luminance
+/// may change, at what cost) and a part that all work at the same place shares (PlaceValue). When
+/// the view changes only the latter is computed anew, place by place, with an upper bound of what
+/// the tasks there may be worth; the tasks themselves are only put in order when their place's turn
+/// comes. The order is nevertheless exactly that of the tasks' values, ties broken by age.
+///
+/// Nothing starves. A task that has waited for `patience` is overdue; of the cost of all work taken
+/// from then on, the share `reserve` goes to what is overdue, the oldest first. So with work of
+/// cost P ahead of it in age, itself among it, a task that was added at time t is taken before work
+/// of cost P / reserve, and of one task more, is done after t + patience.
+class WorkQueue {
+public:
+    struct Fairness {
+        double patience = std::numeric_limits<double>::infinity(); ///< in the unit of `now`
+        double reserve = 0.25;                                     ///< share of the cost, in (0, 1]
+    };
+
+    explicit WorkQueue(Fairness fairness) : fairness_(fairness) {}
+    WorkQueue() : WorkQueue(Fairness()) {}
+
+    /// A piece of open work; `id` is the caller's.
+    struct Task {
+        std::uint32_t place = 0;
+        std::uint64_t id = 0;
+        float change = 0; ///< of luminance, see workValue() [nit]
+        float cost = 1;   ///< > 0
+        double since = 0; ///< when it was added
+    };
+    /// Adds a task. Its place has the value of when it was last keyed; nothing if it never was.
+    /// \param task its `since` may not be before that of tasks added earlier
+    void add(const Task& task);
+
+    /// Asks anew what work at each place is worth, for places with open work.
+    void rekey(const std::function<PlaceValue(std::uint32_t place)>& value);
+    /// The same for one place, as when its light was found to change less than was thought.
+    void rekey(std::uint32_t place, const PlaceValue& value);
+
+    /// Takes the most valuable task, or the oldest if that is overdue and has its share.
+    /// \param now in any unit that rises; nothing if there is no work
+    std::optional<Task> take(double now);
+
+    std::size_t size() const { return size_; }
+    bool empty() const { return size_ == 0; }
+    /// When the oldest task was added; `now` if there is none.
+    double oldest(double now);
+
+private:
+    /// A task in the order of its place. Serial numbers are also ages.
+    struct Ranked {
+        double value;
+        std::uint64_t serial;
+        std::uint32_t slot;
+        bool operator<(const Ranked& o) const { // comes later
+            return value != o.value ? value < o.value : serial > o.serial;
+        }
+    };
+    struct Place {
+        PlaceValue value;
+        std::vector<Ranked> tasks; ///< a heap once it is `ordered`
+        bool ordered = false;
+        float mostChange = 0; ///< of any task here
+        float leastCost = std::numeric_limits<float>::infinity();
+        double key = 0;              ///< of the best task, or a bound of it
+        std::size_t position = kOut; ///< in heap_
+    };
+    struct Slot {
+        Task task;
+        std::uint64_t serial = 0; ///< 0: free
+    };
+    struct Age {
+        std::uint64_t serial;
+        std::uint32_t slot;
+    };
+    static constexpr std::size_t kOut = ~std::size_t(0);
+
+    bool before(std::uint32_t a, std::uint32_t b) const;
+    static double boundOf(const Place& place);
+    bool taken(const Ranked& ranked) const { return slots_[ranked.slot].serial != ranked.serial; }
+    void order(Place& place);
+    void skipTaken(Place& place);
+    Task remove(std::uint32_t slot);
+    Task takeBest();
+    const Age* front();
+    void place(std::size_t position, std::uint32_t index);
+    void rise(std::size_t position);
+    void sink(std::size_t position);
+    void settle(std::uint32_t index);
+
+    Fairness fairness_;
+    std::vector<Place> places_;
+    std::vector<std::uint32_t> heap_; ///< places with open work, the one with the largest key first
+    std::vector<Slot> slots_;
+    std::vector<std::uint32_t> free_;
+    std::deque<Age> ages_; ///< in the order of serials; some are taken already
+    std::uint64_t serial_ = 0;
+    std::size_t size_ = 0;
+    double owed_ = 0; ///< cost that overdue work may take ahead of its turn
+};
+
+} // namespace penumbra

@@ -1,0 +1,179 @@
+// Open work in the order of its worth, re-ordered at once when the viewer moves.
+#include "importance/WorkQueue.h"
+
+#include <gmock/gmock.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+namespace penumbra {
+
+namespace {
+
+using testing::ElementsAre;
+using Ids = std::vector<std::uint64_t>;
+
+PlaceValue weight(double pixels) {
+    return {pixels, 1, false};
+}
+
+Ids takeAll(WorkQueue& queue, double now = 0) {
+    Ids ids;
+    while (const auto task = queue.take(now)) ids.push_back(task->id);
+    return ids;
+}
+
+TEST(WorkQueue, TakesTheMostValuableFirst) {
+    WorkQueue queue;
+    queue.add({.place = 0, .id = 10, .change = 1});
+    queue.add({.place = 1, .id = 11, .change = 3});
+    queue.add({.place = 0, .id = 12, .change = 2});
+    queue.add({.place = 1, .id = 13, .change = 2, .cost = 4});
+    queue.rekey([](std::uint32_t) { return weight(1); });
+    EXPECT_THAT(takeAll(queue), ElementsAre(11, 12, 10, 13));
+}
+
+TEST(WorkQueue, OfEqualsTakesTheOldest) {
+    WorkQueue queue;
+    for (std::uint64_t id = 0; id < 6; ++id)
+        queue.add({.place = std::uint32_t(5 - id) % 3, .id = id, .change = 1});
+    queue.rekey([](std::uint32_t) { return weight(1); });
+    EXPECT_THAT(takeAll(queue), ElementsAre(0, 1, 2, 3, 4, 5));
+}
+
+TEST(WorkQueue, FollowsTheViewerAtOnce) {
+    WorkQueue queue;
+    for (std::uint32_t place = 0; place < 4; ++place)
+        for (std::uint64_t i = 0; i < 2; ++i)
+            queue.add({.place = place, .id = 10 * place + i, .change = 1});
+    queue.rekey([](std::uint32_t place) { return weight(place); });
+    EXPECT_EQ(queue.take(0)->id, 30u);
+    queue.rekey([](std::uint32_t place) { return weight(4.0 - place); });
+    EXPECT_THAT(takeAll(queue), ElementsAre(0, 1, 10, 11, 20, 21, 31));
+}
+
+TEST(WorkQueue, OnePlaceCanBeKeyedByItself) {
+    WorkQueue queue;
+    for (std::uint32_t place = 0; place < 3; ++place)
+        queue.add({.place = place, .id = place, .change = 1});
+    queue.rekey([](std::uint32_t place) { return weight(3.0 - place); });
+    queue.rekey(0, weight(0.5));
+    EXPECT_THAT(takeAll(queue), ElementsAre(1, 2, 0));
+}
+
+TEST(WorkQueue, WorkAddedLaterTakesItsRank) {
+    WorkQueue queue;
+    queue.add({.place = 0, .id = 0, .change = 1});
+    queue.add({.place = 0, .id = 1, .change = 3});
+    queue.rekey([](std::uint32_t) { return weight(1); });
+    EXPECT_EQ(queue.take(0)->id, 1u);
+    queue.add({.place = 0, .id = 2, .change = 2});
+    EXPECT_THAT(takeAll(queue), ElementsAre(2, 0));
+}
+
+/// What an overdue test needs: much work that is worth more coming all the time.
+struct Dragging {
+    WorkQueue queue{{.patience = 100, .reserve = 0.25}};
+    double done = 0, now = 0; ///< cost
+
+    void keepBusy(std::uint64_t id) {
+        queue.add({.place = 1, .id = id, .change = 10, .since = now});
+        queue.rekey(1, weight(100));
+    }
+};
+
+TEST(WorkQueue, NothingStarvesWhileNewWorkIsWorthMore) {
+    Dragging drag;
+    constexpr double kHidden = 40; // tasks of cost 1 that nobody sees
+    for (std::uint64_t id = 0; id < kHidden; ++id)
+        drag.queue.add({.place = 0, .id = id, .change = 1, .since = 0});
+    drag.queue.rekey([](std::uint32_t) { return weight(1e-3); });
+    double lastHidden = 0;
+    for (std::uint64_t id = 1000; drag.now < 1000; ++id) {
+        drag.keepBusy(id);
+        const auto task = drag.queue.take(drag.now);
+        drag.now += task->cost;
+        if (task->id < kHidden) {
+            EXPECT_GE(drag.now, 100); // not before their time
+            lastHidden = drag.now;
+        }
+    }
+    // Work of cost 40 ahead of the last one: patience + 40 / 0.25, and one task.
+    EXPECT_LE(lastHidden, 100 + 40 / 0.25 + 1);
+    EXPECT_GE(lastHidden, 100 + 40 / 0.25 - 4); // and no more than its share is spent on it
+}
+
+TEST(WorkQueue, PatienceChangesNoOrderBeforeItEnds) {
+    WorkQueue patient, fair{{.patience = 50, .reserve = 0.5}};
+    for (WorkQueue* queue : {&patient, &fair}) {
+        for (std::uint64_t id = 0; id < 30; ++id)
+            queue->add({.place = std::uint32_t(id % 7), .id = id, .change = float(id * 13 % 11)});
+        queue->rekey([](std::uint32_t place) { return weight(place + 1); });
+    }
+    EXPECT_EQ(takeAll(patient, 49), takeAll(fair, 49));
+}
+
+TEST(WorkQueue, KnowsItsOldestWork) {
+    WorkQueue queue;
+    EXPECT_EQ(queue.oldest(7), 7);
+    queue.add({.place = 0, .id = 0, .change = 9, .since = 1});
+    queue.add({.place = 0, .id = 1, .change = 1, .since = 3});
+    queue.rekey([](std::uint32_t) { return weight(1); });
+    EXPECT_EQ(queue.oldest(7), 1);
+    queue.take(7);
+    EXPECT_EQ(queue.oldest(7), 3);
+    EXPECT_EQ(queue.size(), 1u);
+}
+
+/// The order by clusters is that of the tasks' own values, however they come and are keyed.
+RC_GTEST_PROP(WorkQueue, TakesWhatASortedListWouldHaveFirst, ()) {
+    struct Open {
+        WorkQueue::Task task;
+        std::uint64_t age;
+    };
+    WorkQueue queue;
+    std::vector<Open> list;
+    std::map<std::uint32_t, PlaceValue> values;
+    const auto draw = [](int most) { return *rc::gen::inRange(0, most); };
+    std::uint64_t age = 0;
+    const int steps = 20 + draw(150);
+    for (int step = 0; step < steps; ++step) {
+        const int what = draw(8);
+        if (what < 4) {
+            const WorkQueue::Task task{.place = std::uint32_t(draw(6)),
+                                       .id = age,
+                                       .change = float(draw(5)),
+                                       .cost = float(1 + draw(3))};
+            queue.add(task);
+            list.push_back({task, age++});
+        } else if (what == 4) {
+            for (std::uint32_t p = 0; p < 6; ++p) values[p] = weight(draw(4));
+            queue.rekey([&](std::uint32_t place) { return values[place]; });
+            // Places without work keep the value they had; here all are told.
+            for (std::uint32_t p = 0; p < 6; ++p) queue.rekey(p, values[p]);
+        } else if (what == 5) {
+            const auto place = std::uint32_t(draw(6));
+            values[place] = weight(draw(4));
+            queue.rekey(place, values[place]);
+        } else {
+            const auto task = queue.take(0);
+            RC_ASSERT(task.has_value() == !list.empty());
+            if (!task) continue;
+            const auto better = [&](const Open& a, const Open& b) {
+                const double va = workValue(values[a.task.place], a.task.change, a.task.cost);
+                const double vb = workValue(values[b.task.place], b.task.change, b.task.cost);
+                return va != vb ? va > vb : a.age < b.age;
+            };
+            const auto best = std::min_element(list.begin(), list.end(), better);
+            RC_ASSERT(best->task.id == task->id);
+            list.erase(best);
+        }
+        RC_ASSERT(queue.size() == list.size());
+    }
+}
+
+} // namespace
+
+} // namespace penumbra
