@@ -51,6 +51,7 @@ void DirectLight::placeReceivers(std::vector<BlockMask>& masks) {
     vertices_.resize(set_.vertices.size());
     vertexSeen_.resize(set_.vertices.size());
     blockTouched_.resize(blocks);
+    blockSummed_.resize(blocks);
     for (std::size_t row = 0; row < table_.size(); ++row) table_[row].resize(blocks);
     while (table_.blocks().size() < blocks) table_.blocks().append({});
     for (const auto& [block, bits] : masks) {
@@ -136,6 +137,7 @@ bool DirectLight::sumBlocks(std::size_t effort) {
     });
     for (std::uint32_t block : some) {
         blockTouched_[block] = 0;
+        if (!std::exchange(blockSummed_[block], 1)) summedBlocks_.push_back(block);
         if (block < blockPatches_.size()) {
             for (std::uint32_t patch : blockPatches_[block]) touchPatch(patch);
             continue;
@@ -146,6 +148,11 @@ bool DirectLight::sumBlocks(std::size_t effort) {
     }
     touchedBlocks_.resize(touchedBlocks_.size() - count);
     return true;
+}
+
+std::vector<std::uint32_t> DirectLight::takeSummedBlocks() {
+    for (std::uint32_t block : summedBlocks_) blockSummed_[block] = 0;
+    return std::exchange(summedBlocks_, {});
 }
 
 void DirectLight::sum(std::uint32_t block) {

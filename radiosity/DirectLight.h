@@ -32,6 +32,8 @@ public:
 
     std::span<const Rgb> vertices() const { return vertices_; }      ///< [lux]
     std::span<const glm::dvec3> patches() const { return patches_; } ///< means [lux]
+    /// Blocks of vertices that were summed anew since this was called last, each once.
+    std::vector<std::uint32_t> takeSummedBlocks();
     std::span<const std::uint8_t> patchLit() const {
         return patchLit_;
     } ///< sees any emitter at all
@@ -66,6 +68,8 @@ private:
 
     std::vector<std::uint8_t> blockTouched_, patchTouched_;
     std::vector<std::uint32_t> touchedBlocks_, touchedPatches_; ///< to be summed again
+    std::vector<std::uint8_t> blockSummed_;
+    std::vector<std::uint32_t> summedBlocks_;
     std::vector<Rgb> vertices_;
     std::vector<float> vertexSeen_; ///< sum of F V over all emitters
     std::vector<glm::dvec3> patches_;

@@ -48,6 +48,7 @@ public:
     void invalidate(const Bounds& box);
 
     const PatchSet& patches() const { return built_.patches; }
+    const BuiltPatches& built() const { return built_; }
     const RayScene& rays() const { return *rays_; }
     Solver& solver() { return *solver_; }
     const Solver& solver() const { return *solver_; }

@@ -4,7 +4,7 @@
 
 namespace penumbra {
 
-RadiosityNode::RadiosityNode(const PatchSet& patches, const Lighting& light) : Group("radiosity") {
+LitBranch::LitBranch(const PatchSet& patches, const Lighting& light) : Group("radiosity") {
     const std::size_t objects = patches.objects.size();
     std::vector<LitMeshData> data(objects);
     std::vector<std::uint32_t> local(patches.vertices.size(), 0xffffffffu);

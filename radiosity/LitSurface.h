@@ -14,10 +14,10 @@
 namespace penumbra {
 
 /// The lit patches of a scene as a branch of the scene graph, one LitGeometry an object.
-class RadiosityNode : public Group {
+class LitBranch : public Group {
 public:
     /// \param light as long as patches.vertices
-    RadiosityNode(const PatchSet& patches, const Lighting& light);
+    LitBranch(const PatchSet& patches, const Lighting& light);
 };
 
 /// A point of the drawn surface.

@@ -99,6 +99,12 @@ public:
     std::vector<Rgb> radiosity() const;
     SolveStatistics statistics() const;
 
+    /// Blocks of vertices whose direct light may differ from what it was at the last call.
+    std::vector<std::uint32_t> takeSummedBlocks() { return direct_.takeSummedBlocks(); }
+    bool directOnly() const { return !indirect_; }
+    double certificate() const { return indirect_ ? indirect_->certificate() : 0; }
+    double meanRadiosity() const { return indirect_ ? indirect_->meanRadiosity() : 0; }
+
     const DirectLight& direct() const { return direct_; }
     const IndirectLight& indirect() const { return *indirect_; }
     std::span<const Row> emitterRows() const { return direct_.rows().rows(); }

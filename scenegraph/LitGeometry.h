@@ -8,7 +8,9 @@
 
 #include <glm/glm.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace penumbra {
@@ -18,6 +20,14 @@ struct LitMaterial {
     Rgb reflectance; ///< Lambertian rho
     Rgb emission;    ///< own luminance [nit]
     friend bool operator==(const LitMaterial&, const LitMaterial&) = default;
+};
+
+/// What has to do with one lamp alone, for those who exchange its light for a faster estimate.
+struct LampShare {
+    /// Illuminance by this lamp over its exitance pi L, no unit; as long as positions.
+    std::vector<float> factor;
+    /// 1 while an edit may still change the factors of this block (see LitGeometry::kBlock).
+    std::vector<std::uint8_t> stale;
 };
 
 /// Flat arrays of lit triangles, one-sided: front is counter-clockwise. The luminance of a point is
@@ -30,11 +40,21 @@ struct LitMeshData {
     std::vector<std::uint32_t> indices;          ///< three a triangle
     std::vector<std::uint32_t> triangleMaterial; ///< index into materials, one a triangle
     std::vector<LitMaterial> materials;
+    std::vector<LampShare> lamps = {}; ///< of the live lamps, if any; an empty factor: not known
 };
 
-/// The lit surface of one object.
+/// The lit surface of one object. Its light comes in blocks of kBlock consecutive vertices: one
+/// that keeps a copy of it remembers revisions, and copies the blocks that have another one.
+///
+/// | what was edited | revision() | topologyRevision() | blockRevisions() |
+/// |---|---|---|---|
+/// | light of some blocks | rises | | of these rise |
+/// | reflectance, emission | rises | | |
+/// | which vertices make up which triangles, or their number | rises | rises | of new ones |
 class LitGeometry : public Node {
 public:
+    static constexpr std::size_t kBlock = 64; ///< vertices
+
     LitGeometry(std::string name, ObjectId object, LitMeshData data);
     void accept(Visitor& visitor) const override;
 
@@ -44,11 +64,22 @@ public:
 
     /// Replaces the light, vertex by vertex; both spans are as long as positions.
     void setIlluminance(std::vector<Rgb> direct, std::vector<Rgb> indirect);
+    /// Replaces the light of one block; `edit` is given the arrays to write to, see LitMeshData.
+    void setBlock(std::size_t block, const std::function<void(LitMeshData&)>& edit);
+    /// Replaces what triangles are made of; positions may only be added at the end.
+    void setTopology(const std::function<void(LitMeshData&)>& edit);
+    void setMaterials(std::vector<LitMaterial> materials);
+
+    std::uint64_t topologyRevision() const { return topologyRevision_; }
+    /// One a block of vertices, 1 at first.
+    const std::vector<std::uint64_t>& blockRevisions() const { return blockRevisions_; }
 
 private:
     ObjectId object_;
     LitMeshData data_;
     Bounds bounds_;
+    std::uint64_t topologyRevision_ = 1;
+    std::vector<std::uint64_t> blockRevisions_;
 };
 
 } // namespace penumbra

@@ -90,7 +90,7 @@ FrameLayers draw(const RenderCommand& command, SceneSolution& solution, const Vi
     }
     OffscreenContext context;
     Renderer renderer;
-    const RadiosityNode lit(solution.patches(), solution.lighting());
+    const LitBranch lit(solution.patches(), solution.lighting());
     return renderFrame(context, renderer, lit, view, command.width, command.height);
 }
 

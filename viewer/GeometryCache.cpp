@@ -63,7 +63,8 @@ std::weak_ptr<const Node> ownerOf(const DrawItem& item) {
 } // namespace
 
 GpuGeometry::GpuGeometry(const LitGeometry& geometry)
-    : vertexArray_(makeVertexArray()), revision_(geometry.revision()) {
+    : vertexArray_(makeVertexArray()), revision_(geometry.revision()),
+      topologyRevision_(geometry.topologyRevision()) {
     const LitMeshData& mesh = geometry.data();
     assert(mesh.direct.size() == mesh.positions.size());
     assert(mesh.indirect.size() == mesh.positions.size());
@@ -88,6 +89,10 @@ bool GpuGeometry::refresh(const LitGeometry& geometry) {
     return true;
 }
 
+bool GpuGeometry::sameTopology(const LitGeometry& geometry) const {
+    return topologyRevision_ == geometry.topologyRevision();
+}
+
 void GpuGeometry::bind() const {
     glBindVertexArray(vertexArray_.name());
 }
@@ -98,7 +103,9 @@ void GeometryCache::dropDead() {
 
 const GpuGeometry& GeometryCache::get(const DrawItem& item) {
     const auto found = entries_.find(item.geometry);
-    if (found != entries_.end()) {
+    if (found != entries_.end() && !found->second.gpu.sameTopology(*item.geometry)) {
+        entries_.erase(found);
+    } else if (found != entries_.end()) {
         lightUploads_ += found->second.gpu.refresh(*item.geometry);
         return found->second.gpu;
     }

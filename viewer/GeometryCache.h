@@ -28,13 +28,16 @@ public:
     /// Copies the light again if the geometry was edited since; returns whether it was.
     bool refresh(const LitGeometry& geometry);
 
+    /// Whether its triangles are still those of the geometry.
+    bool sameTopology(const LitGeometry& geometry) const;
+
     void bind() const;
     const std::vector<MaterialRange>& ranges() const { return ranges_; }
 
 private:
     GlObject vertexArray_, positions_, normals_, direct_, indirect_, indices_;
     std::vector<MaterialRange> ranges_;
-    std::uint64_t revision_ = 0;
+    std::uint64_t revision_ = 0, topologyRevision_ = 0;
 };
 
 /// Uploads each geometry once, and afterwards only its light when that has changed. A geometry that

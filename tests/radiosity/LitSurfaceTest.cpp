@@ -67,7 +67,7 @@ TEST_F(LitFloor, IsMetFromItsFrontOnly) {
 }
 
 TEST_F(LitFloor, AsABranchOfTheSceneGraphHasTheSameVertices) {
-    const RadiosityNode node(built.patches, light);
+    const LitBranch node(built.patches, light);
     ASSERT_EQ(node.children().size(), 1u);
     const auto& data = dynamic_cast<const LitGeometry&>(*node.children()[0]).data();
     EXPECT_EQ(data.positions.size(), 25u);

@@ -1,0 +1,291 @@
+#include "radiosity/RadiosityNode.h"
+
+#include "radiosity/process/GraphTable.h"
+#include "radiosity/process/LightingClient.h"
+#include "radiosity/process/LitObjects.h"
+#include "radiosity/process/TriggerGate.h"
+#include "scenegraph/Error.h"
+#include "scenegraph/Transform.h"
+#include "scenegraph/Visitor.h"
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+
+namespace penumbra {
+
+namespace {
+
+/// A scene whose root is a node that someone else owns.
+PlacedScene placeBelow(const Group& root) {
+    Scene scene;
+    scene.root = std::shared_ptr<Group>(std::shared_ptr<Group>(), const_cast<Group*>(&root));
+    return placeScene(scene);
+}
+
+} // namespace
+
+struct RadiosityNode::Impl {
+    Impl(const Group& root, const RadiosityOptions& wanted, std::unique_ptr<LightingLink> link)
+        : options(wanted), table(root), gate(wanted.trigger),
+          client(std::move(link), wanted, [this](ByteWriter& out) { writeTask(out); }) {}
+
+    void writeTask(ByteWriter& out) const;
+    void look(const Group& root);
+    void send(std::vector<GraphEdit> edits);
+    void takeLight();
+    void showObjects(Group& lit, bool moved);
+    void rebuildBranch(Group& lit);
+    LitMaterial colourOf(const LitMeshMaterial& material) const;
+
+    RadiosityOptions options;
+    GraphTable table;
+    TriggerGate gate;
+    LightingClient client;
+    PlacedScene placed;
+    std::unordered_map<std::string, std::size_t> byPath; ///< into placed.objects
+    bool placedAnew = true, recolour = false;
+
+    std::unique_ptr<LitObjects> shown, incoming;
+    std::shared_ptr<StoreReader> store;
+    std::vector<LitObject> objects;
+    std::vector<std::pair<std::shared_ptr<Switch>, std::shared_ptr<Transform>>> branch;
+    const LitObjects* branchOf = nullptr;
+    std::uint64_t branchRevision = 0;
+    std::vector<Placed<Mesh>> unlit;
+
+    std::vector<std::string> liveLamps;
+    RadiosityState state;
+    std::uint64_t updates = 0, blocksBefore = 0;
+};
+
+/// The scene as it was told. Sizes that followed from it at first are kept, so that it is meshed
+/// alike wherever things stand now.
+void RadiosityNode::Impl::writeTask(ByteWriter& out) const {
+    LightingTask task{options.meshing, options.solving, options.order, {}};
+    if (shown) {
+        const MeshingOptions& sizes = shown->sizes();
+        if (task.meshing.patchSize == 0) task.meshing.patchSize = sizes.patchSize;
+        if (task.meshing.elementSize == 0) task.meshing.elementSize = sizes.elementSize;
+        task.meshing.extent = sizes.extent;
+    }
+    write(out, task, table.image());
+}
+
+/// Finds edits, and sends those that are due.
+void RadiosityNode::Impl::look(const Group& root) {
+    GraphTable::Change change = table.look();
+    if (change.any() || placedAnew) {
+        placed = placeBelow(root);
+        byPath.clear();
+        for (std::size_t o = 0; o < placed.objects.size(); ++o) byPath[placed.objects[o].path] = o;
+        placedAnew = true;
+    }
+    for (GraphEdit& edit : change.edits) {
+        recolour |=
+            std::holds_alternative<SetMaterial>(edit) || std::holds_alternative<SetLuminance>(edit);
+        gate.add(std::move(edit));
+    }
+    std::vector<GraphEdit> due = gate.takeDue();
+    if (change.structure) {
+        for (const GraphEdit& edit : due) table.tell(edit);
+        client.sendScene();
+        ++updates;
+    } else {
+        send(std::move(due));
+    }
+}
+
+void RadiosityNode::Impl::send(std::vector<GraphEdit> edits) {
+    for (const GraphEdit& edit : edits) {
+        table.tell(edit);
+        client.send(edit);
+    }
+    updates += !edits.empty();
+}
+
+LitMaterial RadiosityNode::Impl::colourOf(const LitMeshMaterial& source) const {
+    LitMaterial colour;
+    if (const Material* const material = table.material(source.material)) {
+        colour.reflectance = material->reflectance();
+        if (source.emits) colour.emission = material->emission();
+    }
+    if (const auto* const light = dynamic_cast<const Light*>(table.node(source.light)))
+        if (source.emits) colour.emission = light->luminance();
+    return colour;
+}
+
+void RadiosityNode::Impl::takeLight() {
+    const auto colour = [this](const LitMeshMaterial& material) { return colourOf(material); };
+    try {
+        if (client.store() && client.store() != store) {
+            store = client.store();
+            incoming = std::make_unique<LitObjects>(store);
+        }
+        if (incoming) incoming->take(colour);
+        if (incoming && (!shown || incoming->complete())) {
+            if (shown) blocksBefore += shown->blocksTaken();
+            shown = std::move(incoming);
+        } else if (shown) {
+            shown->take(colour);
+        }
+    } catch (const Error& error) {
+        client.distrust(error.what());
+        incoming.reset();
+        store.reset();
+    }
+    if (!std::exchange(recolour, false)) return;
+    if (shown) shown->recolour(colour);
+    if (incoming) incoming->recolour(colour);
+}
+
+void RadiosityNode::Impl::rebuildBranch(Group& lit) {
+    for (const auto& [choice, place] : branch) lit.remove(choice);
+    branch.clear();
+    objects.clear();
+    for (const LitObjects::Entry& entry : shown->entries()) {
+        objects.push_back({entry.path, glm::dmat4(1.0), true, entry.toObject, entry.geometry});
+        auto choice = std::make_shared<Switch>(entry.path);
+        auto place = std::make_shared<Transform>(entry.path);
+        if (entry.geometry) place->add(entry.geometry);
+        choice->add(place);
+        branch.emplace_back(choice, place);
+        lit.add(choice);
+    }
+    branchOf = shown.get();
+    branchRevision = shown->revision();
+}
+
+/// Puts what is lit where the objects are now.
+void RadiosityNode::Impl::showObjects(Group& lit, bool moved) {
+    if (shown && (branchOf != shown.get() || branchRevision != shown->revision() ||
+                  objects.size() != shown->entries().size())) {
+        rebuildBranch(lit);
+        moved = true;
+    }
+    if (!moved) return;
+    std::vector<std::uint8_t> isLit(placed.objects.size());
+    for (std::size_t o = 0; o < objects.size(); ++o) {
+        LitObject& object = objects[o];
+        const auto found = byPath.find(object.path);
+        object.visible = found != byPath.end() && placed.objects[found->second].visible;
+        branch[o].first->setVisible(object.visible);
+        if (found == byPath.end()) continue;
+        object.toNode = placed.objects[found->second].toWorld;
+        branch[o].second->setMatrix(object.toNode * object.toObject);
+        isLit[found->second] = object.geometry != nullptr;
+    }
+    unlit.clear();
+    for (const Placed<Mesh>& mesh : placed.meshes)
+        if (!isLit[mesh.object.value] && placed.objects[mesh.object.value].visible)
+            unlit.push_back(mesh);
+}
+
+RadiosityNode::RadiosityNode(std::string name, const RadiosityOptions& options,
+                             std::unique_ptr<LightingLink> link)
+    : Group(std::move(name)), lit_(std::make_shared<Group>("lit")),
+      impl_(std::make_unique<Impl>(*this, options, std::move(link))) {
+    impl_->client.start();
+}
+
+RadiosityNode::~RadiosityNode() = default;
+
+void RadiosityNode::accept(Visitor& visitor) const {
+    visitor.visit(static_cast<const Group&>(*this));
+    visitor.visit(static_cast<const Group&>(*lit_));
+}
+
+void RadiosityNode::update() {
+    impl_->look(*this);
+    impl_->client.turn();
+    impl_->takeLight();
+    impl_->showObjects(*lit_, std::exchange(impl_->placedAnew, false));
+    impl_->state = impl_->client.state();
+    impl_->state.held = impl_->gate.held();
+    impl_->state.updates = impl_->updates;
+    impl_->state.blocksTaken =
+        impl_->blocksBefore + (impl_->shown ? impl_->shown->blocksTaken() : 0);
+    const bool allTaken = !impl_->incoming && impl_->shown && impl_->shown->current();
+    if (impl_->state.phase == RadiosityState::Phase::settled && !allTaken)
+        impl_->state.phase = RadiosityState::Phase::solving; // its light is still being read
+}
+
+void RadiosityNode::stop() {
+    impl_->client.stop();
+}
+
+void RadiosityNode::start() {
+    impl_->client.start();
+}
+
+void RadiosityNode::setTrigger(Trigger trigger) {
+    impl_->look(*this); // edits so far belong to the trigger so far
+    impl_->gate.setTrigger(trigger);
+    impl_->client.send(MessageKind::trigger, std::uint32_t(trigger));
+}
+
+void RadiosityNode::setTrigger(const Node& node, std::optional<Trigger> trigger) {
+    impl_->look(*this);
+    if (const auto number = impl_->table.numberOf(node)) impl_->gate.setTrigger(*number, trigger);
+}
+
+void RadiosityNode::grab(const Node& node) {
+    impl_->look(*this);
+    const auto number = impl_->table.numberOf(node);
+    if (!number) return;
+    impl_->gate.grab(*number);
+    impl_->client.send(MessageKind::grab, *number);
+}
+
+void RadiosityNode::release(const Node& node) {
+    impl_->look(*this);
+    const auto number = impl_->table.numberOf(node);
+    if (!number) return;
+    impl_->gate.release(*number);
+    impl_->client.send(MessageKind::release, *number);
+}
+
+void RadiosityNode::requestUpdate() {
+    impl_->look(*this);
+    impl_->send(impl_->gate.takeAll());
+    impl_->client.send(MessageKind::update, 0);
+}
+
+void RadiosityNode::invalidate(const Bounds& box) {
+    impl_->client.invalidate(box);
+}
+
+void RadiosityNode::setCamera(const View& view) {
+    impl_->client.setCamera(view);
+}
+
+void RadiosityNode::setLiveLamps(std::vector<std::string> paths) {
+    if (paths.size() > kMostLiveLamps) paths.resize(kMostLiveLamps);
+    impl_->liveLamps = std::move(paths);
+}
+
+const std::vector<std::string>& RadiosityNode::liveLamps() const {
+    return impl_->liveLamps;
+}
+
+std::span<const LitObject> RadiosityNode::objects() const {
+    return impl_->objects;
+}
+
+const std::vector<Placed<Mesh>>& RadiosityNode::unlit() const {
+    return impl_->unlit;
+}
+
+const PlacedScene& RadiosityNode::placed() const {
+    return impl_->placed;
+}
+
+const RadiosityState& RadiosityNode::state() const {
+    return impl_->state;
+}
+
+std::vector<std::string> RadiosityNode::takeMessages() {
+    return impl_->client.takeMessages();
+}
+
+} // namespace penumbra

@@ -1,0 +1,64 @@
+// The graph below a node, watched for edits.
+#pragma once
+
+#include "radiosity/process/GraphImage.h"
+#include "scenegraph/Group.h"
+
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+namespace penumbra {
+
+/// Gives numbers to the nodes and materials of a graph, and finds what was edited by their
+/// revisions. Beside the graph as it is it keeps an image of it as it was told to the other side:
+/// a new one is handed this image, and has missed nothing.
+class GraphTable {
+public:
+    /// \param root must outlive this
+    explicit GraphTable(const Group& root);
+
+    struct Change {
+        bool structure = false; ///< there are new things: the image is to be handed over whole
+        std::vector<GraphEdit> edits;
+        bool any() const { return structure || !edits.empty(); }
+    };
+    /// What was edited since this was called last. New things, and which things there are, enter
+    /// the image here; other edits do when they are told.
+    Change look();
+    /// An edit goes to the other side.
+    void tell(const GraphEdit& edit) { apply(image_, edit); }
+
+    const GraphImage& image() const { return image_; }
+    std::optional<std::uint32_t> numberOf(const Node& node) const;
+    /// The thing of a number, null: none.
+    const Node* node(std::uint32_t number) const;
+    const Material* material(std::uint32_t number) const;
+
+private:
+    struct Watched {
+        NodePtr node; ///< held, so that no other node gets its address
+        std::uint64_t revision = 0;
+    };
+    struct WatchedMaterial {
+        std::shared_ptr<Material> material;
+        std::uint64_t revision = 0;
+    };
+    std::uint32_t enter(const NodePtr& node);
+    std::uint32_t enter(const std::shared_ptr<Material>& material);
+    std::vector<std::uint32_t> enterChildren(const Group& group);
+    void describe(std::uint32_t number);
+    void lookAt(std::uint32_t number, Change& change);
+    void dropUnreachable();
+
+    std::vector<Watched> nodes_;
+    std::vector<WatchedMaterial> materials_;
+    std::unordered_map<const Node*, std::uint32_t> nodeNumbers_;
+    std::unordered_map<const Material*, std::uint32_t> materialNumbers_;
+    std::vector<NodeImage> seen_; ///< what matters of each node at its revision; no names, meshes
+    GraphImage image_;
+    bool grown_ = false;
+};
+
+} // namespace penumbra

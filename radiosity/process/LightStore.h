@@ -1,0 +1,117 @@
+// Published light: blocks that the worker writes and the node reads.
+#pragma once
+
+#include "radiosity/PatchSet.h"
+#include "radiosity/process/LitMesh.h"
+#include "radiosity/process/RadiosityOptions.h"
+#include "radiosity/process/Region.h"
+#include "radiosity/process/Seqlock.h"
+#include "scenegraph/Rgb.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace penumbra {
+
+/// The light of one block of receivers, as it lies in shared memory: 16-bit floats with scales
+/// (powers of two), so that a block in full sun and one lit through a crack are equally exact.
+struct alignas(8) LightBlock {
+    static constexpr std::size_t kSize = PatchSet::kBlock;
+
+    std::uint32_t object = 0;  ///< whose block it is
+    std::uint32_t lampSet = 0; ///< serial of the live lamps that `lamps` is about; 0: none
+    float directScale = 1, indirectScale = 1;
+    std::array<std::uint16_t, 3 * kSize> direct{}, indirect{}; ///< r, g, b of each vertex [lux]
+    /// Of private blocks only, see PatchSet: what each vertex stands for, see kNoCorner.
+    std::array<std::uint32_t, kSize> corners{};
+    /// If there are live lamps only.
+    std::uint32_t lamps = 0;
+    std::uint32_t stale = 0; ///< bit l: open work on the row of lamp l
+    std::array<float, kMostLiveLamps> factorScale{};
+    std::array<std::array<std::uint16_t, kSize>, kMostLiveLamps> factor{}; ///< see LampShare
+};
+
+/// How large things are in a store.
+struct StoreShape {
+    std::uint64_t meshBytes = 0;
+    std::uint32_t blocks = 0;       ///< there is room for
+    std::uint32_t firstPrivate = 0; ///< blocks before it belong to the mesh from the start
+    std::size_t bytes() const;      ///< of the whole store
+};
+
+/// Begins a store. What follows: mesh, sequence numbers, blocks, each aligned to 64.
+struct StoreHeader {
+    std::uint64_t magic;
+    std::uint64_t number; ///< of the request
+    StoreShape shape;
+    std::atomic<std::uint32_t> ready;     ///< 1: the mesh is there
+    std::atomic<std::uint32_t> used;      ///< blocks in use
+    std::atomic<std::uint64_t> published; ///< rises with every block that is written
+};
+
+/// The worker's end.
+class StoreWriter {
+public:
+    /// \param region zeroed, of shape.bytes()
+    StoreWriter(RegionPtr region, std::uint64_t number, const StoreShape& shape,
+                std::span<const std::byte> mesh);
+
+    const StoreShape& shape() const { return shape_; }
+    void setUsed(std::uint32_t blocks);
+    /// Writes a block; one that says the same as before is not written again.
+    void write(std::uint32_t block, const LightBlock& light);
+
+private:
+    RegionPtr region_;
+    StoreShape shape_;
+    StoreHeader& header_;
+    SharedCount* sequences_;
+    SharedWord* blocks_;
+};
+
+/// The node's end. Nothing that is read can make it read or write elsewhere.
+class StoreReader {
+public:
+    /// \throws Error if this is not a store of this number and of a size that fits the region
+    StoreReader(RegionPtr region, std::uint64_t number);
+
+    const StoreShape& shape() const { return shape_; }
+    std::span<const std::byte> mesh() const { return mesh_; }
+
+    /// Blocks that were written since they were read, at most so many; goes on where it stopped.
+    /// Those that are being written come another time.
+    struct Got {
+        std::uint32_t block;
+        LightBlock light;
+    };
+    void read(std::size_t most, std::vector<Got>& got);
+    /// Whether all that was published is read.
+    bool current() const;
+
+private:
+    bool readBlock(std::uint32_t block, LightBlock& light, std::uint32_t& sequence) const;
+
+    RegionPtr region_;
+    StoreShape shape_;
+    std::span<const std::byte> mesh_;
+    const StoreHeader& header_;
+    const SharedCount* sequences_;
+    const SharedWord* blocks_;
+    std::vector<std::uint32_t> known_; ///< sequence numbers of what was read
+    std::uint64_t publishedKnown_ = ~std::uint64_t(0);
+    std::uint32_t next_ = 0;
+};
+
+/// Whether a region holds a store of this number that is ready to be read.
+bool storeReady(Region& region, std::uint64_t number);
+
+/// Packs 3 * kSize or kSize values, finite; returns the scale.
+float packHalves(std::span<const float> values, std::uint16_t* halves);
+/// What is not finite, negative or has no scale becomes 0.
+void unpackHalves(const std::uint16_t* halves, float scale, std::span<float> values);
+
+} // namespace penumbra

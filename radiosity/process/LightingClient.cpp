@@ -1,0 +1,303 @@
+#include "radiosity/process/LightingClient.h"
+
+#include "radiosity/process/Doorbell.h"
+#include "scenegraph/Error.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <new>
+#include <utility>
+
+#include <unistd.h>
+
+namespace penumbra {
+
+namespace {
+
+// Keys of messages that replace each other; those of edits are smaller, see keyOf().
+constexpr std::uint64_t kCameraKey = std::uint64_t(1) << 62, kLampsKey = kCameraKey + 1;
+
+constexpr double kStart = 20;                           ///< a process has so long to begin [s]
+constexpr double kStandstill = 120;                     ///< a step of the work takes less [s]
+constexpr double kFirstDelay = 0.1, kLongestDelay = 10; ///< before another worker is tried [s]
+
+double seconds() {
+    using namespace std::chrono;
+    return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+} // namespace
+
+LightingClient::LightingClient(std::unique_ptr<LightingLink> link, const RadiosityOptions& options,
+                               std::function<void(ByteWriter&)> writeTask)
+    : link_(std::move(link)), options_(options), writeTask_(std::move(writeTask)) {}
+
+LightingClient::~LightingClient() {
+    link_->end();
+}
+
+void LightingClient::start() {
+    running_ = true;
+    hopeless_ = false;
+    retryAt_ = retryDelay_ = 0;
+    lastTurn_ = seconds();
+}
+
+void LightingClient::stop() {
+    running_ = false;
+    link_->end();
+    control_.reset();
+    ring_.reset();
+    queue_.clear();
+    sent_.clear();
+    unlitSince_ = 0;
+}
+
+void LightingClient::say(const std::string& text) {
+    toSay_.push_back(text);
+}
+
+std::vector<std::string> LightingClient::takeMessages() {
+    return std::exchange(toSay_, {});
+}
+
+/// A worker that knows nothing yet, and all that it has to be told.
+void LightingClient::launch() {
+    try {
+        control_ = link_->regions().create(sizeof(ControlBlock));
+        ControlBlock& block = control();
+        block.magic = kControlMagic;
+        block.version = kProtocolVersion;
+        block.bytes = sizeof(ControlBlock);
+        block.viewer = getpid();
+        ring_.emplace(block.ring, block.ringBytes);
+        queue_.clear();
+        sent_.clear();
+        granted_ = opened_ = 0;
+        grantedRegion_.reset();
+        status_ = {};
+        serial_ = 0;
+        beat_ = turns_ = 0;
+        silence_ = standstill_ = 0;
+        link_->start(control_, {options_.threads, options_.niceness});
+        sendScene();
+        if (hasCamera_) setCamera(camera_);
+    } catch (const Error& error) {
+        failed(error.what());
+    } catch (const std::bad_alloc&) {
+        failed("out of memory");
+    }
+}
+
+void LightingClient::failed(const std::string& why) {
+    link_->end();
+    control_.reset();
+    ring_.reset();
+    grantedRegion_.reset();
+    if (!std::exchange(saidFailure_, true))
+        say("radiosity: " + why + "; starting anew, with the light that there is until then");
+    ++restarts_;
+    retryAt_ = seconds() + retryDelay_;
+    retryDelay_ = std::clamp(2 * retryDelay_, kFirstDelay, kLongestDelay);
+    if (unlitSince_ == 0) unlitSince_ = seconds();
+}
+
+void LightingClient::distrust(const std::string& why) {
+    store_.reset();
+    failed(why);
+}
+
+void LightingClient::sendScene() {
+    hopeless_ = false;
+    if (!control_) return;
+    ByteWriter task;
+    writeTask_(task);
+    Message message;
+    message.region = link_->regions().create(task.bytes().size());
+    std::copy(task.bytes().begin(), task.bytes().end(), message.region->bytes().begin());
+    std::erase_if(queue_, [](const Message& m) { return m.key < kCameraKey || m.region; });
+    ByteWriter body;
+    body.put(MessageKind::scene);
+    body.put(std::uint64_t(0));
+    body.text(message.region->name());
+    message.body = body.take();
+    queue_.push_back(std::move(message));
+    if (unlitSince_ == 0) unlitSince_ = seconds();
+}
+
+void LightingClient::send(const GraphEdit& edit) {
+    hopeless_ = false;
+    if (unlitSince_ == 0) unlitSince_ = seconds();
+    if (!control_) return; // the next worker is told with the scene
+    ByteWriter body;
+    body.put(MessageKind::edit);
+    body.put(std::uint64_t(0));
+    write(body, edit);
+    if (body.bytes().size() > RingSender::longest(kRingBytes)) return sendScene();
+    queue(keyOf(edit), std::move(body));
+}
+
+void LightingClient::invalidate(const Bounds& box) {
+    ByteWriter body;
+    body.put(MessageKind::invalidate);
+    body.put(std::uint64_t(0));
+    body.put(box);
+    if (control_) queue(kNoKey, std::move(body));
+    if (unlitSince_ == 0) unlitSince_ = seconds();
+}
+
+void LightingClient::setCamera(const View& view) {
+    camera_ = view;
+    hasCamera_ = true;
+    ByteWriter body;
+    body.put(MessageKind::camera);
+    body.put(std::uint64_t(0));
+    body.put(view);
+    if (control_) queue(kCameraKey, std::move(body));
+}
+
+void LightingClient::send(MessageKind kind, std::uint32_t value) {
+    ByteWriter body;
+    body.put(kind);
+    body.put(std::uint64_t(0));
+    body.put(value);
+    if (control_) queue(kNoKey, std::move(body));
+}
+
+void LightingClient::queue(std::uint64_t key, ByteWriter body) {
+    Message message{key, body.take(), nullptr};
+    if (key != kNoKey) {
+        const auto same = std::find_if(queue_.begin(), queue_.end(),
+                                       [&](const Message& m) { return m.key == key; });
+        if (same != queue_.end()) {
+            *same = std::move(message);
+            return;
+        }
+    }
+    queue_.push_back(std::move(message));
+}
+
+void LightingClient::flush() {
+    bool sent = false;
+    while (!queue_.empty()) {
+        Message& message = queue_.front();
+        const std::uint64_t serial = serial_ + 1;
+        std::memcpy(message.body.data() + sizeof(MessageKind), &serial, sizeof serial);
+        if (!ring_->send(message.body)) break;
+        serial_ = serial;
+        sent = true;
+        if (message.region) sent_.push_back(std::move(message.region));
+        queue_.pop_front();
+    }
+    if (sent) ring(control().doorbell);
+}
+
+void LightingClient::turn() {
+    const double now = seconds();
+    const double passed = std::min(now - lastTurn_, 0.1); // not when this side itself stood still
+    lastTurn_ = now;
+    if (!running_ || hopeless_) return;
+    if (!control_ && now >= retryAt_) launch();
+    if (!control_) return;
+    flush();
+    if (!ring_->sound()) return failed("the process wrote nonsense");
+    watch(passed);
+    if (!control_) return;
+    readStatus();
+    try {
+        grantStore();
+        openStore();
+    } catch (const Error& error) {
+        failed(error.what());
+    }
+}
+
+/// Ends a worker that has ended itself, or says nothing any more.
+void LightingClient::watch(double passed) {
+    if (const auto why = link_->ended()) return failed(*why);
+    if (!link_->apart()) return;
+    const ControlBlock& block = control();
+    const std::uint64_t beat = block.beat.load(std::memory_order_relaxed);
+    const std::uint64_t turns = block.turns.load(std::memory_order_relaxed);
+    silence_ = std::exchange(beat_, beat) == beat ? silence_ + passed : 0;
+    standstill_ = std::exchange(turns_, turns) == turns ? standstill_ + passed : 0;
+    if (silence_ > (beat == 0 ? kStart : options_.patience))
+        return failed("the process does not answer");
+    if (standstill_ > kStandstill && status_.phase != WorkerStatus::meshing)
+        failed("the process is stuck");
+}
+
+void LightingClient::readStatus() {
+    WorkerStatus status;
+    if (!control().status.read(status) || control().status.version() == 0) return;
+    status_ = status;
+    if (status_.taken >= 1 && !sent_.empty()) sent_.clear();
+    const bool lit = status_.phase == WorkerStatus::settled && queue_.empty() &&
+                     status_.lit == serial_ && opened_ == granted_;
+    if (lit) {
+        unlitSince_ = 0;
+        retryDelay_ = 0;
+        saidFailure_ = false;
+    }
+    const std::string trouble =
+        status_.phase == WorkerStatus::failed ? status_.trouble.text() : std::string();
+    if (std::exchange(saidTrouble_, trouble) != trouble && !trouble.empty())
+        say("radiosity: " + trouble);
+}
+
+void LightingClient::grantStore() {
+    StoreRequest request;
+    if (!control().request.read(request) || request.number <= granted_) return;
+    if (request.bytes > options_.mostMemory) {
+        say("radiosity: the light of this scene takes " + std::to_string(request.bytes >> 20) +
+            " MB, more than the " + std::to_string(options_.mostMemory >> 20) +
+            " MB allowed (choose larger elements)");
+        link_->end();
+        control_.reset();
+        hopeless_ = true;
+        return;
+    }
+    grantedRegion_ = link_->regions().create(request.bytes);
+    granted_ = request.number;
+    StoreGrant grant;
+    grant.number = granted_;
+    grant.name.set(grantedRegion_->name());
+    control().grant.write(grant);
+    ring(control().doorbell);
+}
+
+void LightingClient::openStore() {
+    if (!grantedRegion_ || !storeReady(*grantedRegion_, granted_)) return;
+    store_ = std::make_shared<StoreReader>(grantedRegion_, granted_);
+    grantedRegion_->unlink();
+    grantedRegion_.reset();
+    opened_ = granted_;
+}
+
+RadiosityState LightingClient::state() const {
+    using Phase = RadiosityState::Phase;
+    RadiosityState state;
+    state.task = status_.task.text();
+    state.progress = std::isfinite(status_.progress) ? std::clamp(status_.progress, 0.0, 1.0) : 0;
+    state.certificate = status_.certificate;
+    state.meanRadiosity = status_.meanRadiosity;
+    state.queued = queue_.size() + std::size_t(serial_ - std::min(serial_, status_.taken));
+    state.openBlocks = status_.openBlocks;
+    state.age = unlitSince_ == 0 ? 0 : seconds() - unlitSince_;
+    state.restarts = restarts_;
+    if (!running_)
+        state.phase = Phase::off;
+    else if (hopeless_ || status_.phase == WorkerStatus::failed)
+        state.phase = Phase::failed;
+    else if (!control_ || status_.phase == WorkerStatus::idle)
+        state.phase = Phase::connecting;
+    else if (status_.phase == WorkerStatus::meshing)
+        state.phase = Phase::meshing;
+    else
+        state.phase = unlitSince_ == 0 ? Phase::settled : Phase::solving;
+    return state;
+}
+
+} // namespace penumbra

@@ -1,0 +1,234 @@
+#include "radiosity/process/LightingWorker.h"
+
+#include "radiosity/process/Doorbell.h"
+#include "scenegraph/Error.h"
+#include "scenegraph/Objects.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+
+namespace penumbra {
+
+namespace {
+
+constexpr double kTurn = 0.008;           ///< [s]
+constexpr double kBetweenLooks = 0.1;     ///< at the indirect light while it is relaxed [s]
+constexpr std::size_t kMostBlocks = 1024; ///< published in one turn
+
+double seconds() {
+    using namespace std::chrono;
+    return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+[[noreturn]] void senseless(const char* what) {
+    throw Error(std::string("radiosity: ") + what +
+                " makes no sense (is the viewer another version of the program?)");
+}
+
+} // namespace
+
+ControlBlock& LightingWorker::controlOf(Region& region) {
+    if (region.bytes().size() < sizeof(ControlBlock)) senseless("the size of the shared memory");
+    auto& control = *reinterpret_cast<ControlBlock*>(region.bytes().data());
+    if (control.magic != kControlMagic || control.version != kProtocolVersion ||
+        control.bytes != sizeof(ControlBlock))
+        senseless("the shared memory");
+    return control;
+}
+
+LightingWorker::LightingWorker(Regions& regions, RegionPtr control)
+    : regions_(regions), region_(std::move(control)), control_(controlOf(*region_)),
+      messages_(control_.ring, control_.ringBytes) {}
+
+LightingWorker::~LightingWorker() = default;
+
+void LightingWorker::run() {
+    for (;;) {
+        const Turn last = turn(kTurn);
+        if (last == Turn::stopped) return;
+        if (last == Turn::idle) wait(0.05);
+    }
+}
+
+void LightingWorker::wait(double time) {
+    waitForRing(control_.doorbell, heard_, time);
+}
+
+LightingWorker::Turn LightingWorker::turn(double budget) {
+    control_.turns.fetch_add(1, std::memory_order_relaxed);
+    receive();
+    if (stopped_ || control_.stop.load(std::memory_order_relaxed) != 0) return Turn::stopped;
+    bool worked = false;
+    try {
+        if (edited_) followScene(), worked = true;
+        if (lit_) worked |= work(budget);
+    } catch (const Error& error) {
+        fail(error.what());
+    }
+    report();
+    return worked ? Turn::worked : Turn::idle;
+}
+
+void LightingWorker::receive() {
+    heard_ = control_.doorbell.load(std::memory_order_acquire);
+    for (;;) {
+        const RingReceiver::Got got = messages_.receive(message_);
+        if (got == RingReceiver::Got::nothing) return;
+        if (got == RingReceiver::Got::nonsense) senseless("the queue of messages");
+        ByteReader reader(message_);
+        const auto kind = reader.get<MessageKind>();
+        const auto serial = reader.get<std::uint64_t>();
+        take(kind, reader);
+        if (!reader.ok()) senseless("a message");
+        status_.taken = serial;
+    }
+}
+
+void LightingWorker::take(MessageKind kind, ByteReader& message) {
+    switch (kind) {
+    case MessageKind::scene:
+        takeScene(message.text());
+        break;
+    case MessageKind::edit: {
+        const auto edit = readGraphEdit(message);
+        if (!edit || !graph_ || !graph_->apply(*edit)) senseless("an edit");
+        edited_ = true;
+        break;
+    }
+    case MessageKind::invalidate:
+        invalid_.push_back(message.get<Bounds>());
+        edited_ = true;
+        break;
+    case MessageKind::stop:
+        stopped_ = true;
+        break;
+    case MessageKind::camera:
+    case MessageKind::grab:
+    case MessageKind::release:
+    case MessageKind::trigger:
+    case MessageKind::update:
+    case MessageKind::liveLamps:
+        break;
+    default:
+        message.fail();
+    }
+}
+
+void LightingWorker::takeScene(const std::string& name) {
+    const RegionPtr region = regions_.open(name);
+    if (!region) senseless("the name of a scene");
+    region->unlink();
+    ByteReader reader(region->bytes());
+    task_ = readLightingTask(reader);
+    if (!task_) senseless("a scene");
+    graph_ = std::make_unique<GraphCopy>(std::move(task_->scene));
+    publisher_.reset();
+    lit_.reset();
+    edited_ = true;
+}
+
+void LightingWorker::followScene() {
+    edited_ = false;
+    solved_ = false;
+    if (!graph_) return;
+    if (!lit_) return build();
+    const PlacedScene placed = placeScene(graph_->scene());
+    const LitScene::Followed followed = lit_->follow(placed);
+    for (const Bounds& box : std::exchange(invalid_, {})) lit_->invalidate(box);
+    if (followed.rebuilt) return build();
+    publisher_->follow(followed.change);
+    if (publisher_->outgrown()) requestStore();
+}
+
+/// Meshes the scene, if that was not done, and asks for a place to publish it.
+void LightingWorker::build() {
+    status_.phase = WorkerStatus::meshing;
+    status_.task.set("meshing");
+    status_.progress = 0;
+    report();
+    const PlacedScene placed = placeScene(graph_->scene());
+    publisher_.reset();
+    invalid_.clear();
+    if (!lit_) lit_ = std::make_unique<LitScene>(placed, task_->meshing, task_->solving);
+    objectFrames_.clear();
+    for (const Object& object : placed.objects) objectFrames_.push_back(object.toWorld);
+    publisher_ = std::make_unique<LightPublisher>(*lit_);
+    directDone_ = false;
+    requestStore();
+}
+
+void LightingWorker::requestStore() {
+    constexpr std::uint32_t kLeastSpare = 64;
+    mesh_ = describeMesh(*lit_, *graph_, objectFrames_);
+    const std::uint32_t blocks = publisher_->blockCount();
+    shape_.meshBytes = mesh_.size();
+    shape_.blocks = blocks + std::max(kLeastSpare, blocks / 4);
+    shape_.firstPrivate = lit_->patches().firstPrivate / PatchSet::kBlock;
+    ++request_.number;
+    request_.bytes = shape_.bytes();
+    control_.request.write(request_);
+}
+
+void LightingWorker::openStore() {
+    StoreGrant grant;
+    if (!control_.grant.read(grant) || grant.number != request_.number) return;
+    const RegionPtr region = regions_.open(grant.name.text());
+    if (!region || region->bytes().size() < shape_.bytes()) senseless("the memory for results");
+    region->unlink();
+    control_.opened.store(request_.number, std::memory_order_release);
+    publisher_->setStore(std::make_unique<StoreWriter>(region, request_.number, shape_, mesh_));
+    mesh_ = {};
+}
+
+/// \return whether there was anything to do
+bool LightingWorker::work(double budget) {
+    if (!mesh_.empty()) openStore();
+    bool worked = false;
+    if (!solved_) {
+        worked = true;
+        const auto progress = [&](const char* phase, double done) {
+            status_.task.set(phase);
+            status_.progress = done;
+            directDone_ |= std::strcmp(phase, "direct light") != 0;
+        };
+        solved_ = lit_->solver().step(budget, progress);
+        directDone_ |= solved_;
+        status_.phase = WorkerStatus::solving;
+        if (solved_ || seconds() >= nextLook_) {
+            publisher_->solverWorked(solved_);
+            nextLook_ = seconds() + kBetweenLooks;
+        } else {
+            publisher_->directWorked();
+        }
+    }
+    if (directDone_ && mesh_.empty()) worked |= publisher_->publish(kMostBlocks);
+    if (solved_ && publisher_->hasStore() && mesh_.empty() && publisher_->open() == 0) {
+        status_.phase = WorkerStatus::settled;
+        status_.lit = status_.taken;
+    }
+    return worked;
+}
+
+/// This scene can't be lit; the next one, or an edit, may change that.
+void LightingWorker::fail(const std::string& why) {
+    status_.phase = WorkerStatus::failed;
+    status_.trouble.set(why);
+    publisher_.reset();
+    lit_.reset();
+    mesh_ = {};
+}
+
+void LightingWorker::report() {
+    if (lit_) {
+        status_.certificate = lit_->solver().certificate();
+        status_.meanRadiosity = lit_->solver().meanRadiosity();
+    }
+    status_.openBlocks = publisher_ ? std::uint32_t(publisher_->open()) : 0;
+    if (std::memcmp(&status_, &reported_, sizeof status_) == 0) return;
+    reported_ = status_;
+    control_.status.write(status_);
+}
+
+} // namespace penumbra

@@ -1,0 +1,74 @@
+// The other side of a RadiosityNode: takes scenes and edits, gives light.
+#pragma once
+
+#include "radiosity/LitScene.h"
+#include "radiosity/process/ControlBlock.h"
+#include "radiosity/process/GraphCopy.h"
+#include "radiosity/process/LightPublisher.h"
+#include "radiosity/process/LightingTask.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace penumbra {
+
+/// What runs in a thread or a process of its own. It knows nothing but two regions of memory, and
+/// trusts neither.
+class LightingWorker {
+public:
+    /// \param regions must outlive this
+    /// \throws Error if the control block is not one, or that of another version of the program
+    LightingWorker(Regions& regions, RegionPtr control);
+    ~LightingWorker();
+
+    /// Works until it is told to stop. \throws Error if what it reads makes no sense
+    void run();
+
+    enum class Turn { worked, idle, stopped };
+    /// Takes in what has come, works for about `budget` seconds, publishes some of it.
+    Turn turn(double budget);
+    /// Waits for something to do, not longer than this [s].
+    void wait(double seconds);
+
+    /// The control block of a region. \throws Error as above
+    static ControlBlock& controlOf(Region& region);
+
+private:
+    void receive();
+    void take(MessageKind kind, ByteReader& message);
+    void takeScene(const std::string& region);
+    void followScene();
+    void build();
+    void requestStore();
+    void openStore();
+    bool work(double budget);
+    void fail(const std::string& why);
+    void report();
+
+    Regions& regions_;
+    RegionPtr region_;
+    ControlBlock& control_;
+    RingReceiver messages_;
+    std::vector<std::byte> message_;
+    std::uint32_t heard_ = 0; ///< what the doorbell said before the messages were looked at
+
+    std::unique_ptr<GraphCopy> graph_;
+    std::optional<LightingTask> task_; ///< its scene is in graph_
+    std::unique_ptr<LitScene> lit_;
+    std::unique_ptr<LightPublisher> publisher_;
+    std::vector<glm::dmat4> objectFrames_; ///< when it was meshed
+    std::vector<Bounds> invalid_;
+    bool edited_ = false, stopped_ = false;
+    bool solved_ = false, directDone_ = false;
+    double nextLook_ = 0; ///< at the indirect light, steady clock [s]
+
+    StoreRequest request_;
+    StoreShape shape_;
+    std::vector<std::byte> mesh_; ///< until a store is granted
+    WorkerStatus status_, reported_;
+};
+
+} // namespace penumbra

@@ -1,0 +1,152 @@
+#include "radiosity/process/LitMesh.h"
+
+#include "radiosity/LitScene.h"
+#include "radiosity/process/GraphCopy.h"
+#include "scenegraph/Light.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace penumbra {
+
+namespace {
+
+constexpr std::uint32_t kBlock = PatchSet::kBlock;
+
+bool finite(glm::vec3 p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+/// Things in a frame without volume are nowhere but at its origin, wherever they would be drawn.
+glm::dmat4 inverseOrOne(const glm::dmat4& frame) {
+    const glm::dmat4 inverse = glm::inverse(frame);
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            if (!std::isfinite(inverse[column][row])) return glm::dmat4(1.0);
+    return inverse;
+}
+
+void writeHead(ByteWriter& out, const LitScene& scene, const GraphCopy& graph) {
+    const PatchSet& set = scene.patches();
+    out.put(sizesOf(set));
+    out.put(std::uint32_t(set.objects.size()));
+    std::vector<LitMeshMaterial> materials;
+    for (std::size_t m = 0; m < set.materials.size(); ++m) {
+        const LightSource& source = scene.built().materialSources[m];
+        LitMeshMaterial material;
+        if (source.material) material.material = graph.numberOf(source.material);
+        if (source.light) material.light = graph.numberOf(static_cast<const Node*>(source.light));
+        material.emits = scene.built().materialEmits[m];
+        materials.push_back(material);
+    }
+    out.list(materials);
+}
+
+/// Movable objects in their stretched frames, where they never change; the others in the world.
+void writeVertices(ByteWriter& out, const PatchSet& set, const ObjectPart& part,
+                   std::uint32_t count) {
+    std::vector<glm::vec3> positions(count), normals(count);
+    for (std::uint32_t i = 0; i < part.vertices.count; ++i) {
+        const Vertex& vertex =
+            part.movable ? part.shape.vertices[i] : set.vertices[part.vertices.first + i];
+        positions[i] = vertex.position;
+        normals[i] = vertex.receiver.normal;
+    }
+    out.list(positions);
+    out.list(normals);
+}
+
+void writeElements(ByteWriter& out, const PatchSet& set, std::uint32_t object,
+                   std::span<const std::uint32_t> elements) {
+    std::vector<std::array<std::uint32_t, 4>> corners;
+    std::vector<std::uint32_t> materials;
+    for (std::uint32_t e : elements) {
+        std::array<std::uint32_t, 4> local = set.uncoveredElements[e].vertices;
+        for (std::uint32_t& v : local) v -= set.objects[object].vertices.first;
+        corners.push_back(local);
+        materials.push_back(set.elements[e].material);
+    }
+    out.list(corners);
+    out.list(materials);
+}
+
+} // namespace
+
+std::vector<std::byte> describeMesh(const LitScene& scene, const GraphCopy& graph,
+                                    std::span<const glm::dmat4> toWorld) {
+    const PatchSet& set = scene.patches();
+    std::vector<std::vector<std::uint32_t>> elements(set.objects.size());
+    for (std::uint32_t e = 0; e < set.elements.size(); ++e)
+        elements[set.elementObject[e].value].push_back(e);
+    ByteWriter out;
+    writeHead(out, scene, graph);
+    for (std::uint32_t o = 0; o < set.objects.size(); ++o) {
+        const ObjectPart& part = set.objects[o];
+        out.text(part.path);
+        out.put(inverseOrOne(part.movable ? glm::dmat4(part.stretch) : toWorld[o]));
+        out.put(part.vertices.first / kBlock);
+        const std::uint32_t blocks = (part.vertices.count + kBlock - 1) / kBlock;
+        writeVertices(out, set, part, blocks * kBlock);
+        writeElements(out, set, o, elements[o]);
+    }
+    return out.take();
+}
+
+std::vector<std::uint32_t> numberElements(const PatchSet& set) {
+    std::vector<std::uint32_t> count(set.objects.size()), number(set.elements.size());
+    for (std::size_t e = 0; e < number.size(); ++e) number[e] = count[set.elementObject[e].value]++;
+    return number;
+}
+
+LitMeshReader::LitMeshReader(std::span<const std::byte> bytes, std::uint32_t blocks)
+    : reader_(bytes), blocks_(blocks) {
+    head_.sizes = reader_.get<MeshingOptions>();
+    head_.objects = reader_.get<std::uint32_t>();
+    head_.materials = reader_.list<LitMeshMaterial>();
+    for (float size : {head_.sizes.patchSize, head_.sizes.elementSize, head_.sizes.extent})
+        if (!std::isfinite(size) || size < 0) reader_.fail();
+    if (!reader_.ok()) head_ = {};
+}
+
+std::optional<LitMeshObject> LitMeshReader::next() {
+    LitMeshObject object;
+    object.path = reader_.text();
+    object.toObject = reader_.get<glm::dmat4>();
+    object.firstBlock = reader_.get<std::uint32_t>();
+    object.positions = reader_.list<glm::vec3>();
+    object.normals = reader_.list<glm::vec3>();
+    object.elements = reader_.list<std::array<std::uint32_t, 4>>();
+    object.elementMaterial = reader_.list<std::uint32_t>();
+    if (!reader_.ok() || !sound(object)) {
+        reader_.fail();
+        return std::nullopt;
+    }
+    if (!object.positions.empty())
+        nextBlock_ = object.firstBlock + std::uint32_t(object.positions.size() / kBlock);
+    ++next_;
+    return object;
+}
+
+bool LitMeshReader::sound(const LitMeshObject& object) const {
+    const std::size_t vertices = object.positions.size();
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            if (!std::isfinite(object.toObject[column][row])) return false;
+    // Blocks lie one object after the other, so that no two claim the same one.
+    const bool place =
+        vertices == 0 || (object.firstBlock >= nextBlock_ && object.firstBlock <= blocks_ &&
+                          vertices / kBlock <= blocks_ - object.firstBlock);
+    return vertices % kBlock == 0 && place && object.normals.size() == vertices &&
+           object.elementMaterial.size() == object.elements.size() &&
+           std::all_of(object.positions.begin(), object.positions.end(), finite) &&
+           std::all_of(object.normals.begin(), object.normals.end(), finite) &&
+           std::all_of(object.elements.begin(), object.elements.end(),
+                       [&](const std::array<std::uint32_t, 4>& corners) {
+                           return std::all_of(corners.begin(), corners.end(),
+                                              [&](std::uint32_t v) { return v < vertices; });
+                       }) &&
+           std::all_of(object.elementMaterial.begin(), object.elementMaterial.end(),
+                       [&](std::uint32_t m) { return m < head_.materials.size(); });
+}
+
+} // namespace penumbra

@@ -1,0 +1,195 @@
+#include "radiosity/process/LitObjects.h"
+
+#include "scenegraph/Error.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace penumbra {
+
+namespace {
+
+constexpr std::size_t kBlock = LitGeometry::kBlock;
+static_assert(kBlock == PatchSet::kBlock);
+constexpr std::size_t kMostBlocks = 1024; ///< taken at once
+constexpr double kMostTime = 0.002;       ///< for reading objects [s]
+
+double seconds() {
+    using namespace std::chrono;
+    return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+[[noreturn]] void senseless() {
+    throw Error("the process wrote nonsense");
+}
+
+/// Two triangles an element, or one.
+std::size_t indexCount(const std::array<std::uint32_t, 4>& base) {
+    return base[2] == base[3] ? 3 : 6;
+}
+
+} // namespace
+
+LitObjects::LitObjects(std::shared_ptr<StoreReader> store)
+    : store_(std::move(store)), mesh_(store_->mesh(), store_->shape().firstPrivate),
+      places_(store_->shape().blocks) {
+    if (!mesh_.ok()) senseless();
+}
+
+void LitObjects::take(const Colour& colour) {
+    const double start = seconds();
+    while (!mesh_.done() && seconds() - start < kMostTime) takeObject(colour);
+    if (!mesh_.done()) return;
+    got_.clear();
+    store_->read(kMostBlocks, got_);
+    for (const StoreReader::Got& got : got_) takeBlock(got);
+    blocksTaken_ += got_.size();
+    writeTriangles();
+    for (std::uint32_t o = 0; o < parts_.size(); ++o)
+        if (!entries_[o].geometry && parts_[o].missing == 0) finish(o);
+}
+
+void LitObjects::takeObject(const Colour& colour) {
+    std::optional<LitMeshObject> object = mesh_.next();
+    if (!object) senseless();
+    const auto number = std::uint32_t(entries_.size());
+    Part part;
+    const std::size_t vertices = object->positions.size();
+    part.data.positions = std::move(object->positions);
+    part.data.normals = std::move(object->normals);
+    part.data.direct.resize(vertices);
+    part.data.indirect.resize(vertices);
+    for (const LitMeshMaterial& material : mesh_.head().materials)
+        part.data.materials.push_back(colour(material));
+    part.base = std::move(object->elements);
+    part.now = part.base;
+    part.standsFor.assign(vertices, kNoCorner);
+    for (std::uint32_t e = 0; e < part.base.size(); ++e) {
+        part.firstIndex.push_back(std::uint32_t(part.data.indices.size()));
+        part.data.indices.resize(part.data.indices.size() + indexCount(part.base[e]));
+        part.data.triangleMaterial.resize(part.data.indices.size() / 3, object->elementMaterial[e]);
+        part.changed.push_back(e);
+    }
+    part.missing = std::uint32_t(vertices / kBlock);
+    for (std::uint32_t b = 0; b < part.missing; ++b)
+        places_[object->firstBlock + b] = {number, b, false};
+    missing_ += part.missing;
+    changedParts_.push_back(number);
+    parts_.push_back(std::move(part));
+    entries_.push_back({std::move(object->path), object->toObject, nullptr});
+}
+
+/// Changes an object's data, wherever it is, in a way that concerns its triangles.
+void LitObjects::edit(std::uint32_t object, const std::function<void(LitMeshData&)>& change) {
+    if (entries_[object].geometry)
+        entries_[object].geometry->setTopology(change);
+    else
+        change(parts_[object].data);
+}
+
+void LitObjects::placePrivate(const StoreReader::Got& got, Place& place) {
+    if (got.light.object >= parts_.size()) senseless();
+    Part& part = parts_[got.light.object];
+    place = {got.light.object, std::uint32_t(part.standsFor.size() / kBlock), true};
+    part.standsFor.resize(part.standsFor.size() + kBlock, kNoCorner);
+    edit(place.object, [&](LitMeshData& data) {
+        for (auto* points : {&data.positions, &data.normals}) points->resize(part.standsFor.size());
+        for (auto* light : {&data.direct, &data.indirect}) light->resize(part.standsFor.size());
+    });
+}
+
+void LitObjects::takeBlock(const StoreReader::Got& got) {
+    Place& place = places_[got.block];
+    const bool isPrivate = got.block >= store_->shape().firstPrivate;
+    if (isPrivate && place.object == Place::kNone) placePrivate(got, place);
+    if (place.object == Place::kNone || place.object != got.light.object) senseless();
+    Part& part = parts_[place.object];
+    const std::size_t first = place.block * kBlock;
+    const auto write = [&](LitMeshData& data) {
+        static_assert(sizeof(Rgb) == 3 * sizeof(float));
+        const auto unpack = [&](const auto& halves, float scale, std::vector<Rgb>& to) {
+            unpackHalves(halves.data(), scale, {&to[first].r, 3 * kBlock});
+        };
+        unpack(got.light.direct, got.light.directScale, data.direct);
+        unpack(got.light.indirect, got.light.indirectScale, data.indirect);
+    };
+    if (const auto& geometry = entries_[place.object].geometry)
+        geometry->setBlock(place.block, write);
+    else
+        write(part.data);
+    if (isPrivate) {
+        follow(part, std::uint32_t(first), got.light);
+        changedParts_.push_back(place.object);
+    } else if (!std::exchange(place.lit, true)) {
+        --part.missing;
+        --missing_;
+    }
+}
+
+/// Private vertices stand for corners of elements; which ones may have changed.
+void LitObjects::follow(Part& part, std::uint32_t firstVertex, const LightBlock& light) {
+    for (std::uint32_t k = 0; k < kBlock; ++k) {
+        const std::uint32_t before = std::exchange(part.standsFor[firstVertex + k], kNoCorner);
+        if (before == kNoCorner || before == light.corners[k]) continue;
+        std::uint32_t& corner = part.now[before / 4][before % 4];
+        if (corner != firstVertex + k) continue; // someone else does already
+        corner = part.base[before / 4][before % 4];
+        part.changed.push_back(before / 4);
+    }
+    for (std::uint32_t k = 0; k < kBlock; ++k) {
+        const std::uint32_t corner = light.corners[k];
+        if (corner == kNoCorner) continue;
+        if (corner / 4 >= part.base.size()) senseless();
+        part.standsFor[firstVertex + k] = corner;
+        if (std::exchange(part.now[corner / 4][corner % 4], firstVertex + k) == firstVertex + k)
+            continue;
+        part.changed.push_back(corner / 4);
+    }
+}
+
+/// Brings the indices of elements whose corners have changed up to date.
+void LitObjects::writeTriangles() {
+    for (std::uint32_t object : changedParts_) {
+        Part& part = parts_[object];
+        if (part.changed.empty()) continue;
+        edit(object, [&](LitMeshData& data) {
+            for (std::uint32_t e : part.changed) {
+                const Corners& base = part.base[e];
+                const Corners& now = part.now[e];
+                constexpr std::array<std::size_t, 6> kCorners{0, 1, 2, 0, 2, 3};
+                for (std::size_t i = 0; i < indexCount(base); ++i)
+                    data.indices[part.firstIndex[e] + i] = now[kCorners[i]];
+                for (std::size_t k = 0; k < 4; ++k) {
+                    if (now[k] == base[k]) continue;
+                    data.positions[now[k]] = data.positions[base[k]];
+                    data.normals[now[k]] = data.normals[base[k]];
+                }
+            }
+        });
+        part.changed.clear();
+    }
+    changedParts_.clear();
+}
+
+void LitObjects::finish(std::uint32_t object) {
+    Part& part = parts_[object];
+    if (part.data.indices.empty()) return; // nothing to draw
+    entries_[object].geometry = std::make_shared<LitGeometry>(
+        entries_[object].path, ObjectId{object}, std::exchange(part.data, {}));
+    ++revision_;
+}
+
+void LitObjects::recolour(const Colour& colour) {
+    std::vector<LitMaterial> materials;
+    for (const LitMeshMaterial& material : mesh_.head().materials)
+        materials.push_back(colour(material));
+    for (std::size_t o = 0; o < entries_.size(); ++o) {
+        if (entries_[o].geometry)
+            entries_[o].geometry->setMaterials(materials);
+        else
+            parts_[o].data.materials = materials;
+    }
+}
+
+} // namespace penumbra

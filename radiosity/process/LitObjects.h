@@ -1,0 +1,81 @@
+// Lit geometry made from a store, and kept as it says.
+#pragma once
+
+#include "radiosity/process/LightStore.h"
+#include "radiosity/process/LitMesh.h"
+#include "scenegraph/LitGeometry.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace penumbra {
+
+/// The objects of one store: read one after the other, then lit block by block. An object is there
+/// when all blocks that it had from the start have light.
+class LitObjects {
+public:
+    using Colour = std::function<LitMaterial(const LitMeshMaterial&)>;
+
+    explicit LitObjects(std::shared_ptr<StoreReader> store);
+
+    /// Takes in what is new, for some milliseconds at most. \throws Error if it makes no sense
+    void take(const Colour& colour);
+    /// Colours are to be asked for again.
+    void recolour(const Colour& colour);
+    bool complete() const { return mesh_.done() && missing_ == 0; }
+    /// Whether there is nothing to take in.
+    bool current() const { return complete() && store_->current(); }
+
+    struct Entry {
+        std::string path;
+        glm::dmat4 toObject{1.0};
+        std::shared_ptr<LitGeometry> geometry; ///< null: not all of it has light
+    };
+    const std::vector<Entry>& entries() const { return entries_; }
+    const MeshingOptions& sizes() const { return mesh_.head().sizes; }
+    std::uint64_t blocksTaken() const { return blocksTaken_; }
+    /// Rises when a geometry comes into being.
+    std::uint64_t revision() const { return revision_; }
+
+private:
+    using Corners = std::array<std::uint32_t, 4>;
+    /// What is needed to follow changes of the topology.
+    struct Part {
+        LitMeshData data;               ///< until there is a geometry
+        std::vector<Corners> base, now; ///< of the elements
+        std::vector<std::uint32_t> firstIndex;
+        std::vector<std::uint32_t> standsFor; ///< of private vertices, kNoCorner for others
+        std::uint32_t missing = 0;            ///< blocks without light
+        std::vector<std::uint32_t> changed;   ///< elements whose indices are to be written
+    };
+    struct Place {
+        std::uint32_t object = kNone, block = 0; ///< block within the object
+        bool lit = false;
+        static constexpr std::uint32_t kNone = 0xffffffffu;
+    };
+    void takeObject(const Colour& colour);
+    void takeBlock(const StoreReader::Got& got);
+    void placePrivate(const StoreReader::Got& got, Place& place);
+    void follow(Part& part, std::uint32_t firstVertex, const LightBlock& light);
+    void standFor(Part& part, std::uint32_t vertex, std::uint32_t corner);
+    void writeTriangles();
+    void finish(std::uint32_t object);
+    void edit(std::uint32_t object, const std::function<void(LitMeshData&)>& change);
+
+    std::shared_ptr<StoreReader> store_;
+    LitMeshReader mesh_;
+    std::vector<Entry> entries_;
+    std::vector<Part> parts_;
+    std::vector<Place> places_; ///< of the store's blocks
+    std::vector<std::uint32_t> changedParts_;
+    std::vector<StoreReader::Got> got_;
+    std::uint64_t missing_ = 0, blocksTaken_ = 0, revision_ = 0;
+};
+
+} // namespace penumbra

@@ -1,0 +1,38 @@
+// What people may choose about a RadiosityNode.
+#pragma once
+
+#include "radiosity/BuildPatches.h"
+#include "radiosity/Solver.h"
+
+#include <cstddef>
+
+namespace penumbra {
+
+/// When edits are sent to be lit.
+enum class Trigger {
+    implicit,  ///< at once, but those of a node in someone's hand when it is grabbed and let go
+    onDemand,  ///< when RadiosityNode::requestUpdate() is called
+    continuous ///< at once, while it is being dragged as well
+};
+
+/// Which open work comes first.
+enum class WorkPlan {
+    importance, ///< what is seen most
+    plain       ///< sender by sender
+};
+
+struct RadiosityOptions {
+    MeshingOptions meshing;
+    SolverOptions solving;
+    Trigger trigger = Trigger::implicit;
+    WorkPlan order = WorkPlan::importance;
+    unsigned threads = 0; ///< 0: one a core, but one is left to the renderer
+    int niceness = 5;     ///< of a process, see nice(1)
+    /// Nothing heard from the other side for so long: it hangs [s].
+    double patience = 2;
+    std::size_t mostMemory = std::size_t(4) << 30; ///< shared at most [bytes]
+};
+
+constexpr std::size_t kMostLiveLamps = 8;
+
+} // namespace penumbra
