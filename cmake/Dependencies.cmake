@@ -2,6 +2,7 @@
 find_package(PkgConfig REQUIRED)
 find_package(glm REQUIRED CONFIG)
 find_package(TBB REQUIRED CONFIG)
+find_package(Boost REQUIRED) # Interprocess: headers only
 find_package(embree 3 REQUIRED CONFIG)
 find_package(OpenEXR REQUIRED CONFIG)
 find_package(PNG REQUIRED)

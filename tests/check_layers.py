@@ -15,7 +15,8 @@ MAY_SEE = {
 }
 # Third-party headers (by how their path begins) that one folder keeps to itself, in its .cpp files.
 HOME = {
-    "embree": "radiosity", "opensubdiv/": "radiosity", "tbb/": "radiosity", "oneapi/": "radiosity",
+    "boost/": "radiosity", "embree": "radiosity", "opensubdiv/": "radiosity",
+    "tbb/": "radiosity", "oneapi/": "radiosity",
     "OpenEXR/": "io", "Imf": "io", "Imath": "io", "png.h": "io",
     "epoxy/": "viewer", "EGL/": "viewer", "GL/": "viewer", "GLFW/": "viewer",
     "imgui": "viewer", "backends/imgui": "viewer",

@@ -10,5 +10,6 @@ namespace penumbra {
 void addRenderCommand(CLI::App& app);
 void addSolveCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
+void addRadiosityCommand(CLI::App& app);
 
 } // namespace penumbra

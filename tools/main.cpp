@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
     penumbra::addRenderCommand(app);
     penumbra::addSolveCommand(app);
     penumbra::addInfoCommand(app);
+    penumbra::addRadiosityCommand(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) { // --help, --version

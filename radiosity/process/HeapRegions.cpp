@@ -24,6 +24,7 @@ public:
     ~HeapRegion() override { HeapRegion::unlink(); }
     std::span<std::byte> bytes() override { return {lines_.data()->bytes, size_}; }
     const std::string& name() const override { return name_; }
+    void reserve() override {}
     void unlink() override {
         const std::lock_guard lock(directory_->guard);
         directory_->regions.erase(name_);

@@ -67,6 +67,7 @@ std::vector<std::string> LightingClient::takeMessages() {
 void LightingClient::launch() {
     try {
         control_ = link_->regions().create(sizeof(ControlBlock));
+        control_->reserve();
         ControlBlock& block = control();
         block.magic = kControlMagic;
         block.version = kProtocolVersion;
@@ -80,7 +81,7 @@ void LightingClient::launch() {
         status_ = {};
         serial_ = 0;
         beat_ = turns_ = 0;
-        silence_ = standstill_ = 0;
+        silence_ = standstill_ = ungranted_ = 0;
         link_->start(control_, {options_.threads, options_.niceness});
         sendScene();
         if (hasCamera_) setCamera(camera_);
@@ -116,6 +117,7 @@ void LightingClient::sendScene() {
     writeTask_(task);
     Message message;
     message.region = link_->regions().create(task.bytes().size());
+    message.region->reserve();
     std::copy(task.bytes().begin(), task.bytes().end(), message.region->bytes().begin());
     std::erase_if(queue_, [](const Message& m) { return m.key < kCameraKey || m.region; });
     ByteWriter body;
@@ -217,12 +219,15 @@ void LightingClient::turn() {
 /// Ends a worker that has ended itself, or says nothing any more.
 void LightingClient::watch(double passed) {
     if (const auto why = link_->ended()) return failed(*why);
+    ungranted_ = grantedRegion_ ? ungranted_ + passed : 0;
+    if (ungranted_ > kStandstill) return failed("the process takes no memory");
     if (!link_->apart()) return;
     const ControlBlock& block = control();
     const std::uint64_t beat = block.beat.load(std::memory_order_relaxed);
     const std::uint64_t turns = block.turns.load(std::memory_order_relaxed);
     silence_ = std::exchange(beat_, beat) == beat ? silence_ + passed : 0;
     standstill_ = std::exchange(turns_, turns) == turns ? standstill_ + passed : 0;
+    if (beat == 0 && link_->byHand()) return;
     if (silence_ > (beat == 0 ? kStart : options_.patience))
         return failed("the process does not answer");
     if (standstill_ > kStandstill && status_.phase != WorkerStatus::meshing)
@@ -238,7 +243,6 @@ void LightingClient::readStatus() {
                      status_.lit == serial_ && opened_ == granted_;
     if (lit) {
         unlitSince_ = 0;
-        retryDelay_ = 0;
         saidFailure_ = false;
     }
     const std::string trouble =
@@ -274,6 +278,7 @@ void LightingClient::openStore() {
     grantedRegion_->unlink();
     grantedRegion_.reset();
     opened_ = granted_;
+    retryDelay_ = 0; // it works
 }
 
 RadiosityState LightingClient::state() const {

@@ -97,6 +97,7 @@ private:
     WorkerStatus status_;
     double lastTurn_ = 0;                 ///< steady clock [s]
     double silence_ = 0, standstill_ = 0; ///< since the last beat, the last turn of the worker [s]
+    double ungranted_ = 0;                ///< since memory was granted that is not in use yet [s]
     std::uint64_t beat_ = 0, turns_ = 0;
     double unlitSince_ = 0; ///< steady clock [s]; 0: all is in the light
     double retryAt_ = 0, retryDelay_ = 0;

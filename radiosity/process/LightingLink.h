@@ -28,6 +28,8 @@ public:
     virtual void end() = 0;
     /// Whether the worker can be ended by force, and says that it is alive while it is busy.
     virtual bool apart() const = 0;
+    /// Whether people start it: nobody knows when.
+    virtual bool byHand() const { return false; }
 };
 
 /// A thread of this process: for programs that want no second one, and for tests. What it does

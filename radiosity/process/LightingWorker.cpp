@@ -177,6 +177,7 @@ void LightingWorker::openStore() {
     const RegionPtr region = regions_.open(grant.name.text());
     if (!region || region->bytes().size() < shape_.bytes()) senseless("the memory for results");
     region->unlink();
+    region->reserve();
     control_.opened.store(request_.number, std::memory_order_release);
     publisher_->setStore(std::make_unique<StoreWriter>(region, request_.number, shape_, mesh_));
     mesh_ = {};
@@ -226,8 +227,6 @@ void LightingWorker::report() {
         status_.meanRadiosity = lit_->solver().meanRadiosity();
     }
     status_.openBlocks = publisher_ ? std::uint32_t(publisher_->open()) : 0;
-    if (std::memcmp(&status_, &reported_, sizeof status_) == 0) return;
-    reported_ = status_;
     control_.status.write(status_);
 }
 

@@ -68,7 +68,7 @@ private:
     StoreRequest request_;
     StoreShape shape_;
     std::vector<std::byte> mesh_; ///< until a store is granted
-    WorkerStatus status_, reported_;
+    WorkerStatus status_;
 };
 
 } // namespace penumbra

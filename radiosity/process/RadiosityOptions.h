@@ -22,8 +22,8 @@ enum class WorkPlan {
 };
 
 struct RadiosityOptions {
-    MeshingOptions meshing;
-    SolverOptions solving;
+    MeshingOptions meshing{};
+    SolverOptions solving{};
     Trigger trigger = Trigger::implicit;
     WorkPlan order = WorkPlan::importance;
     unsigned threads = 0; ///< 0: one a core, but one is left to the renderer

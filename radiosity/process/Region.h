@@ -15,6 +15,8 @@ public:
     virtual ~Region() = default;
     virtual std::span<std::byte> bytes() = 0; ///< aligned to 64
     virtual const std::string& name() const = 0;
+    /// Makes sure that all of it is there. May take a while. \throws Error if there is not so much
+    virtual void reserve() = 0;
     /// Nobody can open it any more. Both sides may do this, at any time.
     virtual void unlink() = 0;
 };
@@ -24,7 +26,8 @@ using RegionPtr = std::shared_ptr<Region>;
 class Regions {
 public:
     virtual ~Regions() = default;
-    /// \throws Error if there is not so much memory
+    /// Takes next to no time; memory is there when it is reserved, or when it is written to.
+    /// \throws Error
     virtual RegionPtr create(std::size_t bytes) = 0;
     /// \return null: there is none of that name
     virtual RegionPtr open(const std::string& name) = 0;

@@ -3,7 +3,6 @@
 #include "radiosity/process/LightingLink.h"
 #include "tests/support/EditedScenes.h"
 #include "tests/support/LitNode.h"
-#include "tests/support/Scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -12,28 +11,6 @@ namespace penumbra {
 namespace {
 
 using Phase = RadiosityState::Phase;
-
-/// A room with a lamp and a box that can be moved, as an application would build it.
-struct LitRoom {
-    RadiosityOptions options{.meshing = {.patchSize = 0.8f, .elementSize = 0.4f},
-                             .trigger = Trigger::continuous};
-    std::shared_ptr<Material> wallPaint = paint(Rgb(0.6f, 0.5f, 0.4f));
-    std::shared_ptr<Transform> box = movable(
-        "box",
-        {std::make_shared<Mesh>("mesh", boxData({-0.3f, -0.3f, 0}, {0.3f, 0.3f, 0.6f}, false))});
-    std::shared_ptr<Light> light =
-        std::make_shared<Light>("light", RectShape{0.5f, 0.5f}, Rgb(100));
-    std::shared_ptr<RadiosityNode> node =
-        std::make_shared<RadiosityNode>("lit", options, makeThreadLink());
-
-    LitRoom() {
-        node->add(
-            object("room", boxData(glm::vec3(-2, -2, 0), glm::vec3(2, 2, 2.5f), true, wallPaint)));
-        node->add(box);
-        node->add(placed("lamp", moved(0, 0, 2.4), {light}));
-    }
-    std::string difference() const { return differenceFromScratch(*node, options); }
-};
 
 TEST(RadiosityNode, LightsWhatStandsBelowIt) {
     LitRoom room;
@@ -97,7 +74,7 @@ TEST(RadiosityNode, IsInTheEndAsIfSolvedFromScratchWhateverWasDone) {
     for (std::uint32_t seed : {1u, 2u, 3u}) {
         EditableRoom room(seed);
         RadiosityOptions options{.meshing = EditableRoom::meshing(),
-                                 .trigger = Trigger::continuous};
+                                 .solving = {}, .trigger = Trigger::continuous};
         const auto node = std::make_shared<RadiosityNode>("lit", options, makeThreadLink());
         node->add(room.scene().root);
         std::string done;

@@ -17,7 +17,7 @@ namespace {
 
 /// A corner of a drawn triangle.
 struct DrawnCorner {
-    glm::vec3 position;
+    glm::vec3 position{};
     Rgb direct, indirect;
 };
 using Drawn = std::map<std::string, std::vector<DrawnCorner>>; ///< by object
@@ -74,10 +74,10 @@ bool updateUntilSettled(RadiosityNode& node, double seconds) {
 std::string describe(RadiosityNode& node) {
     const RadiosityState& state = node.state();
     std::ostringstream out;
-    out << "phase " << int(state.phase) << " (" << state.task << " " << state.progress
-        << "), held " << state.held << ", queued " << state.queued << ", open blocks "
-        << state.openBlocks << ", age " << state.age << ", restarts " << state.restarts
-        << ", blocks taken " << state.blocksTaken;
+    out << "phase " << int(state.phase) << " (" << state.task << " " << state.progress << "), held "
+        << state.held << ", queued " << state.queued << ", open blocks " << state.openBlocks
+        << ", age " << state.age << ", restarts " << state.restarts << ", blocks taken "
+        << state.blocksTaken;
     for (const std::string& message : node.takeMessages()) out << "\n" << message;
     return out.str();
 }
@@ -124,6 +124,21 @@ std::string differenceFromScratch(const RadiosityNode& node, const RadiosityOpti
     if (expected.size() != drawn.size())
         out << drawn.size() << " objects for " << expected.size() << "\n";
     return out.str();
+}
+
+RadiosityOptions LitRoom::smallRoomOptions() {
+    RadiosityOptions options;
+    options.meshing = {.patchSize = 0.8f, .elementSize = 0.4f};
+    options.trigger = Trigger::continuous;
+    return options;
+}
+
+LitRoom::LitRoom(std::unique_ptr<LightingLink> link, const RadiosityOptions& wanted)
+    : options(wanted), node(std::make_shared<RadiosityNode>("lit", wanted, std::move(link))) {
+    node->add(
+        object("room", boxData(glm::vec3(-2, -2, 0), glm::vec3(2, 2, 2.5f), true, wallPaint)));
+    node->add(box);
+    node->add(placed("lamp", moved(0, 0, 2.4), {light}));
 }
 
 } // namespace penumbra

@@ -2,8 +2,11 @@
 #pragma once
 
 #include "radiosity/RadiosityNode.h"
+#include "radiosity/process/LightingLink.h"
+#include "tests/support/Scenes.h"
 
 #include <functional>
+#include <memory>
 #include <string>
 
 namespace penumbra {
@@ -19,5 +22,22 @@ std::string describe(RadiosityNode& node);
 /// What differs between the light below a node and that of a solution from scratch of the graph as
 /// it is now, for people; empty: nothing, within the certificates of both and 16-bit floats.
 std::string differenceFromScratch(const RadiosityNode& node, const RadiosityOptions& options);
+
+/// A room with a lamp and a box that can be moved, as an application would build it.
+struct LitRoom {
+    explicit LitRoom(std::unique_ptr<LightingLink> link = makeThreadLink(),
+                     const RadiosityOptions& wanted = smallRoomOptions());
+    static RadiosityOptions smallRoomOptions();
+    std::string difference() const { return differenceFromScratch(*node, options); }
+
+    RadiosityOptions options;
+    std::shared_ptr<Material> wallPaint = paint(Rgb(0.6f, 0.5f, 0.4f));
+    std::shared_ptr<Transform> box = movable(
+        "box",
+        {std::make_shared<Mesh>("mesh", boxData({-0.3f, -0.3f, 0}, {0.3f, 0.3f, 0.6f}, false))});
+    std::shared_ptr<Light> light =
+        std::make_shared<Light>("light", RectShape{0.5f, 0.5f}, Rgb(100));
+    std::shared_ptr<RadiosityNode> node;
+};
 
 } // namespace penumbra

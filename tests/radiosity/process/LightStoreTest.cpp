@@ -1,0 +1,149 @@
+#include "radiosity/process/LightStore.h"
+
+#include "scenegraph/Error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <thread>
+
+namespace penumbra {
+
+namespace {
+
+struct Store {
+    std::unique_ptr<Regions> regions = makeHeapRegions();
+    StoreShape shape{8, 20, 12};
+    RegionPtr region = regions->create(shape.bytes());
+    std::vector<std::byte> mesh = std::vector<std::byte>(8, std::byte(3));
+    StoreWriter writer{region, 5, shape, mesh};
+    StoreReader reader{region, 5};
+
+    std::vector<StoreReader::Got> read(std::size_t most = 100) {
+        std::vector<StoreReader::Got> got;
+        reader.read(most, got);
+        return got;
+    }
+};
+
+/// A block of which everything says `value`.
+LightBlock blockOf(std::uint16_t value, bool lamps = false) {
+    LightBlock block;
+    block.object = value;
+    block.direct.fill(value);
+    block.indirect.fill(value);
+    block.corners.fill(value);
+    if (!lamps) return block;
+    block.lampSet = 1;
+    block.lamps = kMostLiveLamps;
+    for (auto& factors : block.factor) factors.fill(value);
+    return block;
+}
+
+TEST(LightStore, GivesEachBlockOnceAndAgainWhenItSaysSomethingElse) {
+    Store store;
+    EXPECT_EQ(store.reader.mesh().size(), 8u);
+    EXPECT_TRUE(store.read().empty());
+    store.writer.write(3, blockOf(1));
+    store.writer.write(7, blockOf(2));
+    EXPECT_FALSE(store.reader.current());
+    const auto got = store.read();
+    ASSERT_EQ(got.size(), 2u);
+    EXPECT_EQ(got[0].block, 3u);
+    EXPECT_EQ(got[1].light.direct, blockOf(2).direct);
+    EXPECT_TRUE(store.read().empty());
+    EXPECT_TRUE(store.reader.current());
+    store.writer.write(3, blockOf(1)); // the same as before
+    EXPECT_TRUE(store.read().empty());
+    store.writer.write(3, blockOf(4));
+    EXPECT_EQ(store.read().size(), 1u);
+}
+
+TEST(LightStore, ABoundedReadGoesOnWhereItStopped) {
+    Store store;
+    for (std::uint32_t b = 0; b < 12; ++b) store.writer.write(b, blockOf(9));
+    std::vector<std::uint32_t> blocks;
+    for (int i = 0; i < 3; ++i)
+        for (const auto& got : store.read(4)) blocks.push_back(got.block);
+    EXPECT_EQ(blocks.size(), 12u);
+    EXPECT_TRUE(store.read().empty());
+    EXPECT_TRUE(store.reader.current());
+}
+
+TEST(LightStore, PrivateBlocksAndLampsAreReadWithAllThatTheySay) {
+    Store store;
+    store.writer.setUsed(15);
+    store.writer.write(14, blockOf(6, true));
+    const auto got = store.read();
+    ASSERT_EQ(got.size(), 1u);
+    EXPECT_EQ(got[0].light.corners[63], 6u);
+    EXPECT_EQ(got[0].light.factor[kMostLiveLamps - 1][63], 6u);
+}
+
+TEST(LightStore, WhatIsNoStoreIsRefused) {
+    const auto regions = makeHeapRegions();
+    EXPECT_THROW(StoreReader(regions->create(16), 1), Error);
+    EXPECT_THROW(StoreReader(regions->create(4096), 1), Error);
+    Store store;
+    EXPECT_THROW(StoreReader(store.region, 6), Error);
+    auto& header = *reinterpret_cast<StoreHeader*>(store.region->bytes().data());
+    header.shape.blocks = 21;
+    EXPECT_THROW(StoreReader(store.region, 5), Error);
+    header.shape.blocks = 0xffffffffu;
+    header.shape.meshBytes = ~std::uint64_t(0) - 100;
+    EXPECT_THROW(StoreReader(store.region, 5), Error);
+}
+
+// As the node and the worker use it; with the preset tsan, ThreadSanitizer watches.
+TEST(LightStore, NoBlockIsEverReadTorn) {
+    Store store;
+    constexpr unsigned kRounds = 3000;
+    std::thread thread([&] {
+        store.writer.setUsed(20);
+        for (unsigned i = 1; i <= kRounds; ++i)
+            for (std::uint32_t b = 0; b < 20; ++b) store.writer.write(b, blockOf(i, true));
+    });
+    unsigned last = 0, torn = 0;
+    while (last < 20 * kRounds) {
+        last = 0;
+        for (const auto& got : store.read()) {
+            const auto value = std::uint16_t(got.light.object);
+            for (std::uint16_t half : got.light.direct) torn += half != value;
+            for (std::uint16_t half : got.light.factor[0]) torn += half != value;
+            if (value == kRounds) last = 20 * kRounds;
+        }
+    }
+    thread.join();
+    store.read();
+    EXPECT_EQ(torn, 0u);
+}
+
+TEST(LightStore, HalvesKeepLightOfAnyStrengthToATwoThousandth) {
+    std::mt19937 random(1);
+    for (double magnitude : {1e-6, 1.0, 1e3, 2e5, 1e9}) { // starlight on snow, lux ... a welder
+        std::array<float, 64> values{}, back{};
+        for (float& value : values)
+            value = float(magnitude * std::uniform_real_distribution<>(0.01, 1)(random));
+        std::array<std::uint16_t, 64> halves{};
+        const float scale = packHalves(values, halves.data());
+        unpackHalves(halves.data(), scale, back);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            EXPECT_NEAR(back[i], values[i], values[i] / 2000) << magnitude;
+    }
+}
+
+TEST(LightStore, NonsenseIsUnpackedAsDarkness) {
+    std::array<std::uint16_t, 8> halves{0x7c00, 0x7e00, 0xfc00, 0xbc00, 0x3c00, 0, 1, 0x7bff};
+    std::array<float, 8> values{};
+    unpackHalves(halves.data(), 1, values);
+    EXPECT_EQ(values, (std::array<float, 8>{0, 0, 0, 0, 1, 0, 0x1p-24f, 65504}));
+    for (float scale : {std::nanf(""), -1.0f, 0.0f, INFINITY}) {
+        unpackHalves(halves.data(), scale, values);
+        EXPECT_EQ(values, (std::array<float, 8>{}));
+    }
+}
+
+} // namespace
+
+} // namespace penumbra
