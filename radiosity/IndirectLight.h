@@ -1,6 +1,8 @@
 // Light that patches send to each other.
 #pragma once
 
+#include "radiosity/BoundsTree.h"
+#include "radiosity/IndirectSenders.h"
 #include "radiosity/PatchSet.h"
 #include "radiosity/RayScene.h"
 #include "radiosity/Reach.h"
@@ -20,13 +22,15 @@ namespace penumbra {
 
 class DirectLight;
 
-/// Southwell relaxation over the rows of the patches. R = E + rho F S - S always holds for the rows
-/// as they stand, where E is what patches reflect of the direct light.
+/// Southwell relaxation over the rows of the patches and of their clusters. R = E + rho F S - S
+/// always holds for the rows as they stand, where E is what patches reflect of the direct light; a
+/// cluster reflects the area-weighted mean of what its patches do.
 class IndirectLight {
 public:
     /// \param rowMemory for rows [bytes]; beyond it they are not kept. All must outlive this.
+    /// \param flatPatches see IndirectSenders
     IndirectLight(const PatchSet& set, const RayScene& rays, const DirectLight& direct,
-                  std::size_t rowMemory);
+                  std::size_t rowMemory, std::size_t flatPatches);
 
     void apply(const SceneChange& change);
     void invalidate(const Bounds& region); ///< see LitScene
@@ -54,8 +58,10 @@ public:
     double certificate() const { return certificate_; } ///< bound of |B_exact - B| [lm/m^2]
     double meanRadiosity() const { return meanRadiosity_; }
     std::uint64_t shots() const { return shots_; }
+    std::uint64_t blocksServed() const { return served_; } ///< by shots
 
-    const RowTable& rows() const { return table_; }
+    const IndirectSenders& senders() const { return senders_; }
+    const RowTable& rows() const { return table_; } ///< one a sender
     const RowUpdates& updates() const { return updates_; }
     const RayCount& buildRays() const { return buildRays_; } ///< of rows that were built whole
 
@@ -63,25 +69,29 @@ private:
     /// A batch of senders on its way: receivers are served block by block.
     struct Shot {
         std::vector<std::uint32_t> senders;
-        std::vector<glm::dvec3> light;          ///< what each sends [lm/m^2]
+        std::vector<SenderLight> light;         ///< what each sends [lm/m^2]
         std::vector<std::uint8_t> fresh, build; ///< first time; row is not there
         bool dark = false;                      ///< nothing is sent, only rows are built
-        std::size_t nextBlock = 0;
+        /// What is to be served, block by block: block << 32 | place in `senders`.
+        std::vector<std::uint64_t> work;
+        std::size_t next = 0; ///< place in `work`
         std::size_t bytes = 0;
     };
     std::size_t blockCount() const { return set_.nodes.size() / PatchSet::kBlock; }
     void placeNodes(std::span<const BlockMask> masks);
-    void prepareSenders(Range patches);
-    PatchSender senderOf(std::uint32_t patch) const;
-    ReceiverBlock receiversOf(std::uint32_t block) const;
+    void link(ObjectId object);
+    ReceiverBlock receiversOf(std::uint32_t sender, std::uint32_t block) const;
     void updateReach();
-    bool isReached(const Patch& patch) const;
+    void updateSendersReached();
     void restart();
 
     std::vector<std::uint32_t> chooseSenders(double enough) const;
+    std::size_t batch() const; ///< senders shot at a time
     void load(const std::vector<std::uint32_t>& senders, bool dark);
-    void serveFor(std::size_t effort);
-    void serve(std::size_t blocks);
+    void serve(std::size_t effort);
+    void serveAll();
+    void servePair(std::uint64_t work, RowBuilder& builder, std::size_t& bytes,
+                   std::vector<RowTable::BlockerNote>& notes);
     void finishShot();
     void updateResiduals();
     glm::dvec3 node(std::uint32_t node) const;
@@ -91,26 +101,29 @@ private:
     const RayScene& rays_;
     const DirectLight& direct_;
     std::size_t rowMemory_;
+    IndirectSenders senders_;
+    /// Boxes of the nodes where nothing movable covers them, block by block: what is linked.
+    BoundsTree linkBoxes_;
     RowTable table_;
     RowUpdates updates_;
-    std::vector<glm::vec3> samples_;  ///< kPatchSamples a patch
-    std::vector<Bounds> boxes_;       ///< of patches, around outline and samples
-    std::vector<std::uint32_t> keys_; ///< of patches, see PatchSender
     std::unique_ptr<Reach> reach_;
-    std::vector<std::uint64_t> reached_; ///< bits, a node each
+    std::vector<std::uint64_t> reached_;       ///< bits, a node each
+    std::vector<std::uint8_t> sendersReached_; ///< 1: light gets to any of a sender
     bool reachStale_ = true, residualsStale_ = true;
 
     std::vector<glm::dvec3> nodes_; ///< [lux]
     std::vector<double> rowSums_;   ///< of F V over the senders whose rows are known, a node each
-    std::vector<glm::dvec3> sent_;  ///< S [lm/m^2]
-    std::vector<glm::dvec3> residuals_; ///< R [lm/m^2]
-    std::vector<std::uint8_t> known_;   ///< rows that are part of rowSums_
-    bool rowsMissing_ = false;          ///< some of those were not kept
+    std::vector<SenderLight> sent_; ///< S of every sender [lm/m^2]
+    std::vector<SenderLight> residuals_; ///< R [lm/m^2]
+    std::vector<SenderLight> colours_;   ///< mean reflectance
+    std::vector<std::uint8_t> known_;    ///< rows that are part of rowSums_
+    std::vector<std::uint8_t> kept_;     ///< rows that are in the table
+    bool rowsMissing_ = false;           ///< some of those were not kept
     std::size_t rowBytes_ = 0;
     std::unique_ptr<Shot> shot_;
     std::vector<RowBuilder> builders_;
     RayCount buildRays_;
-    std::uint64_t shots_ = 0;
+    std::uint64_t shots_ = 0, served_ = 0;
     double most_ = 0, certificate_ = 0, meanRadiosity_ = 0;
 };
 

@@ -60,6 +60,7 @@ public:
             if (!isPresent(drafts[i])) continue;
             const std::uint64_t bit = std::uint64_t(1) << i;
             present_ |= bit;
+            parted_ |= drafts[i].parted;
             if (drafts[i].blockerCount == 0) visible_ |= bit;
             if (drafts[i].blockerCount == 0 || drafts[i].visible != 0) seen_ |= bit;
             for (const Blocker& blocker : blockersOf(drafts[i])) {
@@ -74,13 +75,17 @@ public:
         put(present_);
         put(visible_);
         put(std::uint16_t(0)); // the size, not yet known
-        put(std::uint16_t(objects_.size() | (wideObjects_ ? kWideObjects : 0u)));
+        put(std::uint16_t(objects_.size() | (wideObjects_ ? kWideObjects : 0u) |
+                          (parted_ ? kParted : 0u)));
         if (present_ != visible_) put(seen_);
         for (const Draft& draft : drafts_)
             if (isPresent(draft)) put(draft.formFactor);
         for (const Draft& draft : drafts_)
             if (isPresent(draft) && draft.blockerCount > 0 && draft.visible != 0)
                 put(draft.visibility);
+        for (const Draft& draft : drafts_)
+            if (parted_ && isPresent(draft) && (draft.blockerCount == 0 || draft.visible != 0))
+                put(draft.split);
         for (const std::uint32_t object : objects_) putLow(object, wideObjects_ ? 4 : 2);
         for (const Draft& draft : drafts_)
             if (isPresent(draft) && draft.blockerCount > 0) putRecord(draft);
@@ -136,7 +141,7 @@ private:
     std::span<const Draft> drafts_;
     std::uint64_t present_ = 0, visible_ = 0, seen_ = 0;
     std::vector<std::uint32_t> objects_;
-    bool wideObjects_ = false;
+    bool wideObjects_ = false, parted_ = false;
     std::vector<std::byte> out_;
 };
 
@@ -149,6 +154,8 @@ public:
         seen_ = block.seen();
         factor_ = block.factors();
         share_ = block.visibilities();
+        parted = block.isParted();
+        split_ = block.splits();
         record_ = block.records();
         codeSize_ = codeSize(block.objectCount());
     }
@@ -163,6 +170,10 @@ public:
         visibility = 1;
         visible = kAll;
         blockers = {};
+        if (parted && seen_ >> receiver & 1) {
+            split = block_.at<Split>(split_);
+            split_ += sizeof(Split);
+        }
         if (visible_ >> receiver & 1) return true;
         visibility = 0;
         visible = 0;
@@ -179,6 +190,8 @@ public:
     float formFactor = 0, visibility = 0;
     std::uint64_t visible = 0;
     std::span<const Blocker> blockers;
+    bool parted = false;
+    Split split{};
 
 private:
     std::uint64_t take(std::size_t size) {
@@ -208,7 +221,8 @@ private:
 
     const RowBlock& block_;
     std::uint64_t left_, visible_ = 0, seen_ = 0;
-    std::size_t factor_ = 0, share_ = 0, record_ = 0, codeSize_ = 0; ///< places in the bytes
+    std::size_t factor_ = 0, share_ = 0, split_ = 0, record_ = 0; ///< places in the bytes
+    std::size_t codeSize_ = 0;
     std::array<Blocker, kSize> scratch_;
 };
 
@@ -225,6 +239,8 @@ void RowBlock::decode(std::span<Draft> drafts) const {
         draft.begin(read.formFactor);
         draft.visibility = read.visibility;
         draft.visible = read.visible;
+        draft.parted = read.parted;
+        draft.split = read.split;
         draft.blockerCount = int(read.blockers.size());
         std::copy(read.blockers.begin(), read.blockers.end(), draft.blockers.begin());
     }
@@ -267,6 +283,31 @@ bool RowBlock::sameMasks(const RowBlock& other) const {
 bool RowBlock::operator==(const RowBlock& other) const {
     return size() == other.size() &&
            std::equal(bytes_.get(), bytes_.get() + size(), other.bytes_.get());
+}
+
+void Row::open(std::span<const std::uint32_t> blocks) {
+    indices_.assign(blocks.begin(), blocks.end());
+    entries_.resize(blocks.size());
+}
+
+void Row::open(std::uint32_t block) {
+    const auto place = std::lower_bound(indices_.begin(), indices_.end(), block);
+    if (place != indices_.end() && *place == block) return;
+    entries_.emplace(entries_.begin() + (place - indices_.begin()));
+    indices_.insert(place, block);
+}
+
+void Row::clear() {
+    indices_.clear();
+    entries_.clear();
+}
+
+const RowBlock* Row::find(std::uint32_t block) const {
+    if (indices_.empty()) return block < entries_.size() ? &entries_[block] : nullptr;
+    const auto place = std::lower_bound(indices_.begin(), indices_.end(), block);
+    return place != indices_.end() && *place == block
+               ? &entries_[std::size_t(place - indices_.begin())]
+               : nullptr;
 }
 
 RowSize sizeOf(const Row& row) {

@@ -22,10 +22,12 @@ struct Blocker {
 /// entry. A block without entries owns no memory; any other is one run of bytes:
 ///
 ///     present, visible   8 + 8  masks of receivers: has an entry; and is wholly visible
-///     size, objects      2 + 2  bytes of this run; length of the list of objects, | kWideObjects
+///     size, objects      2 + 2  bytes of this run; length of the list of objects, | kWideObjects,
+///                               | kParted
 ///     seen               8      mask: some sample is visible       (not if all are wholly visible)
 ///     form factors       4 each of the present entries, unoccluded
 ///     visibilities       4 each of the entries that are seen, but not wholly
+///     splits             3 each of the entries that are seen, with kParted
 ///     objects            2 each, with kWideObjects 4: all that block anything in this block
 ///     records                   of the entries that are not wholly visible, in order
 ///
@@ -45,12 +47,18 @@ class RowBlock {
 public:
     static constexpr int kSize = 64;
 
+    /// How much of what is seen of a sender its first, first two and first three quarters are, of
+    /// 255.
+    using Split = std::array<std::uint8_t, 3>;
+
     /// An entry in the making.
     struct Draft {
         float formFactor = 0;  ///< unoccluded; 0: no entry
         float visibility = 1;  ///< weighted share of the samples that are visible
         std::uint64_t visible; ///< mask of the visible samples
         int blockerCount = 0;  ///< 0: all samples are visible
+        bool parted = false;   ///< the sender's quarters are told apart, if any entry's are
+        Split split{};
         std::array<Blocker, kSize> blockers;
 
         void begin(float factor) {
@@ -58,6 +66,8 @@ public:
             visibility = 1;
             visible = 0;
             blockerCount = 0;
+            parted = false;
+            split = {};
         }
         void block(std::uint32_t object, int sample) {
             int b = 0;
@@ -73,6 +83,18 @@ public:
     /// an object blocks wholly has this blocker with all bits set.
     /// \pre no receiver beyond the end of `drafts` has an entry
     void decode(std::span<Draft> drafts) const;
+
+    /// Whether there are splits.
+    bool isParted() const { return bytes_ && (at<std::uint16_t>(kObjects) & kParted) != 0; }
+    /// The same as forEach(), with a Split as well. \pre isParted()
+    template <class Visit>
+    void forEachParted(Visit visit) const {
+        std::size_t split = splits();
+        forEach([&](int receiver, float factor) {
+            visit(receiver, factor, at<Split>(split));
+            split += sizeof(Split);
+        });
+    }
 
     /// Calls visit(receiver in the block, form factor times visibility), in order, for the entries
     /// of which some sample is visible.
@@ -134,6 +156,7 @@ private:
 
     static constexpr std::size_t kVisible = 8, kBytes = 16, kObjects = 18, kSeen = 20;
     static constexpr std::uint16_t kWideObjects = 0x8000; ///< object ids of 4 bytes
+    static constexpr std::uint16_t kParted = 0x4000;      ///< there are splits
 
     template <class T>
     T at(std::size_t offset) const {
@@ -148,7 +171,7 @@ private:
     }
     std::size_t size() const { return bytes_ ? at<std::uint16_t>(kBytes) : 0; }
     std::size_t objectCount() const {
-        return bytes_ ? at<std::uint16_t>(kObjects) & ~kWideObjects : 0;
+        return bytes_ ? at<std::uint16_t>(kObjects) & ~(kWideObjects | kParted) : 0;
     }
     std::size_t objectSize() const { return at<std::uint16_t>(kObjects) & kWideObjects ? 4 : 2; }
 
@@ -157,8 +180,11 @@ private:
     std::size_t visibilities() const {
         return factors() + 4 * std::size_t(std::popcount(present()));
     }
-    std::size_t objects() const {
+    std::size_t splits() const {
         return visibilities() + 4 * std::size_t(std::popcount(seen() & ~visible()));
+    }
+    std::size_t objects() const {
+        return splits() + (isParted() ? sizeof(Split) * std::size_t(std::popcount(seen())) : 0);
     }
     std::size_t records() const { return objects() + objectSize() * objectCount(); }
     std::uint32_t object(std::size_t i) const {
@@ -169,8 +195,42 @@ private:
     std::unique_ptr<std::byte[]> bytes_;
 };
 
-/// A row: one sender's entries, block by block. Blocks are independent of each other.
-using Row = std::vector<RowBlock>;
+/// A row: one sender's entries, block by block. Blocks are independent of each other. A row has
+/// either the blocks 0 ... size - 1, or some of all blocks, by ascending index.
+class Row {
+public:
+    bool empty() const { return entries_.empty(); }
+    std::size_t size() const { return entries_.size(); }
+    std::vector<RowBlock>::iterator begin() { return entries_.begin(); }
+    std::vector<RowBlock>::iterator end() { return entries_.end(); }
+    std::vector<RowBlock>::const_iterator begin() const { return entries_.begin(); }
+    std::vector<RowBlock>::const_iterator end() const { return entries_.end(); }
+    /// Index of the block in place `i`.
+    std::uint32_t blockAt(std::size_t i) const {
+        return indices_.empty() ? std::uint32_t(i) : indices_[i];
+    }
+
+    /// Has the blocks 0 ... count - 1. \pre none was opened
+    void resize(std::size_t count) { entries_.resize(count); }
+    /// Has these blocks, all without entries as yet. \pre empty(), `blocks` ascending
+    void open(std::span<const std::uint32_t> blocks);
+    /// Has this block as well. \pre resize() was not used
+    void open(std::uint32_t block);
+    void clear();
+
+    bool has(std::uint32_t block) const { return find(block) != nullptr; }
+    /// \pre has(block)
+    RowBlock& operator[](std::size_t block) {
+        return const_cast<RowBlock&>(*find(std::uint32_t(block)));
+    }
+    const RowBlock& operator[](std::size_t block) const { return *find(std::uint32_t(block)); }
+    /// Null if the row does not have the block.
+    const RowBlock* find(std::uint32_t block) const;
+
+private:
+    std::vector<std::uint32_t> indices_; ///< empty: of the first blocks
+    std::vector<RowBlock> entries_;
+};
 
 /// Sizes of a row, for statistics.
 struct RowSize {

@@ -215,10 +215,68 @@ int RowBuilder::updateEmitterBlock(const EmitterSender& sender, const ReceiverBl
     return changed;
 }
 
+namespace {
+
+/// Form factor from a receiver to a small piece of a sender, per area [1/m^2].
+float kernel(const Receiver& receiver, glm::vec3 at, glm::vec3 normal) {
+    const glm::vec3 d = at - receiver.position;
+    const float d2 = glm::dot(d, d);
+    return facing(glm::dot(receiver.normal, d), -glm::dot(normal, d), d2) /
+           (std::numbers::pi_v<float> * d2 * d2);
+}
+
+/// Unoccluded form factors of a cluster's parts, in order; each quarter of them stands for a
+/// quarter of the cluster.
+struct PartKernels {
+    PartKernels(const PatchSender& sender, const Receiver& receiver)
+        : count(std::uint32_t(sender.parts.size())) {
+        for (std::uint32_t k = 0; k < count; ++k) {
+            const SenderPart& piece = sender.parts[k];
+            part[k] = piece.area * kernel(receiver, piece.centre, piece.normal);
+            total += part[k];
+        }
+    }
+    std::uint32_t begin(std::uint32_t group, std::uint32_t groups) const {
+        return group * count / groups;
+    }
+    float sum(std::uint32_t first, std::uint32_t last) const {
+        float sum = 0;
+        for (std::uint32_t k = first; k < last; ++k) sum += part[k];
+        return sum;
+    }
+    std::uint32_t count;
+    float part[kPatchSamples];
+    float total = 0;
+};
+
+RowBlock::Split splitOf(const float (&quarter)[4]) {
+    const float total = quarter[0] + quarter[1] + quarter[2] + quarter[3];
+    RowBlock::Split split{};
+    float upTo = 0;
+    for (std::size_t q = 0; q < 3; ++q) {
+        upTo += quarter[q];
+        split[q] = std::uint8_t(std::lround(255 * std::min(1.0f, upTo / total)));
+    }
+    return split;
+}
+
+std::uint32_t sampleCount(float formFactor, std::uint32_t all) {
+    return formFactor > 0.01f ? all : formFactor > 0.0005f ? 4 : 1;
+}
+
+} // namespace
+
 /// Begins an entry with its unoccluded form factor; false if there is none.
 bool RowBuilder::openPatchEntry(const PatchSender& sender, const Receiver& receiver,
                                 RowBlock::Draft& draft) {
     draft.begin(0);
+    if (!sender.patch) {
+        const PartKernels kernels(sender, receiver);
+        if (!(kernels.total > 1e-9f)) return false;
+        draft.begin(kernels.total);
+        draft.parted = true;
+        return true;
+    }
     const Patch& patch = *sender.patch;
     const glm::vec3 away = receiver.position - patch.centre;
     if (glm::dot(patch.normal, away) <= 0) return false;
@@ -244,21 +302,32 @@ void RowBuilder::listPatchRays(const PatchSender& sender, const ReceiverBlock& r
     const Receiver& receiver = receivers.receivers[r];
     const float factor = drafts_[r].formFactor;
     const std::uint32_t hash = pairHash(sender.key, receivers.key + std::uint32_t(r));
-    const std::uint32_t count = factor > 0.01f ? 16 : factor > 0.0005f ? 4 : 1;
-    float total = 0;
     const std::size_t begin = patchRays_.size();
-    for (std::uint32_t k = 0; k < count; ++k) {
-        const std::uint32_t sample = count == 16  ? k
-                                     : count == 4 ? 4 * k + (hash >> 2 * k & 3)
-                                                  : hash & 15;
-        const glm::vec3 d = sender.samples[sample] - receiver.position;
-        const float d2 = glm::dot(d, d);
-        const float weight =
-            facing(glm::dot(receiver.normal, d), -glm::dot(sender.patch->normal, d), d2) /
-            (d2 * d2);
-        if (!(weight > 0)) continue;
+    float total = 0;
+    const auto add = [&](std::uint32_t sample, float weight) {
+        if (!(weight > 0)) return;
         total += weight;
         patchRays_.push_back({std::uint8_t(r), std::uint8_t(sample), weight, kNone});
+    };
+    if (sender.patch) {
+        const std::uint32_t count = sampleCount(factor, kPatchSamples);
+        for (std::uint32_t k = 0; k < count; ++k) {
+            const std::uint32_t sample = count == kPatchSamples ? k
+                                         : count == 4           ? 4 * k + (hash >> 2 * k & 3)
+                                                                : hash & 15;
+            add(sample, kernel(receiver, sender.samples[sample], sender.patch->normal));
+        }
+    } else {
+        const PartKernels kernels(sender, receiver);
+        const std::uint32_t count = sampleCount(factor, kernels.count);
+        for (std::uint32_t k = 0; k < count; ++k) {
+            // Any of the group's parts that faces the receiver stands for all of them.
+            const std::uint32_t first = kernels.begin(k, count), last = kernels.begin(k + 1, count);
+            std::uint32_t sample = first + (hash >> 2 * k) % (last - first);
+            for (std::uint32_t i = first; i < last && !(kernels.part[sample] > 0); ++i)
+                sample = sample + 1 < last ? sample + 1 : first;
+            add(sample, kernels.sum(first, last));
+        }
     }
     for (std::size_t k = begin; k < patchRays_.size(); ++k) patchRays_[k].weight /= total;
 }
@@ -292,21 +361,45 @@ void RowBuilder::tracePatchRays(const PatchSender& sender, const ReceiverBlock& 
     flush();
 }
 
-/// Writes what the listed samples say into their entries.
-void RowBuilder::collectPatchRays(std::size_t first, std::size_t last) {
+/// Writes what the listed samples of one entry say into it.
+void RowBuilder::collectPatchRays(const PatchSender& sender, const Receiver& receiver,
+                                  std::size_t first, std::size_t last) {
+    RowBlock::Draft& draft = drafts_[patchRays_[first].receiver];
+    draft.begin(draft.formFactor);
+    draft.visibility = 0;
     for (std::size_t k = first; k < last; ++k) {
         const PatchRay& ray = patchRays_[k];
-        RowBlock::Draft& draft = drafts_[ray.receiver];
-        if (k == first || patchRays_[k - 1].receiver != ray.receiver) {
-            draft.begin(draft.formFactor);
-            draft.visibility = 0;
-        }
         if (ray.blocker == kNone) {
             draft.visible |= std::uint64_t(1) << ray.sample;
             draft.visibility += ray.weight;
         } else {
             draft.block(ray.blocker, ray.sample);
         }
+    }
+    if (sender.patch) return;
+    draft.parted = true;
+    if (draft.visible == 0) return;
+    // Each quarter by what of it is visible.
+    const PartKernels kernels(sender, receiver);
+    const std::uint32_t groups = sampleCount(draft.formFactor, kernels.count);
+    float quarter[4] = {};
+    for (std::uint32_t k = 0; k < kernels.count; ++k) {
+        std::uint32_t group = 0, of = 0;
+        while (k >= kernels.begin(group + 1, groups)) ++group;
+        while (k >= kernels.begin(of + 1, 4)) ++of;
+        const std::uint64_t samples = (std::uint64_t(1) << kernels.begin(group + 1, groups)) -
+                                      (std::uint64_t(1) << kernels.begin(group, groups));
+        if (draft.visible & samples) quarter[of] += kernels.part[k];
+    }
+    draft.split = splitOf(quarter);
+}
+
+/// The same for all entries that have samples.
+void RowBuilder::collectPatchRays(const PatchSender& sender, const ReceiverBlock& receivers) {
+    for (std::size_t first = 0, last = 0; first < patchRays_.size(); first = last) {
+        const std::uint8_t r = patchRays_[first].receiver;
+        while (last < patchRays_.size() && patchRays_[last].receiver == r) ++last;
+        collectPatchRays(sender, receivers.receivers[r], first, last);
     }
 }
 
@@ -324,7 +417,7 @@ void RowBuilder::patchBlock(const PatchSender& sender, const ReceiverBlock& rece
     }
     tracePatchRays(
         sender, receivers, [](const PatchRay&) { return true; }, nullptr);
-    collectPatchRays(0, patchRays_.size());
+    collectPatchRays(sender, receivers);
     block.assign(drafts);
 }
 
@@ -334,9 +427,6 @@ int RowBuilder::updatePatchBlock(const PatchSender& sender, const ReceiverBlock&
     const auto drafts = std::span(drafts_).first(receivers.receivers.size());
     block.decode(drafts);
     patchRays_.clear();
-    Bounds senderBox;
-    for (glm::vec3 corner : sender.outline) senderBox.add(corner);
-    for (std::size_t k = 0; k < kPatchSamples; ++k) senderBox.add(sender.samples[k]);
     int changed = 0;
     std::uint64_t emptied = 0;
     for (std::size_t r = 0; r < drafts.size(); ++r) {
@@ -358,7 +448,7 @@ int RowBuilder::updatePatchBlock(const PatchSender& sender, const ReceiverBlock&
         const bool open = draft.visible != 0 &&
                           std::any_of(moved.begin(), moved.end(), [&](const MovedObject& m) {
                               const Bounds point{receiver.position, receiver.position};
-                              return m.present && shaftMeets(point, senderBox, m.box);
+                              return m.present && shaftMeets(point, *sender.box, m.box);
                           });
         if (!open && !blockedByAny(draft, moved)) continue;
         listPatchRays(sender, receivers, r);
@@ -392,7 +482,7 @@ int RowBuilder::updatePatchBlock(const PatchSender& sender, const ReceiverBlock&
         bool differs = anew >> r & 1;
         for (; last < patchRays_.size() && patchRays_[last].receiver == r; ++last)
             differs |= patchRays_[last].blocker != blockerOf(drafts[r], patchRays_[last].sample);
-        if (differs) collectPatchRays(first, last);
+        if (differs) collectPatchRays(sender, receivers.receivers[r], first, last);
         changed += differs;
         first = last;
     }

@@ -13,12 +13,22 @@
 
 namespace penumbra {
 
-/// A patch made ready to send light to receivers.
+/// A piece of a cluster as it is seen from far away.
+struct SenderPart {
+    glm::vec3 centre{}; ///< [m, world]
+    glm::vec3 normal{}; ///< mean, unit
+    float area = 0;     ///< as its mean normal sees it [m^2]
+};
+
+/// A patch, or a cluster of patches, made ready to send light to receivers.
 struct PatchSender {
-    const Patch* patch = nullptr;
-    std::span<const glm::vec3> outline;
-    const glm::vec3* samples = nullptr; ///< kPatchSamples points on the patch [m, world]
-    std::uint32_t key = 0;              ///< names the patch in every scene that has it
+    const Patch* patch = nullptr;       ///< null: a cluster
+    std::span<const glm::vec3> outline; ///< of a patch
+    std::span<const SenderPart> parts;  ///< of a cluster, as many as it has samples
+    const glm::vec3* samples =
+        nullptr;                 ///< points on the surface [m, world]; kPatchSamples of a patch
+    const Bounds* box = nullptr; ///< around all of that [m, world]
+    std::uint32_t key = 0;       ///< names the sender in every scene that has it
 };
 
 /// Up to 64 receivers of one block.
@@ -62,8 +72,8 @@ class RowBuilder {
 public:
     explicit RowBuilder(const RayScene& rays) : rays_(rays), drafts_(RowBlock::kSize) {}
 
-    /// Indirect light: a patch onto up to 64 receivers. The number of samples follows the form
-    /// factor (1, 4 or 16); which ones is a fixed function of the pair's keys.
+    /// Indirect light: a patch or a cluster onto up to 64 receivers. The number of samples follows
+    /// the form factor (1, 4 or 16); which ones is a fixed function of the pair's keys.
     void patchBlock(const PatchSender& sender, const ReceiverBlock& receivers, RowBlock& block);
 
     /// Brings a block up to date: direct light from an emitter, indirect light from a patch.
@@ -91,7 +101,9 @@ private:
     bool openPatchEntry(const PatchSender& sender, const Receiver& receiver,
                         RowBlock::Draft& draft);
     void listPatchRays(const PatchSender& sender, const ReceiverBlock& receivers, std::size_t r);
-    void collectPatchRays(std::size_t first, std::size_t last);
+    void collectPatchRays(const PatchSender& sender, const Receiver& receiver, std::size_t first,
+                          std::size_t last);
+    void collectPatchRays(const PatchSender& sender, const ReceiverBlock& receivers);
     template <class Choose>
     void tracePatchRays(const PatchSender& sender, const ReceiverBlock& receivers, Choose choose,
                         const MovedObject* alone);

@@ -43,31 +43,43 @@ void RowTable::note(std::span<const BlockerNote> notes) {
 std::vector<BlockMask> RowTable::concerned(std::size_t row, const Bounds& sender, ObjectId object,
                                            const PendingChange& change) const {
     std::vector<BlockMask> masks;
+    const Row& entries = rows_[row];
     if (change.moves(object.value)) {
-        for (std::uint32_t b = 0; b < rows_[row].size(); ++b)
-            masks.push_back({b, ~std::uint64_t(0)});
+        for (std::size_t i = 0; i < entries.size(); ++i)
+            masks.push_back({entries.blockAt(i), ~std::uint64_t(0)});
         return masks;
     }
-    masks = change.receivers;
+    for (const BlockMask& mask : change.receivers)
+        if (entries.has(mask.block)) masks.push_back(mask);
     const std::vector<std::uint64_t>& list = blockers_[row];
     for (const MovedObject& m : change.moved) {
         const std::uint64_t first = std::uint64_t(m.object) << 32;
         for (auto key = std::lower_bound(list.begin(), list.end(), first);
              key != list.end() && *key >> 32 == m.object; ++key)
             masks.push_back({std::uint32_t(*key), 0});
-        if (!m.present) continue;
-        blocks_.query([&](std::size_t n) { return shaftMeets(sender, blocks_.node(n), m.box); },
-                      [&](std::size_t block) {
-                          masks.push_back({std::uint32_t(block), 0});
-                      });
+        if (m.present) crossed(entries, sender, m.box, 0, masks);
     }
     for (const Bounds& region : change.regions)
-        blocks_.query([&](std::size_t n) { return shaftMeets(sender, blocks_.node(n), region); },
-                      [&](std::size_t block) {
-                          masks.push_back({std::uint32_t(block), ~std::uint64_t(0)});
-                      });
+        crossed(entries, sender, region, ~std::uint64_t(0), masks);
     unite(masks);
     return masks;
+}
+
+/// Adds the blocks of a row whose shafts meet a box.
+void RowTable::crossed(const Row& row, const Bounds& sender, const Bounds& box,
+                       std::uint64_t receivers, std::vector<BlockMask>& masks) const {
+    constexpr std::size_t kFew = 32; // are looked at one by one
+    const auto meets = [&](const Bounds& block) { return shaftMeets(sender, block, box); };
+    if (row.size() <= kFew) {
+        for (std::size_t i = 0; i < row.size(); ++i)
+            if (const std::uint32_t b = row.blockAt(i); !blocks_[b].empty() && meets(blocks_[b]))
+                masks.push_back({b, receivers});
+        return;
+    }
+    blocks_.query([&](std::size_t n) { return meets(blocks_.node(n)); },
+                  [&](std::size_t b) {
+                      if (row.has(std::uint32_t(b))) masks.push_back({std::uint32_t(b), receivers});
+                  });
 }
 
 } // namespace penumbra

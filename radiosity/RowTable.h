@@ -68,6 +68,9 @@ public:
                                      const PendingChange& change) const;
 
 private:
+    void crossed(const Row& row, const Bounds& sender, const Bounds& box, std::uint64_t receivers,
+                 std::vector<BlockMask>& masks) const;
+
     std::vector<Row> rows_;
     std::vector<std::uint64_t> known_;
     std::vector<std::vector<std::uint64_t>> blockers_; ///< object << 32 | block, sorted, a row

@@ -37,7 +37,8 @@ Rgb elementMean(const Element& element, const Lighting& lighting) {
 Solver::Solver(const PatchSet& patches, const RayScene& rays, const SolverOptions& options)
     : set_(patches), options_(options), direct_(patches, rays, options.samples) {
     if (!options.directOnly && !patches.patches.empty())
-        indirect_ = std::make_unique<IndirectLight>(patches, rays, direct_, options.rowMemory);
+        indirect_ = std::make_unique<IndirectLight>(patches, rays, direct_, options.rowMemory,
+                                                    options.flatPatches);
 }
 
 void Solver::apply(const SceneChange& change) {
@@ -49,6 +50,7 @@ void Solver::apply(const SceneChange& change) {
     if (!indirect_) return;
     indirect_->apply(change);
     shotsBefore_ = indirect_->shots();
+    servedBefore_ = indirect_->blocksServed();
 }
 
 void Solver::invalidate(const Bounds& region) {
@@ -59,6 +61,7 @@ void Solver::invalidate(const Bounds& region) {
     if (!indirect_) return;
     indirect_->invalidate(region);
     shotsBefore_ = indirect_->shots();
+    servedBefore_ = indirect_->blocksServed();
 }
 
 bool Solver::step(double budget, const Progress& progress) {
@@ -129,14 +132,12 @@ bool Solver::settled() const {
     return indirect_->residual() == 0 || indirect_->certificate() <= target();
 }
 
-/// A shot visits every node: the limit keeps shots times nodes in bounds.
 bool Solver::spent() const {
-    constexpr std::uint64_t kMostVisits = 3'000'000'000;
-    std::uint64_t most = options_.mostShots;
-    if (most == 0 && options_.residual == 0)
-        most = std::max<std::uint64_t>(2000,
-                                       kMostVisits / std::max<std::size_t>(1, set_.nodes.size()));
-    return most > 0 && indirect_->shots() - shotsBefore_ >= most;
+    constexpr std::uint64_t kMostBlocks = 150'000'000, kAnyway = 2000; // shots
+    const std::uint64_t shots = indirect_->shots() - shotsBefore_;
+    if (options_.mostShots > 0) return shots >= options_.mostShots;
+    return options_.residual == 0 && shots >= kAnyway &&
+           indirect_->blocksServed() - servedBefore_ >= kMostBlocks;
 }
 
 std::vector<glm::dvec3> Solver::nodeIlluminance() const {

@@ -28,7 +28,10 @@ struct SolverOptions {
     /// 0: no limit if `residual` is given, else what keeps a scene of very many patches to minutes.
     std::uint64_t mostShots = 0;
     std::size_t rowMemory =
-        1'000'000'000; ///< for rows of patches [bytes]; beyond it they are not kept
+        2'000'000'000; ///< for rows of patches [bytes]; beyond it they are not kept
+    /// Of more patches than these indirect light goes through clusters; of fewer, from each of them
+    /// alone: more exact, but rows grow with the square of their number.
+    std::size_t flatPatches = 13'000;
 };
 
 /// Called now and then with the phase's name and the share done in [0, 1].
@@ -123,8 +126,8 @@ private:
     DirectLight direct_;
     std::unique_ptr<IndirectLight> indirect_; ///< null: direct light only
     bool handedOver_ = false; ///< whether the indirect light knows of the direct light as it is
-    bool completing_ = false, completed_ = false; ///< see IndirectLight::complete()
-    std::uint64_t shotsBefore_ = 0;               ///< before the last edit
+    bool completing_ = false, completed_ = false;      ///< see IndirectLight::complete()
+    std::uint64_t shotsBefore_ = 0, servedBefore_ = 0; ///< before the last edit
     double firstCertificate_ = 0, effort_ = 4096;
     double directSeconds_ = 0, indirectSeconds_ = 0;
 };

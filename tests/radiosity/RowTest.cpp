@@ -183,7 +183,8 @@ RC_GTEST_PROP(Row, OfOneOtherVisibleSampleHasOtherMasks, ()) {
 
 RC_GTEST_PROP(Row, CountsItsEntriesAndBytes, ()) {
     const std::vector<Draft> drafts = anyDrafts();
-    Row row(2);
+    Row row;
+    row.resize(2);
     for (RowBlock& block : row) block.assign(drafts);
     RC_ASSERT(sizeOf(row).bytes == 2 * row[0].bytes());
     RC_ASSERT(sizeOf(row).entries == 2 * std::size_t(row[0].entryCount()));

@@ -28,7 +28,8 @@ bool sameVisibility(const RowBlock::Entry& a, const RowBlock::Entry& b) {
 }
 
 RowBlock::Entry entryOf(const Row& row, std::uint32_t receiver) {
-    return row[receiver / PatchSet::kBlock].entry(int(receiver % PatchSet::kBlock));
+    const RowBlock* const block = row.find(receiver / PatchSet::kBlock);
+    return block ? block->entry(int(receiver % PatchSet::kBlock)) : RowBlock::Entry();
 }
 
 void compareDirect(Comparison& with, const Row& a, const Row& b, const ObjectPart& pa,
@@ -50,6 +51,23 @@ void compareDirect(Comparison& with, const Row& a, const Row& b, const ObjectPar
             with.expect(sameVisibility(seenA, seenB), emitter, " onto ", pa.path, " element ", i,
                         " corner ", k, ": ", seenA.formFactor, " ", std::hex, seenA.visible,
                         " against ", seenB.formFactor, " ", seenB.visible, std::dec);
+        }
+    }
+}
+
+/// Rows of some senders onto the nodes of one object.
+void compareIndirect(Comparison& with, std::span<const Row> rowsA, std::span<const Row> rowsB,
+                     Range sendersA, Range sendersB, const ObjectPart& pa, const ObjectPart& pb,
+                     const std::string& sender) {
+    if (!with.expect(sendersA.count == sendersB.count, sender, ": not as many")) return;
+    for (std::uint32_t i = 0; i < sendersA.count; ++i) {
+        const Row &a = rowsA[sendersA.first + i], &b = rowsB[sendersB.first + i];
+        if (a.empty() || b.empty()) continue;
+        for (std::uint32_t n = 0; n < pa.nodes.count; ++n) {
+            const auto ea = entryOf(a, pa.nodes.first + n), eb = entryOf(b, pb.nodes.first + n);
+            with.expect(sameVisibility(ea, eb), sender, " ", i, " onto ", pa.path, " node ", n,
+                        ": ", ea.formFactor, " ", std::hex, ea.visible, " against ", eb.formFactor,
+                        " ", eb.visible, std::dec);
         }
     }
 }
@@ -88,18 +106,17 @@ std::string difference(const LitScene& one, const LitScene& other) {
             for (std::uint32_t i = 0; i < sa.emitters.count; ++i)
                 compareDirect(with, one.solver().emitterRows()[sa.emitters.first + i],
                               other.solver().emitterRows()[sb.emitters.first + i], pa, pb, sa.path);
-            for (std::uint32_t i = 0; i < sa.patches.count && !rowsA.empty(); ++i) {
-                const Row& a = rowsA[sa.patches.first + i];
-                const Row& b = rowsB[sb.patches.first + i];
-                if (a.empty() || b.empty()) continue;
-                for (std::uint32_t n = 0; n < pa.nodes.count; ++n) {
-                    const auto ea = entryOf(a, pa.nodes.first + n);
-                    const auto eb = entryOf(b, pb.nodes.first + n);
-                    with.expect(sameVisibility(ea, eb), sa.path, " patch ", i, " onto ", pa.path,
-                                " node ", n, ": ", ea.formFactor, " ", std::hex, ea.visible,
-                                " against ", eb.formFactor, " ", eb.visible, std::dec);
-                }
-            }
+            if (rowsA.empty()) continue;
+            const IndirectSenders &sendersA = one.solver().indirect().senders(),
+                                  &sendersB = other.solver().indirect().senders();
+            compareIndirect(with, rowsA, rowsB, sa.patches, sb.patches, pa, pb, sa.path + " patch");
+            const ObjectId objectA{std::uint32_t(&sa - with.a.objects.data())},
+                objectB{std::uint32_t(&sb - with.b.objects.data())};
+            compareIndirect(with, rowsA, rowsB, sendersA.clustersOf(objectA),
+                            sendersB.clustersOf(objectB), pa, pb, sa.path + " cluster");
+            if (&sa == with.a.objects.data())
+                compareIndirect(with, rowsA, rowsB, sendersA.fixedClusters(),
+                                sendersB.fixedClusters(), pa, pb, "fixed cluster");
         }
     }
     for (const ObjectPart& pa : with.a.objects) { // what follows from the rest comes last
