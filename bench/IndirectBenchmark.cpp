@@ -12,13 +12,21 @@ namespace penumbra {
 
 namespace {
 
+void gather(DetailGather& detail, const Solver& solver) {
+    constexpr std::size_t kEffort = std::size_t(1) << 20; // of a piece of work [rays]
+    while (detail.trace(kEffort)) {
+    }
+    detail.beginSweeps(solver.direct().vertices(), solver.nodeIlluminance());
+    while (detail.sweeping()) detail.sweep(kEffort);
+}
+
 void indirect(benchmark::State& state, const std::string& name) {
     const BenchScene scene(name);
     for (auto _ : state) {
         resetPeakMemory();
         const BuiltPatches built = scene.mesh(0);
         const RayScene rays(built.patches.rayMeshes);
-        Solver solver(built.patches, rays, {});
+        Solver solver(built.patches, rays, {.detail = false});
         solver.settle();
         const double seconds = solver.statistics().indirect.seconds;
         state.SetIterationTime(seconds);
@@ -29,16 +37,14 @@ void indirect(benchmark::State& state, const std::string& name) {
             size.entries += one.entries;
             size.bytes += one.bytes;
         }
-        Lighting lighting = solver.lighting();
-        const Stopwatch detailing;
-        DetailGather detail(built.patches);
-        detail.apply(solver.nodeIlluminance(), lighting);
-
         const SolveStatistics statistics = solver.statistics();
         auto& counters = state.counters;
+        const Stopwatch detailing;
+        DetailGather detail(built.patches);
+        gather(detail, solver);
         counters["detail_s"] = detailing.wall();
         counters["detail_cpu_s"] = detailing.cpu();
-        counters["detail_rays"] = double(detail.rayCount());
+        counters["detail_rays"] = double(detail.hits().rayCount());
         counters["patches"] = double(built.patches.patches.size());
         counters["nodes"] = double(built.patches.nodes.size());
         counters["elements"] = double(built.patches.elements.size());

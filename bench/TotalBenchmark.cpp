@@ -54,6 +54,7 @@ void total(benchmark::State& state, const Move& move) {
     using Place = MovedScene::Place;
     SolverOptions options;
     options.residual = kTolerance;
+    options.detail = false; // see DetailBenchmark.cpp
     for (auto _ : state) {
         resetPeakMemory();
         MoveRun run(move, {}, options);
@@ -96,6 +97,7 @@ void total(benchmark::State& state, const Move& move) {
 void play(benchmark::State& state, const std::string& layer, bool directOnly) {
     SolverOptions options;
     options.residual = kTolerance;
+    options.detail = false; // see DetailBenchmark.cpp
     options.directOnly = directOnly;
     for (auto _ : state) {
         const LoadedScene loaded = loadScene(layer);

@@ -32,6 +32,8 @@ TOTAL = ["patches", "elements", "scratch_s", "scratch_cpu_s", "update_s", "updat
          "indirect_rays_single", "ray_ratio", "entries_changed", "blocks_visited",
          "patches_affected", "certificate", "emitter_entries", "emitter_bytes_per_entry",
          "patch_entries", "patch_bytes_per_entry", "bytes_per_entry", "rows_MB", "peak_MB"]
+DETAIL = ["elements", "nodes", "gatherers", "scratch_s", "update_s", "apply_s", "scratch_rays",
+          "update_rays", "ray_ratio", "groups_visited", "groups"]
 PLAY = ["patches", "elements", "scratch_s", "updates", "updates_per_s", "update_s", "longest_s"]
 BUILDING = ["elements", "lamps", "mesh_s", "scratch_s", "scratch_rays", "update_s",
             "update_cpu_s", "follow_s", "update_rays", "update_rays_full", "update_rays_single",
@@ -99,6 +101,7 @@ def main():
     table(merged["benchmarks"], "indirect/", INDIRECT)
     table(merged["benchmarks"], "edit/direct/", EDIT)
     table(merged["benchmarks"], "edit/total/", TOTAL)
+    table(merged["benchmarks"], "edit/detail/", DETAIL)
     table(merged["benchmarks"], "edit/play/", PLAY)
     table(merged["benchmarks"], "edit/building/",
           BUILDING + [name + "_over_first" for name in GROWTH])

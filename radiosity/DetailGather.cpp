@@ -1,96 +1,37 @@
 #include "radiosity/DetailGather.h"
 
-#include "radiosity/DrawnSurface.h"
-#include "radiosity/HemisphereRays.h"
 #include "radiosity/Interpolation.h"
 #include "radiosity/Parallel.h"
 
 #include <algorithm>
-#include <atomic>
-#include <cmath>
+#include <array>
+#include <cassert>
+#include <utility>
 
 namespace penumbra {
 
 namespace {
 
-constexpr int kRays = 64;
-constexpr int kProbeRays = 16;  ///< enough to see that a vertex has nothing to gather
-constexpr int kIterations = 10; ///< light goes from gathering vertex to gathering vertex
-/// Marks the hit of a surface across a slit.
-constexpr std::uint32_t kAcross = 0x80000000u;
-constexpr int kSlit = kRays / 4; ///< a vertex with more hits across a slit than this lies in one
-/// In a slit light is gathered this far on the way from the vertex to the middle of its elements.
-constexpr float kInward = 0.5f;
-
-/// Whether a hit lies across a slit: faces the receiver, nearer than half its element's size. What
-/// is drawn there, between vertices much farther apart, says nothing of how light dies off.
-bool isAcross(const PatchSet& patches, const DrawnHit& hit, glm::vec3 normal) {
-    constexpr float kFacing = -0.7f; // cosine between the normals
-    return glm::dot(patches.vertices[hit.vertices[0]].receiver.normal, normal) < kFacing &&
-           4 * hit.distance * hit.distance < elementArea(patches, patches.elements[hit.element]);
-}
-
-/// Follows rays first ... first + count - 1; returns how many are free up to `reach`.
-/// \param slits if given, hits across slits are marked
-int follow(const DrawnSurface& surface, const HemisphereRays& rays, const Receiver& receiver,
-           int first, int count, float reach, std::uint32_t* hits,
-           const PatchSet* slits = nullptr) {
-    int free = 0;
-    for (int i = first; i < first + count; ++i) {
-        const auto hit =
-            surface.nearest(receiver.position, rays.direction(i, receiver.normal), 1e30f);
-        free += !hit.met() || hit.distance > reach;
-        hits[i] = hit.met() ? hit.element : Element::kNone;
-        if (slits && hit.met() && isAcross(*slits, hit, receiver.normal)) hits[i] |= kAcross;
-    }
-    return free;
-}
-
-bool isAcross(std::uint32_t hit) {
-    return hit != Element::kNone && (hit & kAcross);
-}
-bool inSlit(const std::uint32_t* hits) {
-    return std::count_if(hits, hits + kRays, [](std::uint32_t hit) { return isAcross(hit); }) >
-           kSlit;
-}
-
-/// Mean direct illuminance of an element's corners [lux].
-Rgb directMean(const Element& element, const Lighting& lighting) {
-    const std::size_t count = element.isTriangle() ? 3 : 4;
-    Rgb sum;
-    for (std::size_t k = 0; k < count; ++k) sum += lighting.direct[element.vertices[k]];
-    return (1.0f / float(count)) * sum;
-}
-
-/// For each vertex the mean of the middles of its elements.
-std::vector<glm::vec3> middlesAround(const PatchSet& patches) {
-    std::vector<glm::vec3> middles(patches.vertices.size());
-    std::vector<float> count(patches.vertices.size());
-    for (const Element& element : patches.elements) {
-        const std::size_t corners = element.isTriangle() ? 3 : 4;
-        glm::vec3 middle(0);
-        for (std::size_t k = 0; k < corners; ++k)
-            middle += patches.vertices[element.vertices[k]].position / float(corners);
-        for (std::size_t k = 0; k < corners; ++k)
-            middles[element.vertices[k]] += middle, count[element.vertices[k]] += 1;
-    }
-    for (std::size_t v = 0; v < middles.size(); ++v)
-        if (count[v] > 0) middles[v] /= count[v];
-    return middles;
-}
+constexpr int kRays = DetailHits::kRays;
+constexpr int kSweeps = 10; ///< light goes from gathering vertex to gathering vertex
 
 double smoothstep(double low, double high, double x) {
     const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
     return t * t * (3 - 2 * t);
 }
 
-/// How far what rays gather takes the place of what patches say, at a vertex of this openness.
-double shutWeight(double openness) {
-    return 1 - smoothstep(0.25, 0.45, openness);
-}
-/// The same at a node: what is wrong there spreads over its patches, so patches are believed later.
+/// How far what rays gather takes the place of what patches say, at a node of this openness: what
+/// is wrong there spreads over its patches, so patches are believed later than at a vertex.
 double shutNodeWeight(double openness) {
     return 1 - smoothstep(0.4, 0.85, openness);
+}
+
+/// Mean direct illuminance of an element's corners [lux].
+Rgb directMean(const Element& element, std::span<const Rgb> direct) {
+    const std::size_t count = element.isTriangle() ? 3 : 4;
+    Rgb sum;
+    for (std::size_t k = 0; k < count; ++k) sum += direct[element.vertices[k]];
+    return (1.0f / float(count)) * sum;
 }
 
 Rgb toRgb(glm::dvec3 v) {
@@ -99,139 +40,166 @@ Rgb toRgb(glm::dvec3 v) {
 
 } // namespace
 
-DetailGather::DetailGather(const PatchSet& patches) : patches_(patches) {
-    const DrawnSurface surface(patches);
-    const HemisphereRays rays(kRays);
-    traceNodes(surface, rays);
-    traceVertices(surface, rays);
+/// Sweeps under way. Each takes three rounds, of elements, nodes and vertices; of the last one's
+/// vertices only those are gathered that somebody asks for.
+struct DetailGather::Sweep {
+    std::span<const Rgb> direct;
+    std::vector<Rgb> indirect;
+    std::vector<glm::dvec3> nodeIndirect;
+    Sent sent;
+    int round = -1; ///< -1: vertices are interpolated; 3 i + k: round k of sweep i
+    std::size_t next = 0;
+};
+
+DetailGather::DetailGather(const PatchSet& patches)
+    : patches_(patches), hits_(patches), sweep_(std::make_unique<Sweep>()) {}
+
+DetailGather::~DetailGather() = default;
+
+void DetailGather::apply(const SceneChange& change) {
+    hits_.apply(change);
+    swept_ = sweeping_ = false;
 }
 
-void DetailGather::traceNodes(const DrawnSurface& surface, const HemisphereRays& rays) {
-    nodeHits_.resize(patches_.nodes.size() * kRays, Element::kNone);
-    nodeOpenness_.resize(patches_.nodes.size());
-    parallelFor(patches_.nodes.size(), 64, [&](std::size_t first, std::size_t last) {
-        for (std::size_t n = first; n < last; ++n)
-            if (!isPadding(patches_.nodes[n]))
-                nodeOpenness_[n] =
-                    double(follow(surface, rays, patches_.nodes[n], 0, kRays, patches_.patchSize,
-                                  nodeHits_.data() + n * kRays)) /
-                    kRays;
-    });
-    rayCount_ += nodeHits_.size();
+void DetailGather::invalidate(const Bounds& region) {
+    hits_.invalidate(region);
+    swept_ = sweeping_ = false;
 }
 
-void DetailGather::traceVertices(const DrawnSurface& surface, const HemisphereRays& rays) {
-    constexpr std::size_t kGrain = 1024;
-    struct Found {
-        std::vector<Gatherer> vertices;
-        std::vector<std::uint32_t> hits;
+void DetailGather::beginSweeps(std::span<const Rgb> direct, std::vector<glm::dvec3> nodeIndirect) {
+    assert(hits_.done());
+    sweep_->direct = direct;
+    sweep_->indirect.resize(direct.size());
+    sweep_->nodeIndirect = std::move(nodeIndirect);
+    sweep_->sent.all.resize(patches_.elements.size());
+    sweep_->sent.direct.resize(patches_.elements.size());
+    sweep_->sent.nodes.resize(patches_.nodes.size());
+    sweep_->round = -1;
+    sweep_->next = 0;
+    sweeping_ = true;
+}
+
+void DetailGather::sweep(std::size_t effort) {
+    struct Round {
+        void (DetailGather::*work)(Sweep&, std::size_t, std::size_t) const;
+        std::size_t count;
+        std::size_t cost; ///< of sixteen of them, about [rays]
     };
-    std::vector<Found> found((patches_.vertices.size() + kGrain - 1) / kGrain);
-    const std::vector<glm::vec3> middles = middlesAround(patches_);
-    std::atomic<std::uint64_t> traced{0};
-    parallelFor(patches_.vertices.size(), kGrain, [&](std::size_t first, std::size_t last) {
-        Found& out = found[first / kGrain];
-        std::vector<std::uint32_t> hits(kRays);
-        for (std::size_t v = first; v < last; ++v) {
-            const auto [patch, s, t] = patches_.vertexCoordinates[v];
-            if (patch == Element::kNone) continue;
-            const Receiver& receiver = patches_.vertices[v].receiver;
-            const double expected =
-                interpolateNodes<double>(patches_.patches[patch], s, t, nodeOpenness_);
-            int free = follow(surface, rays, receiver, 0, kProbeRays, patches_.patchSize,
-                              hits.data(), &patches_);
-            traced += kProbeRays;
-            const double guess = double(free) / kProbeRays;
-            if (std::abs(guess - expected) < 0.07 && guess > 0.5) continue;
-            free += follow(surface, rays, receiver, kProbeRays, kRays - kProbeRays,
-                           patches_.patchSize, hits.data(), &patches_);
-            traced += kRays - kProbeRays;
-            const double open = double(free) / kRays;
-            double detail = smoothstep(0.02, 0.08, std::abs(open - expected));
-            double shut = shutWeight(open);
-            if (inSlit(hits.data())) {
-                // At its rim a slit is light, but for the least part of an element.
-                Receiver inside = receiver;
-                inside.position = glm::mix(receiver.position,
-                                           middles[v] + patches_.skin * receiver.normal, kInward);
-                follow(surface, rays, inside, 0, kRays, patches_.patchSize, hits.data(), &patches_);
-                traced += kRays;
-                detail = 0, shut = 1;
-            }
-            if (detail == 0 && shut == 0) continue;
-            out.vertices.push_back({std::uint32_t(v), float(detail), float(shut)});
-            out.hits.insert(out.hits.end(), hits.begin(), hits.end());
-        }
-    });
-    for (const Found& part : found) {
-        vertices_.insert(vertices_.end(), part.vertices.begin(), part.vertices.end());
-        vertexHits_.insert(vertexHits_.end(), part.hits.begin(), part.hits.end());
-    }
-    rayCount_ += traced;
+    const std::array<Round, 4> rounds{{
+        {&DetailGather::interpolateVertices, hits_.groupCount(), 16},
+        {&DetailGather::sendElements, patches_.elements.size(), 2},
+        {&DetailGather::gatherNodes, patches_.nodes.size(), 16},
+        {&DetailGather::gatherVertices, hits_.groupCount(), 128},
+    }};
+    Sweep& s = *sweep_;
+    const Round& round = rounds[std::size_t(s.round < 0 ? 0 : 1 + s.round % 3)];
+    const std::size_t count =
+        std::min(round.count - s.next, std::max<std::size_t>(16, 16 * effort / round.cost));
+    parallelFor(count, std::max<std::size_t>(16, 4096 / round.cost),
+                [&](std::size_t first, std::size_t last) {
+                    (this->*round.work)(s, s.next + first, s.next + last);
+                });
+    s.next += count;
+    if (s.next < round.count) return;
+    s.next = 0;
+    if (++s.round < 3 * kSweeps - 1) return;
+    std::swap(sent_, s.sent);
+    sweeping_ = false;
+    swept_ = true;
 }
 
-glm::dvec3 DetailGather::gathered(const Sent& sent, const std::uint32_t* hits) const {
+/// From below: what near surfaces add comes with the sweeps.
+void DetailGather::interpolateVertices(Sweep& sweep, std::size_t first, std::size_t last) const {
+    constexpr std::size_t kGroup = DetailHits::kGroup;
+    for (std::size_t group = first; group < last; ++group) {
+        for (std::size_t v = group * kGroup; v < (group + 1) * kGroup; ++v) {
+            const auto [patch, s, t] = patches_.vertexCoordinates[v];
+            sweep.indirect[v] = Rgb();
+            if (patch == Element::kNone) continue;
+            sweep.indirect[v] = toRgb(
+                interpolateNodes<glm::dvec3>(patches_.patches[patch], s, t, sweep.nodeIndirect));
+        }
+        for (const auto& gatherer : hits_.gatherers(group))
+            if (gatherer.weighs()) sweep.indirect[gatherer.vertex] *= 1 - gatherer.shut;
+    }
+}
+
+void DetailGather::sendElements(Sweep& sweep, std::size_t first, std::size_t last) const {
+    for (std::size_t e = first; e < last; ++e) {
+        const Element& element = patches_.elements[e];
+        const Rgb rho = patches_.materials[element.material].reflectance;
+        const Rgb all = rho * elementMean(element, sweep.direct, sweep.indirect);
+        const Rgb direct = rho * directMean(element, sweep.direct);
+        sweep.sent.all[e] = {all, luminance(all)};
+        sweep.sent.direct[e] = {direct, luminance(direct)};
+    }
+}
+
+void DetailGather::gatherNodes(Sweep& sweep, std::size_t first, std::size_t last) const {
+    for (std::size_t n = first; n < last; ++n)
+        sweep.sent.nodes[n] = gathered(sweep.sent, hits_.nodeHits(n), false);
+}
+
+void DetailGather::gatherVertices(Sweep& sweep, std::size_t first, std::size_t last) const {
+    for (std::size_t group = first; group < last; ++group)
+        for (const auto& gatherer : hits_.gatherers(group))
+            if (gatherer.weighs())
+                sweep.indirect[gatherer.vertex] =
+                    received(sweep.sent, group, gatherer, sweep.nodeIndirect);
+}
+
+glm::dvec3 DetailGather::gathered(const Sent& sent, std::span<const std::uint32_t> hits,
+                                  bool slit) const {
     glm::dvec3 sum(0), returned(0);
-    const bool slit = inSlit(hits);
-    Rgb brightest, second;
-    for (int r = 0; r < kRays; ++r) {
-        if (hits[r] == Element::kNone) continue;
-        const std::uint32_t element = isAcross(hits[r]) ? hits[r] & ~kAcross : hits[r];
-        const bool returns = slit && isAcross(hits[r]);
+    Light brightest, second;
+    for (const std::uint32_t hit : hits) {
+        if (hit == Element::kNone) continue;
+        const std::uint32_t element = hit & ~DetailRays::kAcross;
+        const bool returns = slit && isAcross(hit);
         if (returns) {
             const Rgb rho = patches_.materials[patches_.elements[element].material].reflectance;
             returned += glm::dvec3(rho.r, rho.g, rho.b);
         }
-        const Rgb light = returns ? sent.direct[element] : sent.all[element];
-        sum += glm::dvec3(light.r, light.g, light.b);
-        if (luminance(light) > luminance(brightest))
+        const Light& light = returns ? sent.direct[element] : sent.all[element];
+        sum += glm::dvec3(light.colour.r, light.colour.g, light.colour.b);
+        if (light.luminance > brightest.luminance)
             second = brightest, brightest = light;
-        else if (luminance(light) > luminance(second))
+        else if (light.luminance > second.luminance)
             second = light;
     }
     // A single ray that finds the glowing inside of a lampshade counts like the next: no fireflies.
-    const Rgb excess = brightest - second;
+    const Rgb excess = brightest.colour - second.colour;
     return (sum - glm::dvec3(excess.r, excess.g, excess.b)) / (double(kRays) - returned);
 }
 
-void DetailGather::apply(std::span<const glm::dvec3> nodeIndirect, Lighting& lighting) const {
-    Sent sent;
-    sent.all.resize(patches_.elements.size());
-    sent.direct.resize(patches_.elements.size());
-    std::vector<glm::dvec3> nodeGathered(nodeIndirect.size()), nodeValue(nodeIndirect.size());
-    // From below: what near surfaces add comes with the iterations.
-    for (const Gatherer& gatherer : vertices_)
-        lighting.indirect[gatherer.vertex] *= 1 - gatherer.shut;
-    for (int iteration = 0; iteration < kIterations; ++iteration) {
-        parallelFor(sent.all.size(), 4096, [&](std::size_t first, std::size_t last) {
-            for (std::size_t e = first; e < last; ++e) {
-                const Element& element = patches_.elements[e];
-                const Rgb rho = patches_.materials[element.material].reflectance;
-                sent.all[e] = rho * elementMean(element, lighting);
-                sent.direct[e] = rho * directMean(element, lighting);
-            }
-        });
-        parallelFor(nodeIndirect.size(), 1024, [&](std::size_t first, std::size_t last) {
-            for (std::size_t n = first; n < last; ++n) {
-                nodeGathered[n] = gathered(sent, nodeHits_.data() + n * kRays);
-                nodeValue[n] =
-                    glm::mix(nodeIndirect[n], nodeGathered[n], shutNodeWeight(nodeOpenness_[n]));
-            }
-        });
-        parallelFor(vertices_.size(), 1024, [&](std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i) {
-                const auto [vertex, detail, shut] = vertices_[i];
-                const auto [patch, s, t] = patches_.vertexCoordinates[vertex];
-                const Patch& p = patches_.patches[patch];
-                const glm::dvec3 own = gathered(sent, vertexHits_.data() + i * kRays);
-                const glm::dvec3 known = interpolateNodes<glm::dvec3>(p, s, t, nodeValue);
-                const glm::dvec3 expected = interpolateNodes<glm::dvec3>(p, s, t, nodeGathered);
-                const glm::dvec3 corrected = known + double(detail) * (own - expected);
-                lighting.indirect[vertex] =
-                    toRgb(glm::max(glm::mix(corrected, own, double(shut)), 0.0));
-            }
-        });
-    }
+glm::dvec3 DetailGather::nodeValue(const Sent& sent, std::size_t node, glm::dvec3 known) const {
+    return glm::mix(known, sent.nodes[node], shutNodeWeight(hits_.nodeOpenness(node)));
+}
+
+/// Indirect light of a vertex in question [lux].
+Rgb DetailGather::received(const Sent& sent, std::size_t group,
+                           const DetailHits::Gatherer& gatherer,
+                           std::span<const glm::dvec3> nodeIndirect) const {
+    const auto [patch, s, t] = patches_.vertexCoordinates[gatherer.vertex];
+    const Patch& p = patches_.patches[patch];
+    const auto hits = hits_.hits(group, gatherer);
+    const glm::dvec3 own = gathered(sent, hits, gatherer.slit && inSlit(hits));
+    const glm::dvec3 known = interpolate<glm::dvec3>(
+        p, s, t, [&](std::uint32_t n) { return nodeValue(sent, n, nodeIndirect[n]); });
+    const glm::dvec3 expected = interpolateNodes<glm::dvec3>(p, s, t, sent.nodes);
+    const glm::dvec3 corrected = known + double(gatherer.detail) * (own - expected);
+    return toRgb(glm::max(glm::mix(corrected, own, double(gatherer.shut)), 0.0));
+}
+
+void DetailGather::correct(std::uint32_t block, std::span<const glm::dvec3> nodeIndirect,
+                           std::span<Rgb> indirect) const {
+    if (sent_.nodes.empty()) return;
+    constexpr std::size_t kGroups = PatchSet::kBlock / DetailHits::kGroup;
+    for (std::size_t group = block * kGroups; group < (block + 1) * kGroups; ++group)
+        for (const auto& gatherer : hits_.gatherers(group)) // one that was given back may be there
+            if (gatherer.weighs() &&
+                patches_.vertexCoordinates[gatherer.vertex].patch != Element::kNone)
+                indirect[gatherer.vertex] = received(sent_, group, gatherer, nodeIndirect);
 }
 
 } // namespace penumbra

@@ -1,10 +1,16 @@
 // Indirect light where it varies faster than patches can tell: in gaps, under things, along edges.
 #pragma once
 
+#include "radiosity/DetailHits.h"
+#include "radiosity/Lighting.h"
 #include "radiosity/PatchSet.h"
-#include "radiosity/Solver.h"
+#include "radiosity/SceneChange.h"
+#include "scenegraph/Rgb.h"
+
+#include <glm/glm.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -29,40 +35,66 @@ namespace penumbra {
 ///
 /// and the rays start on half the way from the vertex to the middle of its elements, for what the
 /// very rim receives holds for little of an element.
-/// Which vertices gather, and with which weight, depends on geometry alone.
+/// Which vertices gather, with which weight and from what, is geometry alone: see DetailHits. Light
+/// goes from gathering vertex to gathering vertex in sweeps, anew whenever it has changed. Until
+/// the sweeps are done what the last ones found to be sent is gathered, along the rays as they are.
 class DetailGather {
 public:
-    /// Traces the rays. `patches` must outlive this.
+    /// Everything is open work at first. `patches` must outlive this.
     explicit DetailGather(const PatchSet& patches);
+    ~DetailGather();
 
-    /// Corrects the indirect light of the vertices in question.
+    /// Takes note of an edit that has been made to the patch set. Traces nothing.
+    void apply(const SceneChange& change);
+    void invalidate(const Bounds& region); ///< see LitScene
+
+    /// Brings rays up to date: a piece of work of about `effort` rays; false: there is none left.
+    bool trace(std::size_t effort) { return hits_.work(effort); }
+    /// Whether the sweeps know of the light as it is.
+    bool swept() const { return swept_; }
+    bool sweeping() const { return sweeping_; }
+    /// Begins the sweeps. \pre trace() has nothing to do
+    /// \param direct       at the vertices [lux]; is read until the sweeps are done or given up
     /// \param nodeIndirect the solver's, one a node of the patch set [lux]
-    void apply(std::span<const glm::dvec3> nodeIndirect, Lighting& lighting) const;
+    void beginSweeps(std::span<const Rgb> direct, std::vector<glm::dvec3> nodeIndirect);
+    /// A piece of them, which costs about as much as `effort` rays. \pre sweeping()
+    void sweep(std::size_t effort);
 
-    std::size_t vertexCount() const { return vertices_.size(); }
-    std::uint64_t rayCount() const { return rayCount_; }
+    /// Corrects the indirect light of the vertices in question within a block of
+    /// PatchSet::kBlock vertices.
+    /// \param nodeIndirect as above
+    /// \param indirect     at all vertices: interpolated from these [lux]
+    void correct(std::uint32_t block, std::span<const glm::dvec3> nodeIndirect,
+                 std::span<Rgb> indirect) const;
+
+    const DetailHits& hits() const { return hits_; }
 
 private:
-    struct Gatherer {
-        std::uint32_t vertex = 0;
-        float detail = 0; ///< w
-        float shut = 0;   ///< weight of G itself
+    /// What one element reflects [lm/m^2].
+    struct alignas(16) Light {
+        Rgb colour;
+        float luminance = 0;
     };
-    void traceNodes(const class DrawnSurface& surface, const class HemisphereRays& rays);
-    void traceVertices(const DrawnSurface& surface, const HemisphereRays& rays);
-    /// What elements reflect [lm/m^2].
+    /// What elements reflect, and what nodes gather of it.
     struct Sent {
-        std::vector<Rgb> all, direct; ///< of all light, and of direct light alone
+        std::vector<Light> all, direct; ///< of all light, and of direct light alone
+        std::vector<glm::dvec3> nodes;  ///< [lux]
     };
-    glm::dvec3 gathered(const Sent& sent, const std::uint32_t* hits) const;
+    struct Sweep;
+    glm::dvec3 gathered(const Sent& sent, std::span<const std::uint32_t> hits, bool slit) const;
+    glm::dvec3 nodeValue(const Sent& sent, std::size_t node, glm::dvec3 known) const;
+    Rgb received(const Sent& sent, std::size_t group, const DetailHits::Gatherer& gatherer,
+                 std::span<const glm::dvec3> nodeIndirect) const;
+    void interpolateVertices(Sweep& sweep, std::size_t first, std::size_t last) const;
+    void sendElements(Sweep& sweep, std::size_t first, std::size_t last) const;
+    void gatherNodes(Sweep& sweep, std::size_t first, std::size_t last) const;
+    void gatherVertices(Sweep& sweep, std::size_t first, std::size_t last) const;
 
     const PatchSet& patches_;
-    std::vector<Gatherer> vertices_;
-    std::vector<std::uint32_t>
-        vertexHits_; ///< element that each ray meets, Element::kNone: nothing
-    std::vector<std::uint32_t> nodeHits_;
-    std::vector<double> nodeOpenness_;
-    std::uint64_t rayCount_ = 0;
+    DetailHits hits_;
+    Sent sent_; ///< as the last sweeps left it; empty before the first
+    bool swept_ = false, sweeping_ = false;
+    std::unique_ptr<Sweep> sweep_; ///< kept for its memory
 };
 
 } // namespace penumbra

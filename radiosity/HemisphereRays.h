@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cstdint>
 #include <vector>
 
 namespace penumbra {
@@ -16,6 +17,9 @@ public:
     int count() const { return int(local_.size()); }
     /// Direction `index` around a unit normal, unit length.
     glm::vec3 direction(int index, glm::vec3 normal) const;
+    /// Directions around a unit normal that may pass a sphere, at least all that do, as bits.
+    /// \param away the sphere's centre, seen from where the rays begin \pre count() <= 64
+    std::uint64_t towards(glm::vec3 away, float radius, glm::vec3 normal) const;
 
 private:
     std::vector<glm::vec3> local_; ///< around +Z

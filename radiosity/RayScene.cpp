@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace penumbra {
@@ -20,6 +21,8 @@ struct QueryContext {
     RTCIntersectContext context;      // first, so that Embree's pointer is ours
     std::uint32_t* blocker = nullptr; // where to note who is in the way
     bool frontOnly = false;
+    float nearest = -1; // what was accepted last: its distance, and its object and triangle
+    std::pair<std::uint32_t, std::uint32_t> nearestTriangle;
     std::vector<RayHit>* all = nullptr; // where to note every hit; none ends the ray
 
     QueryContext() {
@@ -38,9 +41,29 @@ void noteBlocker(const RTCFilterFunctionNArguments* args) {
     }
 }
 
+/// Rejects backs if only fronts are asked for, and of equally near hits all but the first in order,
+/// whatever the order in which Embree finds them. Queries for the nearest hit are of single rays.
+void chooseNearest(const RTCFilterFunctionNArguments* args, QueryContext& context) {
+    const unsigned n = args->N;
+    assert(n == 1);
+    const float facing = RTCRayN_dir_x(args->ray, n, 0) * RTCHitN_Ng_x(args->hit, n, 0) +
+                         RTCRayN_dir_y(args->ray, n, 0) * RTCHitN_Ng_y(args->hit, n, 0) +
+                         RTCRayN_dir_z(args->ray, n, 0) * RTCHitN_Ng_z(args->hit, n, 0);
+    const float distance = RTCRayN_tfar(args->ray, n, 0);
+    const std::pair<std::uint32_t, std::uint32_t> triangle(RTCHitN_geomID(args->hit, n, 0),
+                                                           RTCHitN_primID(args->hit, n, 0));
+    if ((context.frontOnly && facing >= 0) ||
+        (distance == context.nearest && context.nearestTriangle < triangle)) {
+        args->valid[0] = 0;
+        return;
+    }
+    context.nearest = distance;
+    context.nearestTriangle = triangle;
+}
+
 /// Rejects what the query does not ask for.
 void chooseHits(const RTCFilterFunctionNArguments* args) {
-    const auto* const context = reinterpret_cast<const QueryContext*>(args->context);
+    auto* const context = reinterpret_cast<QueryContext*>(args->context);
     if (context->all) {
         for (unsigned i = 0; i < args->N; ++i) {
             if (args->valid[i] == 0) continue;
@@ -55,14 +78,7 @@ void chooseHits(const RTCFilterFunctionNArguments* args) {
         }
         return;
     }
-    if (!context->frontOnly) return;
-    for (unsigned i = 0; i < args->N; ++i) {
-        const float facing =
-            RTCRayN_dir_x(args->ray, args->N, i) * RTCHitN_Ng_x(args->hit, args->N, i) +
-            RTCRayN_dir_y(args->ray, args->N, i) * RTCHitN_Ng_y(args->hit, args->N, i) +
-            RTCRayN_dir_z(args->ray, args->N, i) * RTCHitN_Ng_z(args->hit, args->N, i);
-        if (facing >= 0) args->valid[i] = 0;
-    }
+    chooseNearest(args, *context);
 }
 
 } // namespace

@@ -69,7 +69,8 @@ public:
     void occludedBy(ObjectId object, ShadowRays& rays) const;
     enum class Faces { both, front };
     /// The nearest triangle, up to `reach` times the length of `direction`; on request only of
-    /// those that show their front.
+    /// those that show their front. Of several at the same distance it is that of the first object,
+    /// and the first of its triangles.
     RayHit nearest(glm::vec3 origin, glm::vec3 direction, float reach,
                    Faces faces = Faces::both) const;
 

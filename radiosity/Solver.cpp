@@ -1,11 +1,13 @@
 #include "radiosity/Solver.h"
 
 #include "radiosity/Interpolation.h"
+#include "radiosity/Parallel.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace penumbra {
 
@@ -26,19 +28,12 @@ Rgb toRgb(glm::dvec3 v) {
 
 } // namespace
 
-Rgb elementMean(const Element& element, const Lighting& lighting) {
-    const std::size_t count = element.isTriangle() ? 3 : 4;
-    Rgb sum;
-    for (std::size_t k = 0; k < count; ++k)
-        sum += lighting.direct[element.vertices[k]] + lighting.indirect[element.vertices[k]];
-    return (1.0f / float(count)) * sum;
-}
-
 Solver::Solver(const PatchSet& patches, const RayScene& rays, const SolverOptions& options)
     : set_(patches), options_(options), direct_(patches, rays, options.samples) {
     if (!options.directOnly && !patches.patches.empty())
         indirect_ = std::make_unique<IndirectLight>(patches, rays, direct_, options.rowMemory,
                                                     options.flatPatches);
+    if (indirect_ && options.detail) detail_ = std::make_unique<DetailGather>(patches);
 }
 
 void Solver::apply(const SceneChange& change) {
@@ -49,6 +44,7 @@ void Solver::apply(const SceneChange& change) {
     completed_ = false;
     if (!indirect_) return;
     indirect_->apply(change);
+    if (detail_) detail_->apply(change);
     shotsBefore_ = indirect_->shots();
     servedBefore_ = indirect_->blocksServed();
 }
@@ -60,6 +56,7 @@ void Solver::invalidate(const Bounds& region) {
     completed_ = false;
     if (!indirect_) return;
     indirect_->invalidate(region);
+    if (detail_) detail_->invalidate(region);
     shotsBefore_ = indirect_->shots();
     servedBefore_ = indirect_->blocksServed();
 }
@@ -120,7 +117,19 @@ bool Solver::work(std::size_t effort, const Progress& progress) {
         }
     }
     indirectSeconds_ += seconds() - start;
-    return more;
+    return more || (detail_ && workOnDetail(effort, progress));
+}
+
+bool Solver::workOnDetail(std::size_t effort, const Progress& progress) {
+    if (detail_->swept()) return false;
+    const double start = seconds();
+    if (!detail_->trace(effort)) {
+        if (!detail_->sweeping()) detail_->beginSweeps(direct_.vertices(), nodeIlluminance());
+        detail_->sweep(effort);
+    }
+    detailSeconds_ += seconds() - start;
+    if (progress) progress("fine shadows", detail_->hits().share());
+    return true;
 }
 
 double Solver::target() const {
@@ -145,18 +154,31 @@ std::vector<glm::dvec3> Solver::nodeIlluminance() const {
 }
 
 Lighting Solver::lighting() const {
-    Lighting light;
-    light.direct.assign(direct_.vertices().begin(), direct_.vertices().end());
-    light.indirect.resize(set_.vertices.size());
-    if (!indirect_) return light;
+    std::vector<std::uint32_t> blocks(set_.vertices.size() / PatchSet::kBlock);
+    std::iota(blocks.begin(), blocks.end(), 0u);
+    Lighting lighting;
+    light(blocks, lighting);
+    return lighting;
+}
+
+void Solver::light(std::span<const std::uint32_t> blocks, Lighting& lighting) const {
+    lighting.direct.resize(set_.vertices.size());
+    lighting.indirect.resize(set_.vertices.size());
     const std::vector<glm::dvec3> nodes = nodeIlluminance();
-    for (std::size_t v = 0; v < set_.vertices.size(); ++v) {
-        const auto [index, s, t] = set_.vertexCoordinates[v];
-        if (index == Element::kNone) continue;
-        const Patch& patch = set_.patches[index];
-        light.indirect[v] = toRgb(interpolateNodes<glm::dvec3>(patch, s, t, nodes));
-    }
-    return light;
+    parallelFor(blocks.size(), 8, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const std::uint32_t begin = blocks[i] * PatchSet::kBlock;
+            for (std::uint32_t v = begin; v < begin + PatchSet::kBlock; ++v) {
+                const auto [index, s, t] = set_.vertexCoordinates[v];
+                lighting.direct[v] = direct_.vertices()[v];
+                lighting.indirect[v] = Rgb();
+                if (index != Element::kNone && indirect_)
+                    lighting.indirect[v] =
+                        toRgb(interpolateNodes<glm::dvec3>(set_.patches[index], s, t, nodes));
+            }
+            if (detail_) detail_->correct(blocks[i], nodes, lighting.indirect);
+        }
+    });
 }
 
 std::vector<Rgb> Solver::radiosity() const {
@@ -179,6 +201,11 @@ SolveStatistics Solver::statistics() const {
     if (indirect_) {
         result.indirect = count(indirect_->updates(), indirectSeconds_);
         result.indirect.rays += indirect_->buildRays();
+        if (detail_)
+            result.detail = {{detail_->hits().rayCount(), 0},
+                             detail_->hits().groupsVisited(),
+                             0,
+                             detailSeconds_};
         result.shots = indirect_->shots();
         result.settled = settled();
         result.residual = indirect_->residual();

@@ -1,8 +1,10 @@
 // The radiosity solution: direct light onto elements, indirect light between patches.
 #pragma once
 
+#include "radiosity/DetailGather.h"
 #include "radiosity/DirectLight.h"
 #include "radiosity/IndirectLight.h"
+#include "radiosity/Lighting.h"
 #include "radiosity/PatchSet.h"
 #include "radiosity/RayScene.h"
 #include "radiosity/SceneChange.h"
@@ -25,6 +27,7 @@ struct SolverOptions {
     /// with.
     double residual = 0;
     bool directOnly = false;
+    bool detail = true; ///< shadows of indirect light finer than patches, see DetailGather
     /// 0: no limit if `residual` is given, else what keeps a scene of very many patches to minutes.
     std::uint64_t mostShots = 0;
     std::size_t rowMemory =
@@ -53,22 +56,13 @@ struct WorkCount {
 struct SolveStatistics {
     std::uint64_t shots = 0;
     bool settled = false; ///< whether the limit was met, or relaxation stopped before
-    WorkCount direct, indirect;
+    WorkCount direct, indirect, detail;
     double residual = 0;      ///< max |R| over patches and channels [lm/m^2]
     double certificate = 0;   ///< bound of |B_exact - B| for the meshed scene [lm/m^2]
     double brightest = 0;     ///< largest exitance of an emitter [lm/m^2]
     double meanRadiosity = 0; ///< area-weighted, of reflecting surfaces [lm/m^2]
     std::size_t rows = 0, entries = 0, bytes = 0; ///< of the SFFL
 };
-
-/// Illuminance at every vertex of a PatchSet [lux].
-struct Lighting {
-    std::vector<Rgb> direct;
-    std::vector<Rgb> indirect;
-};
-
-/// Mean illuminance of an element's corners [lux].
-Rgb elementMean(const Element& element, const Lighting& lighting);
 
 /// Lights a PatchSet, and keeps it lit while it is edited: emitters light the elements directly,
 /// what patches reflect travels between patches' nodes. The result is the same for any number of
@@ -94,13 +88,18 @@ public:
     void settle(const Progress& progress = {});
 
     /// What the vertices receive. What is still owed is added as an ambient term (Cohen et al.
-    /// 1988).
+    /// 1988); fine shadows are as far as they have been brought.
     Lighting lighting() const;
+    /// The same for some blocks of PatchSet::kBlock vertices. Costs as much as the nodes and what
+    /// is asked for. \param lighting is made as long as there are vertices; others keep their
+    /// values
+    void light(std::span<const std::uint32_t> blocks, Lighting& lighting) const;
     /// Indirect illuminance at the nodes, the ambient term included [lux].
     std::vector<glm::dvec3> nodeIlluminance() const;
     /// Radiosity of every patch, own emission left out: rho * H [lm/m^2].
     std::vector<Rgb> radiosity() const;
     SolveStatistics statistics() const;
+    double detailSeconds() const { return detailSeconds_; } ///< of statistics(), at no cost
 
     /// Blocks of vertices whose direct light may differ from what it was at the last call.
     std::vector<std::uint32_t> takeSummedBlocks() { return direct_.takeSummedBlocks(); }
@@ -110,6 +109,7 @@ public:
 
     const DirectLight& direct() const { return direct_; }
     const IndirectLight& indirect() const { return *indirect_; }
+    const DetailGather* detail() const { return detail_.get(); } ///< null: not asked for
     std::span<const Row> emitterRows() const { return direct_.rows().rows(); }
     std::span<const Row> patchRows() const { // empty ones were never needed, or not kept
         return indirect_ ? std::span(indirect_->rows().rows()) : std::span<const Row>();
@@ -117,6 +117,7 @@ public:
 
 private:
     bool work(std::size_t effort, const Progress& progress);
+    bool workOnDetail(std::size_t effort, const Progress& progress);
     bool settled() const;
     bool spent() const;
     double target() const;
@@ -125,11 +126,12 @@ private:
     SolverOptions options_;
     DirectLight direct_;
     std::unique_ptr<IndirectLight> indirect_; ///< null: direct light only
+    std::unique_ptr<DetailGather> detail_;
     bool handedOver_ = false; ///< whether the indirect light knows of the direct light as it is
     bool completing_ = false, completed_ = false;      ///< see IndirectLight::complete()
     std::uint64_t shotsBefore_ = 0, servedBefore_ = 0; ///< before the last edit
     double firstCertificate_ = 0, effort_ = 4096;
-    double directSeconds_ = 0, indirectSeconds_ = 0;
+    double directSeconds_ = 0, indirectSeconds_ = 0, detailSeconds_ = 0;
 };
 
 } // namespace penumbra

@@ -1,6 +1,5 @@
 #include "tools/SceneSolution.h"
 
-#include "radiosity/DetailGather.h"
 #include "scenegraph/Error.h"
 
 #include <CLI/CLI.hpp>
@@ -167,7 +166,7 @@ SceneSolution::SceneSolution(const SolveSettings& settings)
     if (settings.frames.empty()) return;
     const SolveStatistics s = solver().statistics();
     frames_.push_back({double(frameRange(settings.frames).first), 0, true, s.shots, s.certificate,
-                       now() - start, s.direct, s.indirect});
+                       now() - start, s.direct, s.indirect, s.detail});
 }
 
 void SceneSolution::mesh(const MeshingOptions& meshing) {
@@ -187,15 +186,15 @@ void SceneSolution::mesh(const MeshingOptions& meshing) {
 }
 
 void SceneSolution::light() {
+    double& solving = phases_["solve"];
+    const double before = solver().detailSeconds();
     timed("solve", [&] {
         lit_->solver().settle([&](const char* phase, double done) { progress_.show(phase, done); });
     });
+    const double detailing = solver().detailSeconds() - before;
+    solving -= detailing; // a phase of its own
+    if (!settings_.solver.directOnly) phases_["detail"] += detailing;
     lighting_ = timed("light", [&] { return solver().lighting(); });
-    if (!settings_.solver.directOnly)
-        timed("detail", [&] {
-            progress_.show("fine shadows", 0);
-            DetailGather(patches()).apply(solver().nodeIlluminance(), lighting_);
-        });
     progress_.clear();
     const SolveStatistics s = solver().statistics();
     if (!settings_.quiet && !settings_.solver.directOnly && !s.settled)
@@ -232,6 +231,7 @@ void SceneSolution::show(double frame) {
     cost.certificate = after.certificate;
     cost.direct = after.direct - before.direct;
     cost.indirect = after.indirect - before.indirect;
+    cost.detail = after.detail - before.detail;
     frames_.push_back(cost);
 }
 

@@ -64,7 +64,7 @@ struct FrameCost {
     std::uint64_t shots = 0;
     double certificate = 0; ///< [lm/m^2]
     double seconds = 0;     ///< from the edit to the settled light
-    WorkCount direct, indirect;
+    WorkCount direct, indirect, detail;
 };
 
 /// A scene, read, meshed and lit, and what its animation makes of it.

@@ -39,7 +39,11 @@ nlohmann::ordered_json frameJson(const FrameCost& cost) {
             {"certificate", cost.certificate},
             {"seconds", cost.seconds},
             {"direct", workJson(cost.direct)},
-            {"indirect", workJson(cost.indirect)}};
+            {"indirect", workJson(cost.indirect)},
+            {"detail",
+             {{"rays", cost.detail.rays.total()},
+              {"groups_visited", cost.detail.blocksVisited},
+              {"seconds", cost.detail.seconds}}}};
 }
 
 } // namespace
@@ -62,6 +66,8 @@ void writeStatistics(const std::string& path, const SceneSolution& solution) {
                      {"indirect_rays", s.indirect.rays.total()},
                      {"direct_seconds", s.direct.seconds},
                      {"indirect_seconds", s.indirect.seconds},
+                     {"detail_rays", s.detail.rays.total()},
+                     {"detail_seconds", s.detail.seconds},
                      {"brightest_exitance", s.brightest},
                      {"mean_radiosity", s.meanRadiosity}};
     json["sffl"] = {{"rows", s.rows}, {"entries", s.entries}, {"bytes", s.bytes}};

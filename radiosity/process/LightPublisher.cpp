@@ -1,6 +1,5 @@
 #include "radiosity/process/LightPublisher.h"
 
-#include "radiosity/DetailGather.h"
 #include "radiosity/Interpolation.h"
 #include "radiosity/Parallel.h"
 
@@ -77,12 +76,10 @@ void LightPublisher::solverWorked(bool settled) {
     directWorked();
     nodesChanged(settled);
     if (!settled || scene_.solver().directOnly()) return;
-    Lighting light = scene_.solver().lighting();
-    std::vector<Rgb> before = light.indirect;
-    DetailGather(scene_.patches()).apply(nodes_, light);
-    detail_.resize(before.size());
-    for (std::uint32_t v = 0; v < before.size(); ++v)
-        if (const Rgb detail = light.indirect[v] - before[v]; detail != detail_[v]) {
+    const Lighting light = scene_.solver().lighting();
+    detail_.resize(light.indirect.size());
+    for (std::uint32_t v = 0; v < detail_.size(); ++v)
+        if (const Rgb detail = light.indirect[v] - interpolatedAt(v); detail != detail_[v]) {
             detail_[v] = detail;
             touch(v / kBlock);
         }
@@ -140,14 +137,18 @@ LightBlock LightPublisher::blockOf(std::uint32_t block) const {
     return light;
 }
 
-Rgb LightPublisher::indirectAt(std::uint32_t vertex) const {
+Rgb LightPublisher::interpolatedAt(std::uint32_t vertex) const {
     const PatchSet& set = scene_.patches();
     const auto [index, s, t] = set.vertexCoordinates[vertex];
     if (index == Element::kNone || scene_.solver().directOnly()) return {};
     const glm::dvec3 light = interpolateNodes<glm::dvec3>(set.patches[index], s, t, nodes_);
-    Rgb sum(float(light.x), float(light.y), float(light.z));
-    if (vertex < detail_.size()) sum += detail_[vertex];
-    return sum;
+    return {float(light.x), float(light.y), float(light.z)};
+}
+
+Rgb LightPublisher::indirectAt(std::uint32_t vertex) const {
+    const bool known = vertex < detail_.size() &&
+                       scene_.patches().vertexCoordinates[vertex].patch != Element::kNone;
+    return interpolatedAt(vertex) + (known ? detail_[vertex] : Rgb());
 }
 
 void LightPublisher::writeCorners(std::uint32_t block, LightBlock& light) const {

@@ -42,6 +42,7 @@ private:
     void touch(std::uint32_t block);
     void nodesChanged(bool exact);
     LightBlock blockOf(std::uint32_t block) const;
+    Rgb interpolatedAt(std::uint32_t vertex) const;
     Rgb indirectAt(std::uint32_t vertex) const;
     void writeCorners(std::uint32_t block, LightBlock& light) const;
 

@@ -11,6 +11,7 @@ void write(ByteWriter& out, const LightingTask& task, const GraphImage& scene) {
     out.put(std::int32_t(task.solving.samples));
     out.put(task.solving.residual);
     out.put(std::uint8_t(task.solving.directOnly));
+    out.put(std::uint8_t(task.solving.detail));
     out.put(task.solving.mostShots);
     out.put(std::uint64_t(task.solving.rowMemory));
     out.put(std::uint8_t(task.order));
@@ -30,6 +31,7 @@ std::optional<LightingTask> readLightingTask(ByteReader& in) {
     task.solving.samples = in.get<std::int32_t>();
     task.solving.residual = in.get<double>();
     task.solving.directOnly = in.get<std::uint8_t>() != 0;
+    task.solving.detail = in.get<std::uint8_t>() != 0;
     task.solving.mostShots = in.get<std::uint64_t>();
     task.solving.rowMemory = in.get<std::uint64_t>();
     const auto order = in.get<std::uint8_t>();

@@ -29,7 +29,7 @@ protected:
 
     std::uint64_t rays() const {
         const SolveStatistics s = lit.solver().statistics();
-        return s.direct.rays.total() + s.indirect.rays.total();
+        return s.direct.rays.total() + s.indirect.rays.total() + s.detail.rays.total();
     }
     /// Takes in an edit to the end; what the floor's first patch sends tells whether it was seen.
     void expectNoRay(const char* what) {

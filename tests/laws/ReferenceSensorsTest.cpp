@@ -3,7 +3,6 @@
 #include "io/UsdAnimation.h"
 #include "io/UsdScene.h"
 #include "radiosity/Contact.h"
-#include "radiosity/DetailGather.h"
 #include "radiosity/LitSurface.h"
 #include "radiosity/PointGather.h"
 #include "tests/support/Reference.h"
@@ -28,8 +27,7 @@ std::ostream& operator<<(std::ostream& out, const Room& room) {
 /// As `penumbra solve` reads them: what is buried is dark, what is covered is not drawn.
 void expectMet(const LitScene& lit, const std::vector<TruthSensor>& sensors) {
     const PatchSet& patches = lit.patches();
-    Lighting lighting = lit.solver().lighting();
-    DetailGather(patches).apply(lit.solver().nodeIlluminance(), lighting);
+    const Lighting lighting = lit.solver().lighting();
     const LitSurface surface(patches, lighting);
     const PointGather point(patches, lit.rays(), lighting);
     std::vector<Rgb> drawn, gathered, truth;

@@ -1,9 +1,11 @@
 // Indirect light that varies faster than patches can tell.
 #include "radiosity/DetailGather.h"
+#include "radiosity/Parallel.h"
 #include "tests/support/Scenes.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 namespace penumbra {
@@ -72,24 +74,43 @@ TEST(DetailGather, InASlitOfAFurnaceNoLightIsLostOrMade) {
 }
 
 TEST(DetailGather, LeavesAnEvenlyLitRoomAsItIs) {
-    const Solution solution(sceneOf({room(0.5f), ceilingLamp({0, 0, 0.99f}, 0.8f, 0.8f)}),
-                            kMeshing);
-    const Lighting raw = solution.solver.lighting();
+    const Scene scene = sceneOf({room(0.5f), ceilingLamp({0, 0, 0.99f}, 0.8f, 0.8f)});
+    const Solution solution(scene, kMeshing);
+    const Lighting raw = Solution(scene, kMeshing, {.detail = false}).lighting;
     EXPECT_NEAR(onWall(solution, solution.lighting, {-1, 0, 0}, 0.5f),
                 onWall(solution, raw, {-1, 0, 0}, 0.5f), 0.01);
     for (std::size_t v = 0; v < raw.direct.size(); ++v)
         EXPECT_EQ(raw.direct[v], solution.lighting.direct[v]);
 }
 
-TEST(DetailGather, ChoosesVerticesByGeometryAlone) {
-    const auto chosen = [](float rho, Rgb nits) {
-        const Scene scene =
-            sceneOf({room(rho), object("box", boxData({-0.5f, -0.5f, -1}, {0, 0, 0}, false)),
-                     ceilingLamp({0, 0, 0.99f}, 0.8f, 0.8f, nits)});
-        return DetailGather(meshed(scene, kMeshing).patches).vertexCount();
-    };
-    EXPECT_GT(chosen(0.5f, Rgb(1.0f)), 0u);
-    EXPECT_EQ(chosen(0.5f, Rgb(1.0f)), chosen(0.1f, Rgb(100.0f)));
+TEST(DetailGather, BlocksThatAreAskedForAreThoseOfTheWhole) {
+    const Solution solution(sceneOf({room(0.5f), ceilingLamp({0, 0, 0.99f}, 0.8f, 0.8f),
+                                     object("box", boxData({-0.5f, -0.5f, -1}, {0, 0, 0}, false))}),
+                            kMeshing);
+    Lighting some;
+    const std::vector<std::uint32_t> blocks{0, 3};
+    solution.solver.light(blocks, some);
+    ASSERT_EQ(some.direct.size(), solution.lighting.direct.size());
+    for (std::uint32_t v = 0; v < some.direct.size(); ++v) {
+        const std::uint32_t block = v / PatchSet::kBlock;
+        const bool asked = std::count(blocks.begin(), blocks.end(), block) > 0;
+        EXPECT_EQ(some.direct[v], asked ? solution.lighting.direct[v] : Rgb());
+        EXPECT_EQ(some.indirect[v], asked ? solution.lighting.indirect[v] : Rgb());
+    }
+}
+
+TEST(DetailGather, SweptInStepsAndByAnyNumberOfThreadsTheLightIsTheSame) {
+    const Scene scene =
+        sceneOf({room(0.5f), ceilingLamp({0, 0, 0.99f}, 0.8f, 0.8f),
+                 object("board", boxData({-0.995f, -0.5f, -0.5f}, {-0.975f, 0.5f, 0.5f}, false))});
+    const Solution whole(scene, kMeshing);
+    LitScene crumbs(placeScene(scene), kMeshing, {});
+    {
+        const ThreadLimit one(1);
+        while (!crumbs.solver().step(1e-9)) {
+        }
+    }
+    EXPECT_EQ(crumbs.solver().lighting().indirect, whole.lighting.indirect);
 }
 
 } // namespace

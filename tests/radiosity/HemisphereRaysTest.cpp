@@ -62,6 +62,27 @@ TEST(HemisphereRays, RunAlongTheSurfaceNoMoreOftenThanTheCosineHasIt) {
     }
 }
 
+RC_GTEST_PROP(HemisphereRays, TowardsASphereAreAllThatPassItAndFewOthers, ()) {
+    const glm::vec3 normal(direction());
+    const auto share = [] { return float(*rc::gen::inRange(1, 1000)) / 1000; };
+    const glm::vec3 away = 3 * share() * glm::vec3(direction());
+    const float radius = share();
+    const HemisphereRays rays(64);
+    const std::uint64_t bits = rays.towards(away, radius, normal);
+    for (int i = 0; i < rays.count(); ++i) {
+        const glm::dvec3 d(rays.direction(i, normal)), c(away);
+        const double along = glm::dot(d, c), aside2 = glm::dot(c, c) - along * along;
+        const bool inside = glm::dot(c, c) <= double(radius) * radius;
+        const bool passes = inside || (along >= 0 && aside2 <= double(radius) * radius);
+        const bool taken = bits >> i & 1;
+        RC_ASSERT(!passes || taken);
+        const double wide = radius + 0.02;
+        const bool near =
+            glm::dot(c, c) <= wide * wide || (along >= -0.02 && aside2 <= wide * wide);
+        RC_ASSERT(!taken || near);
+    }
+}
+
 } // namespace
 
 } // namespace penumbra

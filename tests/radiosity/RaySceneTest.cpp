@@ -39,6 +39,17 @@ TEST(RayScene, BlocksASegmentFromBothSidesOfASurface) {
     EXPECT_TRUE(scene.occluded({0, 0.1f, 2}, {0, 0.1f, 0}));
 }
 
+TEST(RayScene, OfEquallyNearTrianglesMeetsTheFirst) {
+    const RayScene scene(std::array{square(1), square(0), square(0)});
+    for (float x = -0.95f; x < 1; x += 0.1f) {
+        const RayHit hit = scene.nearest({x, 0.3f, 0.5f}, {0, 0, -1}, 10);
+        ASSERT_TRUE(hit.met());
+        EXPECT_EQ(hit.object.value, 1u);
+        // On the diagonal that both triangles share, too.
+        EXPECT_EQ(scene.nearest({x, x, 0.5f}, {0, 0, -1}, 10).triangle, 0u);
+    }
+}
+
 TEST(RayScene, DoesNotTakeTheTargetForAnObstacle) {
     const RayScene scene(std::array{square(1)});
     EXPECT_FALSE(scene.occluded({0.3f, 0.1f, 0}, {0.3f, 0.1f, 1}));

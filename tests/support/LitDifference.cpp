@@ -72,6 +72,56 @@ void compareIndirect(Comparison& with, std::span<const Row> rowsA, std::span<con
     }
 }
 
+/// What the elements of one scene are in the other; their indices, Element::kNone if in none.
+std::vector<std::uint32_t> elementsIn(const Comparison& with,
+                                      const std::map<std::string, const ObjectPart*>& parts) {
+    std::vector<std::uint32_t> elements(with.a.elements.size(), Element::kNone);
+    for (const ObjectPart& part : with.a.objects) {
+        if (parts.count(part.path) == 0) continue;
+        for (std::uint32_t i = 0; i < part.elements.count; ++i)
+            elements[part.elements.first + i] = parts.at(part.path)->elements.first + i;
+    }
+    return elements;
+}
+
+bool sameHits(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b,
+              const std::vector<std::uint32_t>& elements) {
+    constexpr std::uint32_t kAcross = DetailRays::kAcross;
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](auto one, auto other) {
+        if (one == Element::kNone || other == Element::kNone) return one == other;
+        return elements[one & ~kAcross] == (other & ~kAcross) &&
+               (one & kAcross) == (other & kAcross);
+    });
+}
+
+void compareDetail(Comparison& with, const DetailHits& a, const DetailHits& b, const ObjectPart& pa,
+                   const ObjectPart& pb, const std::vector<std::uint32_t>& elements) {
+    for (std::uint32_t i = 0; i < pa.nodes.count; ++i) {
+        const std::uint32_t na = pa.nodes.first + i, nb = pb.nodes.first + i;
+        with.expect(a.nodeOpenness(na) == b.nodeOpenness(nb) &&
+                        sameHits(a.nodeHits(na), b.nodeHits(nb), elements),
+                    pa.path, " node ", i, " sees other things: ", a.nodeOpenness(na), " against ",
+                    b.nodeOpenness(nb));
+    }
+    const auto groupOf = [](std::uint32_t vertex) { return vertex / DetailHits::kGroup; };
+    for (std::uint32_t i = 0; i < pa.elements.count; ++i)
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::uint32_t va = with.a.elements[pa.elements.first + i].vertices[k];
+            const std::uint32_t vb = with.b.elements[pb.elements.first + i].vertices[k];
+            const auto* const one = a.gatherer(va);
+            const auto* const other = b.gatherer(vb);
+            const bool same = !one || !other
+                                  ? one == other
+                                  : one->detail == other->detail && one->shut == other->shut &&
+                                        one->slit == other->slit && one->near == other->near &&
+                                        one->inside == other->inside &&
+                                        sameHits(a.hits(groupOf(va), *one),
+                                                 b.hits(groupOf(vb), *other), elements);
+            with.expect(same, pa.path, " element ", i, " corner ", k,
+                        " gathers other indirect light");
+        }
+}
+
 } // namespace
 
 std::string difference(const LitScene& one, const LitScene& other) {
@@ -87,6 +137,7 @@ std::string difference(const LitScene& one, const LitScene& other) {
         one.solver().statistics().certificate + other.solver().statistics().certificate + 1e-4;
     const auto ra = one.solver().radiosity(), rb = other.solver().radiosity();
     const auto rowsA = one.solver().patchRows(), rowsB = other.solver().patchRows();
+    const std::vector<std::uint32_t> elements = elementsIn(with, parts);
     for (const ObjectPart& pa : with.a.objects) {
         if (parts.count(pa.path) == 0) {
             with.expect(!pa.present, pa.path, " is missing");
@@ -100,6 +151,9 @@ std::string difference(const LitScene& one, const LitScene& other) {
                 pa.path, " is meshed in another way") ||
             !pa.present)
             continue;
+        if (one.solver().detail())
+            compareDetail(with, one.solver().detail()->hits(), other.solver().detail()->hits(), pa,
+                          pb, elements);
         for (const ObjectPart& sa : with.a.objects) {
             if (!sa.present || parts.count(sa.path) == 0) continue;
             const ObjectPart& sb = *parts[sa.path];

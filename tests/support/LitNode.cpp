@@ -1,6 +1,5 @@
 #include "tests/support/LitNode.h"
 
-#include "radiosity/DetailGather.h"
 #include "radiosity/LitScene.h"
 
 #include <algorithm>
@@ -85,9 +84,7 @@ std::string describe(RadiosityNode& node) {
 std::string differenceFromScratch(const RadiosityNode& node, const RadiosityOptions& options) {
     LitScene lit(node.placed(), options.meshing, options.solving);
     lit.solver().settle();
-    Lighting light = lit.solver().lighting();
-    if (!options.solving.directOnly)
-        DetailGather(lit.patches()).apply(lit.solver().nodeIlluminance(), light);
+    const Lighting light = lit.solver().lighting();
     const Drawn expected = drawnFromScratch(lit.patches(), light), drawn = drawnBy(node);
     const double slack = node.state().certificate + lit.solver().statistics().certificate;
 

@@ -1,7 +1,6 @@
 // Small scenes made by hand, and the way from a scene to its light.
 #pragma once
 
-#include "radiosity/DetailGather.h"
 #include "radiosity/LitScene.h"
 #include "scenegraph/Material.h"
 #include "tests/scenegraph/SceneParts.h"
@@ -100,7 +99,6 @@ struct Solution {
           rays(lit.rays()), solver(lit.solver()) {
         lit.solver().settle();
         lighting = solver.lighting();
-        if (!options.directOnly) DetailGather(patches()).apply(solver.nodeIlluminance(), lighting);
     }
     Solution(const Solution&) = delete;
     Solution& operator=(const Solution&) = delete;
