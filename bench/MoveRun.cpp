@@ -18,6 +18,8 @@ MoveRun::MoveRun(const Move& move, const MeshingOptions& meshing, const SolverOp
     lit_ = std::make_unique<LitScene>(placed, sizes, options);
     meshing_ = building.wall();
     const Stopwatch solving;
+    lit_->solver().converge();
+    converge_ = solving.wall();
     lit_->solver().settle();
     solve_ = {solving.wall(), solving.cpu()};
     statistics_ = lit_->solver().statistics();
@@ -31,8 +33,14 @@ MoveCost MoveRun::go(Place place) {
     cost.place = all.wall();
     LitScene::Followed followed = lit_->follow(placed);
     cost.follow = all.wall() - cost.place;
+    lit_->solver().converge();
+    cost.converge = all.wall() - cost.place - cost.follow;
+    cost.converged = lit_->solver().statistics();
+    cost.converged.direct = cost.converged.direct - statistics_.direct;
+    cost.converged.indirect = cost.converged.indirect - statistics_.indirect;
+    const double counted = all.wall() - cost.place - cost.follow - cost.converge;
     lit_->solver().settle();
-    cost.settle = all.wall() - cost.place - cost.follow;
+    cost.settle = all.wall() - cost.place - cost.follow - counted;
     cost.cpu = all.cpu();
     if (followed.rebuilt) throw Error("the move made the scene be meshed anew");
     cost.change = std::move(followed.change);

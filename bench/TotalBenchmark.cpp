@@ -38,6 +38,22 @@ void reportRays(benchmark::State& state, const SolveStatistics& scratch, const M
     counters["blocks_visited"] = double(move.direct.blocksVisited + move.indirect.blocksVisited);
 }
 
+/// What was put off when the certificate was met.
+void reportPutOff(benchmark::State& state, const MoveCost& move) {
+    const SolveStatistics& then = move.converged;
+    const auto blocks = [](const WorkCount& direct, const WorkCount& indirect) {
+        return double(direct.blocksVisited + indirect.blocksVisited);
+    };
+    auto& counters = state.counters;
+    counters["rays_until_converged"] =
+        double(then.direct.rays.total() + then.indirect.rays.total());
+    counters["put_off_blocks"] = double(then.openBlocks);
+    counters["put_off_share"] =
+        double(then.openBlocks) / (double(then.openBlocks) + blocks(then.direct, then.indirect));
+    counters["put_off_bound"] = then.openBound / then.brightest;
+    counters["certificate"] = then.certificate / then.brightest;
+}
+
 void reportRows(benchmark::State& state, const Solver& solver) {
     const RowSize emitters = sizeOf(solver.emitterRows()), patches = sizeOf(solver.patchRows());
     auto& counters = state.counters;
@@ -62,31 +78,33 @@ void total(benchmark::State& state, const Move& move) {
         auto& counters = state.counters;
         counters["elements"] = double(run.lit().patches().elements.size());
         counters["patches"] = double(run.lit().patches().patches.size());
-        counters["scratch_s"] = run.firstSolve().wall;
-        counters["scratch_cpu_s"] = run.firstSolve().cpu;
+        counters["scratch_s"] = run.firstConverge();
+        counters["scratch_settled_s"] = run.firstSolve().wall;
         counters["scratch_shots"] = double(scratch.shots);
 
-        std::vector<double> wall, cpu, follow, direct, indirect;
+        std::vector<double> wall, settled, follow, direct, indirect;
         for (int i = 0; i < kRounds; ++i) {
             const bool last = i + 1 == kRounds;
             run.go(Place::home);
             const std::vector<Rgb> before = run.lit().solver().radiosity();
             const MoveCost cost = run.go(Place::there);
-            wall.push_back(cost.wall()), cpu.push_back(cost.cpu);
+            wall.push_back(cost.wallToConverge()), settled.push_back(cost.wall());
             follow.push_back(cost.place + cost.follow);
-            direct.push_back(cost.direct.seconds), indirect.push_back(cost.indirect.seconds);
+            direct.push_back(cost.converged.direct.seconds);
+            indirect.push_back(cost.converged.indirect.seconds);
             if (!last) continue;
             counters["patches_affected"] = double(affected(before, run.lit().solver().radiosity()));
             counters["update_shots"] = double(cost.shots);
             reportRays(state, scratch, cost);
+            reportPutOff(state, cost);
         }
         counters["update_s"] = median(wall);
-        counters["update_cpu_s"] = median(cpu);
+        counters["update_settled_s"] = median(settled);
         counters["follow_s"] = median(follow);
         counters["direct_s"] = median(direct);
         counters["indirect_s"] = median(indirect);
-        counters["time_ratio"] = run.firstSolve().wall / median(wall);
-        counters["certificate"] = run.statistics().certificate / run.statistics().brightest;
+        counters["time_ratio"] = run.firstConverge() / median(wall);
+        counters["time_ratio_settled"] = run.firstSolve().wall / median(settled);
         reportRows(state, run.lit().solver());
         counters["peak_MB"] = peakMemory() * 1e-6;
         state.SetIterationTime(median(wall));
@@ -113,7 +131,7 @@ void play(benchmark::State& state, const std::string& layer, bool directOnly) {
             const Stopwatch one;
             if (lit.follow(placeScene(scene)).rebuilt)
                 return state.SkipWithError("meshed anew while the animation was played");
-            lit.solver().settle();
+            lit.solver().converge();
             seconds.push_back(one.wall());
         }
         const double all = playing.wall();

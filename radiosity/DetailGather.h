@@ -47,6 +47,8 @@ public:
     /// Takes note of an edit that has been made to the patch set. Traces nothing.
     void apply(const SceneChange& change);
     void invalidate(const Bounds& region); ///< see LitScene
+    /// Light is not what it was, or will not be, with everything where it is: sweeps begin anew.
+    void lightChanged() { swept_ = sweeping_ = false; }
 
     /// Brings rays up to date: a piece of work of about `effort` rays; false: there is none left.
     bool trace(std::size_t effort) { return hits_.work(effort); }

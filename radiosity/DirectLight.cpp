@@ -64,7 +64,46 @@ void DirectLight::placeReceivers(std::vector<BlockMask>& masks) {
     }
 }
 
+/// Patches that are lit by vertices of a block, some perhaps several times.
+template <class Visit>
+void DirectLight::forEachPatch(std::uint32_t block, Visit visit) const {
+    if (block < blockPatches_.size()) {
+        for (std::uint32_t patch : blockPatches_[block]) visit(patch);
+        return;
+    }
+    for (std::uint32_t v = block * kBlock; v < (block + 1) * kBlock; ++v)
+        if (!isPadding(receivers_[v]))
+            visit(set_.elements[set_.privateElement[v - set_.firstPrivate]].patch);
+}
+
+/// For bounds of what open work may change.
+void DirectLight::describeReceivers() {
+    std::vector<OpenWork::Receivers> blocks(table_.blocks().size());
+    for (std::uint32_t b = 0; b < blocks.size(); ++b) {
+        blocks[b].reflectance = 0;
+        forEachPatch(b, [&](std::uint32_t p) {
+            const Rgb rho = set_.materials[set_.patches[p].material].reflectance;
+            blocks[b].reflectance = std::max(blocks[b].reflectance, maxChannel(rho));
+        });
+    }
+    updates_.open().setReceivers(std::move(blocks));
+    for (std::uint32_t e = 0; e < set_.emitters.size(); ++e)
+        updates_.open().setPower(e, maxChannel(set_.emitters[e].exitance));
+    described_ = true;
+}
+
+std::vector<double> DirectLight::openLight() const {
+    std::vector<double> light(set_.patches.size());
+    const OpenWork& open = updates_.open();
+    if (open.count() == 0) return light;
+    for (std::uint32_t b = 0; b < open.blocks(); ++b)
+        if (open.light(b) > 0)
+            forEachPatch(b, [&](std::uint32_t p) { light[p] = std::max(light[p], open.light(b)); });
+    return light;
+}
+
 void DirectLight::apply(const SceneChange& change) {
+    described_ = false;
     std::vector<BlockMask> masks;
     const auto isChanged = [&](ObjectId object) {
         return std::find(change.objects.begin(), change.objects.end(), object) !=
@@ -103,26 +142,32 @@ void DirectLight::touchPatch(std::uint32_t patch) {
     touchedPatches_.push_back(patch);
 }
 
-bool DirectLight::work(std::size_t effort) {
-    return updateRows(effort) || sumBlocks(effort) || averagePatches(effort);
+bool DirectLight::work(std::size_t effort, double enough) {
+    return updateRows(effort, enough) || sumBlocks(effort) || averagePatches(effort);
 }
 
-bool DirectLight::updateRows(std::size_t effort) {
-    if (updates_.done()) return false;
+bool DirectLight::updateRows(std::size_t effort, double enough) {
+    if (!described_) describeReceivers();
+    if (updates_.done(enough)) return false;
     const auto facts = [&](std::uint32_t row) {
-        return RowUpdates::RowFacts{true, emitters_[row].box(), set_.emitters[row].object};
+        const Emitter& emitter = set_.emitters[row];
+        RowUpdates::RowFacts known{true, emitters_[row].box(), emitter.object, {}, {}, {}};
+        known.area = float(emitter.area);
+        return known;
     };
-    const auto update = [&](RowBuilder& builder, const UpdateItem& item, std::size_t) {
+    const auto update = [&](RowBuilder& builder, const OpenBlock& item,
+                            std::span<const MovedObject> moved, std::size_t) {
         const bool present = set_.objects[set_.emitters[item.row].object.value].present &&
                              set_.objects[set_.vertexBlockObject[item.block].value].present;
         ReceiverBlock receivers{receiversOf(item.block), present ? ~std::uint64_t(0) : 0, 0, {}};
         if (item.anew != 0)
             receivers.behind =
                 walls_.between(emitters_[item.row].box(), table_.blocks()[item.block]);
-        return builder.updateEmitterBlock(emitters_[item.row], receivers, item.anew,
-                                          item.change->moved, table_[item.row][item.block]);
+        return builder.updateEmitterBlock(emitters_[item.row], receivers, item.anew, moved,
+                                          table_[item.row][item.block]);
     };
-    for (const UpdateItem& item : updates_.work(effort, facts, update)) touchBlock(item.block);
+    for (const OpenBlock& item : updates_.work(effort, enough, facts, update))
+        touchBlock(item.block);
     return true;
 }
 
@@ -138,13 +183,7 @@ bool DirectLight::sumBlocks(std::size_t effort) {
     for (std::uint32_t block : some) {
         blockTouched_[block] = 0;
         if (!std::exchange(blockSummed_[block], 1)) summedBlocks_.push_back(block);
-        if (block < blockPatches_.size()) {
-            for (std::uint32_t patch : blockPatches_[block]) touchPatch(patch);
-            continue;
-        }
-        for (std::uint32_t v = block * kBlock; v < (block + 1) * kBlock; ++v)
-            if (!isPadding(receivers_[v]))
-                touchPatch(set_.elements[set_.privateElement[v - set_.firstPrivate]].patch);
+        forEachPatch(block, [&](std::uint32_t patch) { touchPatch(patch); });
     }
     touchedBlocks_.resize(touchedBlocks_.size() - count);
     return true;

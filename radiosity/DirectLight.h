@@ -28,7 +28,10 @@ public:
     void apply(const SceneChange& change);
     void invalidate(const Bounds& region); ///< see LitScene
     /// Does a piece of work of about `effort` rays; false: there is none left.
-    bool work(std::size_t effort);
+    /// \param enough what may stay open [lm/m^2], see OpenWork::take()
+    bool work(std::size_t effort, double enough);
+    /// Bound of what is still open in the mean light of patches [lux].
+    std::vector<double> openLight() const;
 
     std::span<const Rgb> vertices() const { return vertices_; }      ///< [lux]
     std::span<const glm::dvec3> patches() const { return patches_; } ///< means [lux]
@@ -51,7 +54,10 @@ private:
     void placeReceivers(std::vector<BlockMask>& masks);
     void touchBlock(std::uint32_t block);
     void touchPatch(std::uint32_t patch);
-    bool updateRows(std::size_t effort);
+    template <class Visit>
+    void forEachPatch(std::uint32_t block, Visit visit) const;
+    void describeReceivers();
+    bool updateRows(std::size_t effort, double enough);
     bool sumBlocks(std::size_t effort);
     bool averagePatches(std::size_t effort);
     void sum(std::uint32_t block);
@@ -75,6 +81,7 @@ private:
     std::vector<glm::dvec3> patches_;
     std::vector<std::uint8_t> patchLit_;
     bool litChanged_ = false;
+    bool described_ = false; ///< whether updates_ knows the receivers as they are
 };
 
 } // namespace penumbra

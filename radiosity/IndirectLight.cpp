@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace penumbra {
 
@@ -65,13 +64,23 @@ std::uint32_t keyOf(const ObjectPart& part, std::uint32_t index) {
 IndirectLight::IndirectLight(const PatchSet& set, const RayScene& rays, const DirectLight& direct,
                              std::size_t rowMemory, std::size_t flatPatches)
     : set_(set), rays_(rays), direct_(direct), rowMemory_(rowMemory), senders_(set, flatPatches),
-      table_(senders_.count()), updates_(set, rays, table_, 48),
+      table_(senders_.count()), updates_(set, rays, table_, 48), reach_(set),
       reached_(set.nodes.size() / kBlock), nodes_(set.nodes.size()), rowSums_(set.nodes.size()),
       sent_(senders_.count()), residuals_(senders_.count()), colours_(senders_.count()),
       known_(senders_.count()), kept_(senders_.count()) {
+    for (std::uint32_t p = 0; p < senders_.patchCount(); ++p) {
+        const Patch& patch = set.patches[p];
+        const auto points = std::span(senders_.sender(p).samples, kPatchSamples);
+        planar_.push_back(std::all_of(points.begin(), points.end(), [&](glm::vec3 point) {
+            const float height = glm::dot(patch.normal, point - patch.centre);
+            return height * height < 1e-8f * patch.area;
+        }));
+    }
     std::vector<BlockMask> all;
     for (std::uint32_t b = 0; b < blockCount(); ++b) all.push_back({b, ~std::uint64_t(0)});
     placeNodes(all);
+    buildRays_.full += reach_.rayCount();
+    coloursChanged();
 }
 
 ReceiverBlock IndirectLight::receiversOf(std::uint32_t sender, std::uint32_t block) const {
@@ -116,7 +125,7 @@ void IndirectLight::link(ObjectId object) {
 }
 
 void IndirectLight::apply(const SceneChange& change) {
-    serveAll();
+    described_ = false;
     std::vector<BlockMask> masks;
     for (ObjectId object : change.objects) {
         const ObjectPart& part = set_.objects[object.value];
@@ -129,6 +138,7 @@ void IndirectLight::apply(const SceneChange& change) {
     unite(masks);
     placeNodes(masks);
     residualsStale_ = true;
+    if (change.colours) coloursChanged();
     if (change.objects.empty() && masks.empty()) return;
     for (ObjectId object : change.objects) link(object);
     if (rowsMissing_) restart();
@@ -136,7 +146,7 @@ void IndirectLight::apply(const SceneChange& change) {
 }
 
 void IndirectLight::invalidate(const Bounds& region) {
-    serveAll();
+    described_ = false;
     residualsStale_ = true;
     if (rowsMissing_) restart();
     updates_.add({}, {}, {region});
@@ -149,74 +159,126 @@ void IndirectLight::directChanged(bool litChanged) {
 
 /// What rows that were not kept have sent can't be corrected: everything is sent again.
 void IndirectLight::restart() {
+    for (std::size_t i = 0; shot_ && i < shot_->senders.size(); ++i) {
+        const std::uint32_t s = shot_->senders[i];
+        if (!shot_->build[i] || !kept_[s]) continue; // else half built
+        table_[s].clear();
+        kept_[s] = 0;
+        updates_.drop(s);
+    }
+    shot_.reset();
     std::fill(nodes_.begin(), nodes_.end(), glm::dvec3(0));
     std::fill(rowSums_.begin(), rowSums_.end(), 0.0);
     std::fill(sent_.begin(), sent_.end(), SenderLight{});
     std::fill(known_.begin(), known_.end(), std::uint8_t(0));
+    for (std::uint32_t s = 0; s < sent_.size(); ++s) updates_.open().setPower(s, 0);
     rowsMissing_ = false;
 }
 
 void IndirectLight::updateReach() {
     reachStale_ = false;
-    if (!reach_) {
-        reach_ = std::make_unique<Reach>(set_);
-        buildRays_.full += reach_->rayCount();
-    }
-    const std::vector<std::uint64_t> now = reach_->spread(direct_.patchLit());
+    const std::vector<std::uint64_t> now = reach_.spread(direct_.patchLit());
     std::vector<BlockMask> masks;
     for (std::uint32_t b = 0; b < now.size(); ++b)
         if (const std::uint64_t differs = now[b] ^ reached_[b]) masks.push_back({b, differs});
     reached_ = now;
     updateSendersReached();
     if (masks.empty() || shots_ == 0) return;
+    residualsStale_ = true;
     if (rowsMissing_) restart();
     updates_.add({}, std::move(masks));
 }
 
-bool IndirectLight::update(std::size_t effort) {
+/// For bounds of what open work may change.
+void IndirectLight::describeReceivers() {
+    std::vector<OpenWork::Receivers> blocks(blockCount());
+    parallelFor(blocks.size(), 16, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) {
+            blocks[b].reflectance = reflectances_[b];
+            for (auto n = std::uint32_t(b * kBlock); n < (b + 1) * kBlock; ++n)
+                blocks[b].light = std::max(blocks[b].light, float(largest(node(n))));
+        }
+    });
+    updates_.open().setReceivers(std::move(blocks));
+    described_ = true;
+}
+
+bool IndirectLight::update(std::size_t effort, double enough) {
     if (reachStale_) {
         updateReach();
         return true;
     }
-    if (updates_.done()) return false;
+    if (!described_) describeReceivers();
+    if (updates_.done(enough)) return false;
     struct Delta {
         std::uint32_t node;
         double factor = 0;
         glm::dvec3 light{};
     };
-    std::vector<std::vector<Delta>> deltas(effort / 48 + 2); // an item counts for 48 at least
-    const auto facts = [&](std::uint32_t p) {
-        return RowUpdates::RowFacts{kept_[p] != 0, senders_.box(p), senders_.object(p)};
+    struct Deltas {
+        std::vector<Delta> nodes;
+        bool known = false; ///< row sums know of the sender
     };
-    const auto update = [&](RowBuilder& builder, const UpdateItem& item, std::size_t index) {
+    std::vector<Deltas> deltas(updates_.mostItems(effort));
+    const auto update = [&](RowBuilder& builder, const OpenBlock& item,
+                            std::span<const MovedObject> moved, std::size_t index) {
         RowBlock& block = table_[item.row][item.block];
+        const Arrived arrived = arrivedAt(item.row, item.block);
+        deltas[index].known = arrived.known;
         Delta delta[kBlock];
-        forEachReceived(block, sent_[item.row], [&](int r, float factor, glm::dvec3 light) {
+        forEachReceived(block, arrived.light, [&](int r, float factor, glm::dvec3 light) {
             delta[r] = {0, -double(factor), -light};
         });
         const int changed =
             builder.updatePatchBlock(senders_.sender(item.row), receiversOf(item.row, item.block),
-                                     item.anew, item.change->moved, block);
+                                     item.anew, moved, block);
         if (changed == 0) return 0;
-        forEachReceived(block, sent_[item.row], [&](int r, float factor, glm::dvec3 light) {
+        forEachReceived(block, arrived.light, [&](int r, float factor, glm::dvec3 light) {
             delta[r].factor += double(factor);
             delta[r].light += light;
         });
         for (std::uint32_t r = 0; r < kBlock; ++r) {
             delta[r].node = item.block * kBlock + r;
             if (delta[r].factor != 0 || delta[r].light != glm::dvec3(0))
-                deltas[index].push_back(delta[r]);
+                deltas[index].nodes.push_back(delta[r]);
         }
         return changed;
     };
-    const auto items = updates_.work(effort, facts, update);
+    const auto facts = [&](std::uint32_t s) { return factsOf(s); };
+    const auto items = updates_.work(effort, enough, facts, update);
     for (std::size_t i = 0; i < items.size(); ++i)
-        for (const auto& [n, factor, light] : deltas[i]) {
+        for (const auto& [n, factor, light] : deltas[i].nodes) {
             nodes_[n] += light;
-            if (known_[items[i].row]) rowSums_[n] += factor;
+            if (deltas[i].known) rowSums_[n] += factor;
         }
-    residualsStale_ = true;
+    if (!items.empty()) residualsStale_ = true;
     return true;
+}
+
+RowUpdates::RowFacts IndirectLight::factsOf(std::uint32_t sender) const {
+    RowUpdates::RowFacts facts{kept_[sender] != 0,   senders_.box(sender), senders_.object(sender),
+                               senders_.area(sender), {},                   {}};
+    if (sender < senders_.patchCount() && planar_[sender]) {
+        facts.centre = set_.patches[sender].centre;
+        facts.normal = set_.patches[sender].normal;
+    }
+    return facts;
+}
+
+/// What a block has received from a sender. Of a batch that is on its way all has arrived but what
+/// is still to be served.
+IndirectLight::Arrived IndirectLight::arrivedAt(std::uint32_t row, std::uint32_t block) const {
+    Arrived arrived{sent_[row], known_[row] != 0};
+    if (!shot_) return arrived;
+    const auto found = std::find(shot_->senders.begin(), shot_->senders.end(), row);
+    if (found == shot_->senders.end()) return arrived;
+    const auto i = std::size_t(found - shot_->senders.begin());
+    const auto toDo = std::span(shot_->work).subspan(shot_->next);
+    if (std::binary_search(toDo.begin(), toDo.end(), std::uint64_t(block) << 32 | i))
+        return arrived;
+    for (std::size_t q = 0; q < 4; ++q) arrived.light[q] += shot_->light[i][q];
+    arrived.known = true;
+    return arrived;
 }
 
 /// Form factors are exact, but visibility is sampled, so that a node's factors may add up to a
@@ -226,43 +288,99 @@ glm::dvec3 IndirectLight::node(std::uint32_t index) const {
     return nodes_[index] / std::max(1.0, rowSums_[index]);
 }
 
+/// Over a patch, of a quantity that is known at its nodes.
+template <class Value, class AtNode>
+Value IndirectLight::mean(const Patch& patch, AtNode atNode) const {
+    const Value middle = atNode(patch.centreNode);
+    if (!patch.hasCornerNodes) return middle;
+    Value corners(0);
+    for (std::uint32_t n : patch.cornerNodes) corners += atNode(n);
+    return kMiddleWeight * middle + (1 - kMiddleWeight) / 4 * corners;
+}
+
 glm::dvec3 IndirectLight::reflected(std::uint32_t index) const {
     const Patch& patch = set_.patches[index];
     if (!set_.objects[patch.object.value].present) return glm::dvec3(0);
-    glm::dvec3 indirect = node(patch.centreNode);
-    if (patch.hasCornerNodes) {
-        glm::dvec3 corners(0);
-        for (std::uint32_t n : patch.cornerNodes) corners += node(n);
-        indirect = kMiddleWeight * indirect + (1 - kMiddleWeight) / 4 * corners;
-    }
+    const auto indirect = mean<glm::dvec3>(patch, [&](std::uint32_t n) { return node(n); });
     return toDouble(set_.materials[patch.material].reflectance) *
            (direct_.patches()[index] + indirect);
 }
 
+/// What open work may change in the light at a node [lux]: what arrives, and the row sum f by which
+/// it is divided, as far as that is or comes to be above 1.
+double IndirectLight::openAt(std::uint32_t index) const {
+    const OpenWork& open = updates_.open();
+    const double f = open.factor(index / kBlock);
+    if (f == 0 || !(reached_[index / 64] >> index % 64 & 1)) return 0;
+    const double above = std::max(0.0, rowSums_[index] + f - 1);
+    return open.light(index / kBlock) + std::min(f, above) * largest(node(index));
+}
+
 void IndirectLight::updateResiduals() {
     residualsStale_ = false;
-    double gain = 0, area = 0, radiosity = 0;
-    std::vector<glm::dvec3> reflects(senders_.patchCount()), colours(senders_.patchCount());
-    for (std::uint32_t p = 0; p < senders_.patchCount(); ++p) {
-        reflects[p] = reflected(p);
-        colours[p] = toDouble(set_.materials[set_.patches[p].material].reflectance);
-        const double rho = largest(colours[p]);
-        gain = std::max(gain, rho); // times the row sum, which is at most 1
-        if (rho <= 0) continue;
-        area += set_.patches[p].area;
-        radiosity += set_.patches[p].area * largest(reflects[p]);
+    struct Part {
+        double open = 0, both = 0, area = 0, radiosity = 0;
+    };
+    constexpr std::size_t kGrain = 512;
+    std::vector<Part> parts((senders_.patchCount() + kGrain - 1) / kGrain);
+    const std::vector<double> openDirect = direct_.openLight();
+    std::vector<glm::dvec3> reflects(senders_.patchCount());
+    parallelFor(senders_.patchCount(), kGrain, [&](std::size_t first, std::size_t last) {
+        Part& part = parts[first / kGrain];
+        for (auto p = std::uint32_t(first); p < last; ++p) {
+            const Patch& patch = set_.patches[p];
+            const double rho = maxChannel(set_.materials[patch.material].reflectance);
+            reflects[p] = reflected(p);
+            const double open =
+                rho * (openDirect[p] +
+                       mean<double>(patch, [&](std::uint32_t n) { return openAt(n); }));
+            part.open = std::max(part.open, open);
+            part.both = std::max(part.both, largest(reflects[p] - sent_[p][0]) + open);
+            if (rho <= 0) continue;
+            part.area += patch.area;
+            part.radiosity += patch.area * largest(reflects[p]);
+        }
+    });
+    Part all;
+    for (const Part& part : parts) {
+        all.open = std::max(all.open, part.open);
+        all.both = std::max(all.both, part.both);
+        all.area += part.area;
+        all.radiosity += part.radiosity;
     }
     const std::vector<SenderLight> now = senders_.average(reflects);
-    colours_ = senders_.average(colours);
     most_ = 0;
     for (std::uint32_t s = 0; s < senders_.count(); ++s) {
         for (std::size_t q = 0; q < 4; ++q) residuals_[s][q] = now[s][q] - sent_[s][q];
         most_ = std::max(most_, largest(residuals_[s]));
+        if (s >= senders_.patchCount())
+            all.both = std::max(all.both, largest(residuals_[s]) + all.open);
     }
-    // |B_exact - B| <= max|R| / (1 - max(rho * row sum)), in the maximum norm. Means over clusters
-    // differ from the exact ones by no more than what they are the means of.
-    certificate_ = most_ / (1 - gain);
-    meanRadiosity_ = area > 0 ? radiosity / area : 0;
+    open_ = all.open;
+    certificate_ = all.both > 0 ? gain_ * all.both : 0;
+    meanRadiosity_ = all.area > 0 ? all.radiosity / all.area : 0;
+}
+
+/// Reflectances, and what follows from them. |B_exact - B| <= max|R| / (1 - max(rho * row sum)), in
+/// the maximum norm; row sums are at most 1. Means over clusters differ from the exact ones by no
+/// more than what they are the means of.
+void IndirectLight::coloursChanged() {
+    float most = 0;
+    std::vector<glm::dvec3> colours;
+    reflectances_.assign(blockCount(), 0.0f);
+    for (const Patch& patch : set_.patches) {
+        const Rgb colour = set_.materials[patch.material].reflectance;
+        const float rho = maxChannel(colour);
+        colours.push_back(toDouble(colour));
+        most = std::max(most, rho);
+        const auto at = [&](std::uint32_t n) {
+            reflectances_[n / kBlock] = std::max(reflectances_[n / kBlock], rho);
+        };
+        at(patch.centreNode);
+        if (patch.hasCornerNodes) std::for_each_n(patch.cornerNodes.begin(), 4, at);
+    }
+    colours_ = senders_.average(colours);
+    gain_ = 1 / (1 - double(most));
 }
 
 /// The most power first, of those that owe too much: large patches that owe next to nothing would
@@ -280,13 +398,12 @@ std::size_t IndirectLight::batch() const {
 }
 
 bool IndirectLight::relax(std::size_t effort, double target) {
-    if (residualsStale_) {
+    if (!shot_ && residualsStale_) {
         updateResiduals();
         return true;
     }
     constexpr double kBelow = 0.3; // what a patch may owe, of what the certificate allows
-    const double allowed = most_ > 0 ? target * most_ / certificate_ : 0;
-    if (!shot_) load(chooseSenders(kBelow * allowed), false);
+    if (!shot_) load(chooseSenders(kBelow * target / gain_), false);
     if (!shot_) return false;
     serve(effort);
     return true;
@@ -351,7 +468,10 @@ void IndirectLight::load(const std::vector<std::uint32_t>& senders, bool dark) {
         }
         const std::vector<std::uint32_t> blocks = senders_.linkedBlocks(s, linkBoxes_);
         for (std::uint32_t b : blocks) toServe(b);
-        if (keep) row.open(blocks);
+        if (keep) {
+            row.open(blocks);
+            updates_.setCurrent(s);
+        }
         kept_[s] = keep;
         rowsMissing_ |= !keep;
     }
@@ -416,16 +536,12 @@ void IndirectLight::servePair(std::uint64_t work, RowBuilder& builder, std::size
     });
 }
 
-void IndirectLight::serveAll() {
-    while (shot_) serve(std::numeric_limits<std::size_t>::max());
-}
-
 void IndirectLight::finishShot() {
     for (std::size_t i = 0; i < shot_->senders.size(); ++i) {
         const std::uint32_t p = shot_->senders[i];
         for (std::size_t q = 0; q < 4; ++q) sent_[p][q] += shot_->light[i][q];
         known_[p] = 1;
-        if (shot_->build[i]) updates_.setCurrent(p);
+        updates_.open().setPower(p, largest(sent_[p]));
     }
     rowBytes_ += shot_->bytes;
     if (!shot_->dark) shots_ += shot_->senders.size();

@@ -38,7 +38,8 @@ public:
     void directChanged(bool litChanged);
 
     /// Brings rows up to date: a piece of work of about `effort` rays; false: there is none left.
-    bool update(std::size_t effort);
+    /// \param enough what may stay open [lm/m^2], see OpenWork::take()
+    bool update(std::size_t effort, double enough);
     /// Relaxes: serves about `effort` rays' worth of receivers. \pre update() has nothing to do
     /// \param target certificate that is wanted [lm/m^2]
     /// \return false: nobody owes enough to matter for it
@@ -54,8 +55,13 @@ public:
     /// What a patch sends if nothing is owed any more: rho * H [lm/m^2].
     glm::dvec3 reflected(std::uint32_t patch) const;
 
-    double residual() const { return most_; }           ///< max |R| [lm/m^2]
-    double certificate() const { return certificate_; } ///< bound of |B_exact - B| [lm/m^2]
+    double residual() const { return most_; } ///< max |R| [lm/m^2]
+    /// Bound of |B_exact - B|, with what open work may change [lm/m^2].
+    double certificate() const { return certificate_; }
+    /// Bound of what open work may change in what any patch receives and reflects [lm/m^2].
+    double openBound() const { return open_; }
+    /// What a residual of this size leaves is larger by light that goes round: 1 / (1 - max rho).
+    double gain() const { return gain_; }
     double meanRadiosity() const { return meanRadiosity_; }
     std::uint64_t shots() const { return shots_; }
     std::uint64_t blocksServed() const { return served_; } ///< by shots
@@ -77,6 +83,13 @@ private:
         std::size_t next = 0; ///< place in `work`
         std::size_t bytes = 0;
     };
+    /// What a block has received from a sender [lm/m^2], and whether its row sums know of it.
+    struct Arrived {
+        SenderLight light;
+        bool known = false;
+    };
+    Arrived arrivedAt(std::uint32_t row, std::uint32_t block) const;
+    RowUpdates::RowFacts factsOf(std::uint32_t sender) const;
     std::size_t blockCount() const { return set_.nodes.size() / PatchSet::kBlock; }
     void placeNodes(std::span<const BlockMask> masks);
     void link(ObjectId object);
@@ -84,17 +97,21 @@ private:
     void updateReach();
     void updateSendersReached();
     void restart();
+    void describeReceivers();
 
     std::vector<std::uint32_t> chooseSenders(double enough) const;
     std::size_t batch() const; ///< senders shot at a time
     void load(const std::vector<std::uint32_t>& senders, bool dark);
     void serve(std::size_t effort);
-    void serveAll();
     void servePair(std::uint64_t work, RowBuilder& builder, std::size_t& bytes,
                    std::vector<RowTable::BlockerNote>& notes);
     void finishShot();
     void updateResiduals();
+    void coloursChanged();
     glm::dvec3 node(std::uint32_t node) const;
+    template <class Value, class AtNode>
+    Value mean(const Patch& patch, AtNode atNode) const;
+    double openAt(std::uint32_t node) const;
     glm::dvec3 ambient() const;
 
     const PatchSet& set_;
@@ -106,10 +123,13 @@ private:
     BoundsTree linkBoxes_;
     RowTable table_;
     RowUpdates updates_;
-    std::unique_ptr<Reach> reach_;
+    Reach reach_;
     std::vector<std::uint64_t> reached_;       ///< bits, a node each
     std::vector<std::uint8_t> sendersReached_; ///< 1: light gets to any of a sender
     bool reachStale_ = true, residualsStale_ = true;
+    std::vector<std::uint8_t> planar_; ///< of patches: samples lie in one plane
+    std::vector<float> reflectances_;  ///< largest, a block of nodes each
+    bool described_ = false;           ///< whether updates_ knows the receivers as they are
 
     std::vector<glm::dvec3> nodes_; ///< [lux]
     std::vector<double> rowSums_;   ///< of F V over the senders whose rows are known, a node each
@@ -124,7 +144,7 @@ private:
     std::vector<RowBuilder> builders_;
     RayCount buildRays_;
     std::uint64_t shots_ = 0, served_ = 0;
-    double most_ = 0, certificate_ = 0, meanRadiosity_ = 0;
+    double most_ = 0, open_ = 0, gain_ = 1, certificate_ = 0, meanRadiosity_ = 0;
 };
 
 } // namespace penumbra

@@ -49,7 +49,7 @@ public:
     const BoundsTree& blocks() const { return blocks_; }
 
     /// How many edits a row has taken in.
-    std::uint64_t& edits(std::size_t row) { return known_[row]; }
+    std::uint32_t& edits(std::size_t row) { return known_[row]; }
 
     /// A movable object that blocks something in a block of a row.
     struct BlockerNote {
@@ -72,7 +72,7 @@ private:
                  std::vector<BlockMask>& masks) const;
 
     std::vector<Row> rows_;
-    std::vector<std::uint64_t> known_;
+    std::vector<std::uint32_t> known_;
     std::vector<std::vector<std::uint64_t>> blockers_; ///< object << 32 | block, sorted, a row
     BoundsTree blocks_;
 };

@@ -4,87 +4,167 @@
 #include "radiosity/Shaft.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace penumbra {
 
 namespace {
 
-constexpr std::size_t kSamples = 20; ///< rays of an entry that is evaluated anew, about
+/// What finding costs: looking into a row; and each block that is found [rays].
+constexpr std::size_t kLook = 16, kOpen = 2;
+
+/// Bound of the form factor, F <= cos A / (pi d^2), of a sender onto any receiver in a box.
+float factorBound(const RowUpdates::RowFacts& sender, const Bounds& receivers) {
+    const glm::vec3 gap =
+        glm::max(glm::max(sender.box.lower - receivers.upper, receivers.lower - sender.box.upper),
+                 glm::vec3(0));
+    const float distance2 = glm::dot(gap, gap);
+    float cosine = 1;
+    if (sender.normal != glm::vec3(0)) {
+        const glm::vec3 n = sender.normal;
+        const glm::vec3 highest(n.x > 0 ? receivers.upper.x : receivers.lower.x,
+                                n.y > 0 ? receivers.upper.y : receivers.lower.y,
+                                n.z > 0 ? receivers.upper.z : receivers.lower.z);
+        constexpr float kRounding = 1e-5f; // of directions
+        const float distance = std::sqrt(distance2);
+        const float height = std::max(0.0f, glm::dot(n, highest - sender.centre));
+        cosine = distance > 0 ? std::min(1.0f, height / distance + kRounding) : 1.0f;
+    }
+    const float area = cosine * sender.area;
+    return area < std::numbers::pi_v<float> * distance2
+               ? area / (std::numbers::pi_v<float> * distance2)
+               : 1.0f;
+}
 
 } // namespace
 
 RowUpdates::RowUpdates(const PatchSet& set, const RayScene& rays, RowTable& table,
                        std::size_t visitCost)
     : set_(set), rayScene_(rays), table_(table), visitCost_(visitCost),
-      grain_(std::max<std::size_t>(1, 256 / visitCost)), row_(table.size()) {}
-
-std::size_t RowUpdates::effortOf(const UpdateItem& item) const {
-    return visitCost_ + kSamples * std::size_t(std::popcount(item.anew));
-}
+      grain_(std::max<std::size_t>(1, 256 / visitCost)), row_(table.size()),
+      open_(table.size(), visitCost) {}
 
 void RowUpdates::add(std::vector<ObjectId> objects, std::vector<BlockMask> receivers,
                      std::vector<Bounds> regions) {
+    ++edits_;
+    for (ObjectId object : objects) {
+        const auto same = std::find_if(moved_.begin(), moved_.end(), [&](const MovedObject& m) {
+            return m.object == object.value;
+        });
+        if (same != moved_.end()) {
+            movedWhen_.erase(movedWhen_.begin() + (same - moved_.begin()));
+            moved_.erase(same);
+        }
+        moved_.push_back({object.value, set_.objects[object.value].present,
+                          grown(boundsOf(set_, object), 1e-5f * set_.extent)});
+        movedWhen_.push_back(edits_);
+    }
     unite(receivers);
-    edits_.push_back({std::move(objects), std::move(receivers), std::move(regions)});
-    change_.reset();
+    untold_.push_back({std::move(objects), std::move(receivers), std::move(regions)});
+    changes_.clear();
     row_ = 0;
 }
 
-/// Rows are mostly up to the same edit: the last answer is kept.
-std::shared_ptr<const PendingChange> RowUpdates::changeSince(std::uint64_t edits) {
-    if (change_ && changeFrom_ == edits) return change_;
-    auto change = std::make_shared<PendingChange>();
-    for (std::size_t i = edits - forgotten_; i < edits_.size(); ++i) {
-        change->receivers.insert(change->receivers.end(), edits_[i].receivers.begin(),
-                                 edits_[i].receivers.end());
-        change->regions.insert(change->regions.end(), edits_[i].regions.begin(),
-                               edits_[i].regions.end());
-        for (ObjectId object : edits_[i].objects) {
-            if (change->moves(object.value)) continue;
-            MovedObject moved{object.value, set_.objects[object.value].present, {}};
-            moved.box = grown(boundsOf(set_, object), 1e-5f * set_.extent);
-            change->moved.push_back(moved);
-        }
+double RowUpdates::share() const {
+    if (!found()) return 0;
+    return toDo_ == 0 ? 1 : 1 - double(open_.count()) / double(toDo_);
+}
+
+/// Of the objects that moved after the first `edits`, where they are now.
+std::span<const MovedObject> RowUpdates::movedSince(std::uint32_t edits) const {
+    const auto first = std::upper_bound(movedWhen_.begin(), movedWhen_.end(), edits);
+    return std::span(moved_).subspan(std::size_t(first - movedWhen_.begin()));
+}
+
+const PendingChange& RowUpdates::changeSince(std::uint32_t edits) {
+    const auto [place, isNew] = changes_.try_emplace(edits);
+    PendingChange& change = place->second;
+    if (!isNew) return change;
+    for (std::size_t i = edits - (edits_ - untold_.size()); i < untold_.size(); ++i) {
+        const Edit& edit = untold_[i];
+        change.receivers.insert(change.receivers.end(), edit.receivers.begin(),
+                                edit.receivers.end());
+        change.regions.insert(change.regions.end(), edit.regions.begin(), edit.regions.end());
     }
-    unite(change->receivers);
-    change_ = std::move(change);
-    changeFrom_ = edits;
-    return change_;
+    const auto moved = movedSince(edits);
+    change.moved.assign(moved.begin(), moved.end());
+    unite(change.receivers);
+    return change;
+}
+
+/// How far entries of a block may be from what they should be. Those that stay have the form factor
+/// that they have; those that are evaluated anew may come to have any.
+float RowUpdates::factorBound(const OpenBlock& item, const RowFacts& facts) const {
+    constexpr float kTiny = 1e-6f;
+    const RowBlock& block = table_[item.row][item.block];
+    const float could = penumbra::factorBound(facts, table_.blocks()[item.block]);
+    if (item.anew != 0) return std::max(could, block.largestFormFactor());
+    return could < kTiny ? could : std::min(could, block.largestFormFactor());
+}
+
+std::vector<OpenBlock> RowUpdates::concerned(std::uint32_t row, const RowFacts& facts,
+                                             const PendingChange& change) const {
+    std::vector<OpenBlock> found;
+    for (const BlockMask& mask : table_.concerned(row, facts.box, facts.object, change)) {
+        found.push_back({row, mask.block, mask.receivers, table_.edits(row), 0});
+        found.back().factor = factorBound(found.back(), facts);
+    }
+    return found;
 }
 
 void RowUpdates::find(std::size_t effort, const Facts& facts) {
-    if (next_ == items_.size()) items_.clear(), next_ = 0;
-    std::size_t found = 0;
-    for (std::size_t i = next_; i < items_.size() && found < effort; ++i)
-        found += effortOf(items_[i]);
-    for (; row_ < table_.size() && found < effort; ++row_) {
-        std::uint64_t& known = table_.edits(row_);
-        if (known == forgotten_ + edits_.size()) continue;
-        const RowFacts row = facts(std::uint32_t(row_));
-        if (row.known) {
-            const auto change = changeSince(known);
-            found += 16; // looking for it costs as well
-            for (const BlockMask& mask : table_.concerned(row_, row.box, row.object, *change)) {
-                items_.push_back({std::uint32_t(row_), mask.block, mask.receivers, change});
-                found += effortOf(items_.back());
-            }
+    struct Look {
+        std::uint32_t row = 0;
+        RowFacts facts;
+        const PendingChange* change = nullptr;
+        std::vector<OpenBlock> found;
+    };
+    std::vector<Look> looks;
+    for (std::size_t cost = 0; row_ < table_.size() && cost < effort; ++row_) {
+        if (table_.edits(row_) == edits_) continue;
+        Look look{std::uint32_t(row_), facts(std::uint32_t(row_)), nullptr, {}};
+        if (look.facts.known) {
+            look.change = &changeSince(table_.edits(row_));
+            const bool whole = look.change->moves(look.facts.object.value);
+            cost += kLook + (whole ? kOpen * table_[row_].size() : 0);
+            looks.push_back(std::move(look));
+        } else {
+            table_.edits(row_) = edits_;
         }
-        known = forgotten_ + edits_.size();
     }
-    if (row_ == table_.size()) { // all rows have been told
-        forgotten_ += edits_.size();
-        edits_.clear();
-        change_.reset();
+    parallelFor(looks.size(), 4, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            looks[i].found = concerned(looks[i].row, looks[i].facts, *looks[i].change);
+    });
+    for (const Look& look : looks) {
+        open_.open(look.row, look.found);
+        table_.edits(look.row) = edits_;
     }
+    if (found()) allFound();
 }
 
-std::span<const UpdateItem> RowUpdates::work(std::size_t effort, const Facts& facts,
-                                             const Update& update) {
-    find(effort, facts);
-    std::size_t last = next_;
-    for (std::size_t sum = 0; last < items_.size() && sum < effort; ++last)
-        sum += effortOf(items_[last]);
-    const auto items = std::span<const UpdateItem>(items_).subspan(next_, last - next_);
+void RowUpdates::allFound() {
+    untold_.clear();
+    changes_.clear();
+    toDo_ = open_.count();
+}
+
+std::span<const OpenBlock> RowUpdates::work(std::size_t effort, double enough, const Facts& facts,
+                                            const Update& update) {
+    items_.clear();
+    if (!found()) {
+        find(effort, facts);
+        return {};
+    }
+    std::size_t steps = effort;
+    for (std::size_t sum = 0; sum < effort;) {
+        const std::optional<OpenBlock> item = open_.take(enough, steps);
+        if (!item) break;
+        items_.push_back(*item);
+        sum += open_.cost(*item);
+    }
+    const auto items = std::span<const OpenBlock>(items_);
     const std::size_t tasks = (items.size() + grain_ - 1) / grain_;
     while (builders_.size() < std::min<std::size_t>(tasks, 64)) builders_.emplace_back(rayScene_);
     // A builder a task of a round: results do not depend on which thread does what.
@@ -96,8 +176,8 @@ std::span<const UpdateItem> RowUpdates::work(std::size_t effort, const Facts& fa
         parallelFor(count, grain_, [&](std::size_t begin, std::size_t end) {
             RowBuilder& builder = builders_[begin / grain_];
             for (std::size_t i = begin; i < end; ++i) {
-                const UpdateItem& item = items[first + i];
-                const int entries = update(builder, item, first + i);
+                const OpenBlock& item = items[first + i];
+                const int entries = update(builder, item, movedSince(item.since), first + i);
                 if (entries == 0) continue;
                 changed[begin / grain_] += std::uint64_t(entries);
                 RowTable::listBlockers(set_, item.row, item.block, table_[item.row][item.block],
@@ -109,7 +189,7 @@ std::span<const UpdateItem> RowUpdates::work(std::size_t effort, const Facts& fa
     }
     for (RowBuilder& builder : builders_) rays_ += builder.takeRayCount();
     blocksVisited_ += items.size();
-    next_ = last;
+    if (open_.count() == 0) moved_.clear(), movedWhen_.clear();
     return items;
 }
 

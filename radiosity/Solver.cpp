@@ -15,6 +15,8 @@ namespace {
 
 constexpr std::size_t kLeastEffort = 512, kMostEffort = std::size_t(1) << 20; ///< [rays]
 constexpr std::size_t kMostPromptEffort = 1536; ///< of a piece within a short budget [rays]
+/// What work that is put off may change, of what the certificate allows.
+constexpr double kDirectMayStayOpen = 0.15, kIndirectMayStayOpen = 0.35;
 constexpr double kPause = 3e-4; ///< a piece of work within a budget takes about this long [s]
 
 double seconds() {
@@ -39,33 +41,37 @@ Solver::Solver(const PatchSet& patches, const RayScene& rays, const SolverOption
 void Solver::apply(const SceneChange& change) {
     if (change.empty()) return;
     direct_.apply(change);
-    handedOver_ = false;
-    firstCertificate_ = 0;
-    completed_ = false;
-    if (!indirect_) return;
-    indirect_->apply(change);
+    if (indirect_) indirect_->apply(change);
     if (detail_) detail_->apply(change);
-    shotsBefore_ = indirect_->shots();
-    servedBefore_ = indirect_->blocksServed();
+    begin();
 }
 
 void Solver::invalidate(const Bounds& region) {
     direct_.invalidate(region);
-    handedOver_ = false;
-    firstCertificate_ = 0;
-    completed_ = false;
-    if (!indirect_) return;
-    indirect_->invalidate(region);
+    if (indirect_) indirect_->invalidate(region);
     if (detail_) detail_->invalidate(region);
+    begin();
+}
+
+/// Something is to be done again.
+void Solver::begin() {
+    handedOver_ = completed_ = converged_ = idle_ = false;
+    firstCertificate_ = 0;
+    if (!indirect_) return;
     shotsBefore_ = indirect_->shots();
     servedBefore_ = indirect_->blocksServed();
 }
 
 bool Solver::step(double budget, const Progress& progress) {
+    return run(budget, false, progress);
+}
+
+/// \return whether there is nothing left to do
+bool Solver::run(double budget, bool untilConverged, const Progress& progress) {
     const double start = seconds();
     const double most = double(budget > 1 ? kMostEffort : kMostPromptEffort);
     effort_ = std::min(effort_, most);
-    for (double now = start; now - start < budget;) {
+    for (double now = start; now - start < budget && !(untilConverged && converged_);) {
         if (!work(std::size_t(effort_), progress)) return true;
         const double after = seconds();
         // Pieces follow the speed of the machine; what is computed does not depend on their size.
@@ -78,6 +84,11 @@ bool Solver::step(double budget, const Progress& progress) {
     return false;
 }
 
+void Solver::converge(const Progress& progress) {
+    while (!converged_ && !run(3600, true, progress)) {
+    }
+}
+
 void Solver::settle(const Progress& progress) {
     while (!step(3600, progress)) {
     }
@@ -85,20 +96,35 @@ void Solver::settle(const Progress& progress) {
 
 /// One piece of work; false: there is none left.
 bool Solver::work(std::size_t effort, const Progress& progress) {
+    if (workOnce(effort, progress)) return true;
+    converged_ = converged_ || !indirect_ || settled();
+    if (detail_ && workOnDetail(effort, progress)) return true;
+    const std::size_t open =
+        direct_.updates().open().count() + (indirect_ ? indirect_->updates().open().count() : 0);
+    if (idle_ || open == 0) return false;
+    idle_ = true; // time for what was put off
+    if (detail_) detail_->lightChanged();
+    return true;
+}
+
+/// The same, but for what may be put off.
+bool Solver::workOnce(std::size_t effort, const Progress& progress) {
     const double start = seconds();
-    if (direct_.work(effort)) {
+    if (direct_.work(effort, mayStayOpen(kDirectMayStayOpen))) {
+        handedOver_ = false;
         directSeconds_ += seconds() - start;
         if (progress) progress("direct light", direct_.updates().share());
         return true;
     }
     if (!indirect_) return false;
     if (!handedOver_) {
-        indirect_->directChanged(direct_.takeLitChanged());
+        const bool litChanged = direct_.takeLitChanged();
+        indirect_->directChanged(litChanged);
+        if (litChanged) completed_ = false; // light may reach more patches
         handedOver_ = true;
     }
-    bool more = indirect_->update(effort);
-    if (more && progress && !indirect_->updates().done())
-        progress("shadows of indirect light", indirect_->updates().share());
+    bool more = indirect_->update(effort, mayStayOpen(kIndirectMayStayOpen));
+    if (more && progress) progress("shadows of indirect light", indirect_->updates().share());
     // Rows that are missing come all at once, for each changes a little of what is owed, and
     // early, so that this is sent along with the rest.
     constexpr double kEarly = 100;
@@ -117,7 +143,7 @@ bool Solver::work(std::size_t effort, const Progress& progress) {
         }
     }
     indirectSeconds_ += seconds() - start;
-    return more || (detail_ && workOnDetail(effort, progress));
+    return more;
 }
 
 bool Solver::workOnDetail(std::size_t effort, const Progress& progress) {
@@ -132,13 +158,20 @@ bool Solver::workOnDetail(std::size_t effort, const Progress& progress) {
     return true;
 }
 
+/// How much of what is owed open work may be that is put off [lm/m^2].
+double Solver::mayStayOpen(double share) const {
+    if (idle_) return 0;
+    if (!indirect_) return share * options_.residual * direct_.brightest();
+    return share * target() / indirect_->gain();
+}
+
 double Solver::target() const {
     return options_.residual > 0 ? options_.residual * direct_.brightest()
                                  : 0.01 * indirect_->meanRadiosity();
 }
 
 bool Solver::settled() const {
-    return indirect_->residual() == 0 || indirect_->certificate() <= target();
+    return !indirect_->residualsStale() && indirect_->certificate() <= target();
 }
 
 bool Solver::spent() const {
@@ -198,7 +231,10 @@ SolveStatistics Solver::statistics() const {
     };
     result.brightest = direct_.brightest();
     result.direct = count(direct_.updates(), directSeconds_);
+    result.openBlocks = direct_.updates().open().count();
     if (indirect_) {
+        result.openBlocks += indirect_->updates().open().count();
+        result.openBound = indirect_->openBound();
         result.indirect = count(indirect_->updates(), indirectSeconds_);
         result.indirect.rays += indirect_->buildRays();
         if (detail_)

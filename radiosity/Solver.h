@@ -57,9 +57,11 @@ struct SolveStatistics {
     std::uint64_t shots = 0;
     bool settled = false; ///< whether the limit was met, or relaxation stopped before
     WorkCount direct, indirect, detail;
-    double residual = 0;      ///< max |R| over patches and channels [lm/m^2]
-    double certificate = 0;   ///< bound of |B_exact - B| for the meshed scene [lm/m^2]
-    double brightest = 0;     ///< largest exitance of an emitter [lm/m^2]
+    double residual = 0;          ///< max |R| over patches and channels [lm/m^2]
+    double certificate = 0;       ///< bound of |B_exact - B| for the meshed scene [lm/m^2]
+    std::uint64_t openBlocks = 0; ///< of rows that edits concern, not yet worked on
+    double openBound = 0; ///< what these may change in what any patch reflects; in the certificate
+    double brightest = 0; ///< largest exitance of an emitter [lm/m^2]
     double meanRadiosity = 0; ///< area-weighted, of reflecting surfaces [lm/m^2]
     std::size_t rows = 0, entries = 0, bytes = 0; ///< of the SFFL
 };
@@ -86,6 +88,11 @@ public:
     bool step(double budget, const Progress& progress = {});
     /// Works until everything is settled.
     void settle(const Progress& progress = {});
+    /// Whether the certificate is as low as was asked for. It may be so long before everything is
+    /// settled: what can't matter for it is put off until then.
+    bool converged() const { return converged_; }
+    /// Works until converged(), or until everything is settled if that comes first.
+    void converge(const Progress& progress = {});
 
     /// What the vertices receive. What is still owed is added as an ambient term (Cohen et al.
     /// 1988); fine shadows are as far as they have been brought.
@@ -116,7 +123,11 @@ public:
     }
 
 private:
+    void begin();
     bool work(std::size_t effort, const Progress& progress);
+    bool workOnce(std::size_t effort, const Progress& progress);
+    bool run(double budget, bool untilConverged, const Progress& progress);
+    double mayStayOpen(double share) const;
     bool workOnDetail(std::size_t effort, const Progress& progress);
     bool settled() const;
     bool spent() const;
@@ -128,7 +139,9 @@ private:
     std::unique_ptr<IndirectLight> indirect_; ///< null: direct light only
     std::unique_ptr<DetailGather> detail_;
     bool handedOver_ = false; ///< whether the indirect light knows of the direct light as it is
-    bool completing_ = false, completed_ = false;      ///< see IndirectLight::complete()
+    bool completing_ = false, completed_ = false; ///< see IndirectLight::complete()
+    bool converged_ = false;
+    bool idle_ = false;                                ///< nothing is put off any more
     std::uint64_t shotsBefore_ = 0, servedBefore_ = 0; ///< before the last edit
     double firstCertificate_ = 0, effort_ = 4096;
     double directSeconds_ = 0, indirectSeconds_ = 0, detailSeconds_ = 0;

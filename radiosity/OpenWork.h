@@ -1,0 +1,120 @@
+// Blocks of rows that are to be brought up to date: the most promising first, and what all of them
+// may change at most.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace penumbra {
+
+/// One block of one row that edits concern.
+struct OpenBlock {
+    std::uint32_t row = 0, block = 0;
+    std::uint64_t anew = 0;  ///< bits: entries to be evaluated anew
+    std::uint32_t since = 0; ///< how many edits its entries have taken in
+    float factor = 0;        ///< F V of no entry changes by more
+};
+
+/// Open work, with a bound of what it may change found before any ray is traced. An entry of a
+/// receiver r and a sender s, whose F V changes by f at most, changes what r reflects by
+///
+///     rho_r f (|S_s| + H_r)
+///
+/// where |S_s| is what s has sent [lm/m^2], and H_r the light at r [lux], for r's row sum, by which
+/// its light is divided (docs/radiosity.md, section 6), changes by f as well. Bounds are summed up
+/// for each block of receivers, over all senders. Where the sum is small enough already, the rest
+/// of the work is put off: it stays open, and its bound is part of what is reported.
+class OpenWork {
+public:
+    /// What makes a block worth being worked on, any number >= 0: the greatest come first, in steps
+    /// of a quarter of an octave; in a step those that were opened first.
+    /// \param bound of what it may change [lm/m^2]
+    /// \param cost  about [rays]
+    using Worth = std::function<double(const OpenBlock& block, double bound, double cost)>;
+
+    /// In the order of bound / cost. \param visitCost of a block of which nothing is evaluated anew
+    OpenWork(std::size_t rows, std::size_t visitCost);
+    /// Another order for all that is open, and for what comes.
+    void setWorth(Worth worth);
+    /// What working on a block costs, about [rays].
+    std::size_t cost(const OpenBlock& block) const;
+
+    /// What the receivers of a block make of light that changes.
+    struct Receivers {
+        float reflectance = 1, light = 0; ///< the largest; [lux]
+    };
+    /// Of all blocks; there may be more of them than before.
+    void setReceivers(std::vector<Receivers> blocks);
+    /// What a sender has sent [lm/m^2].
+    void setPower(std::uint32_t row, double power);
+
+    /// Opens blocks of one row, in order. Those that are open already are so for both reasons then.
+    void open(std::uint32_t row, std::span<const OpenBlock> blocks);
+    /// Closes all of a row.
+    void drop(std::uint32_t row);
+    /// Closes the next block, to be worked on now.
+    /// \param enough what may stay open on each block of receivers [lm/m^2]; 0: nothing
+    /// \param steps places in the queue to go through at most; those that were are taken off
+    /// \return nothing: none is left, or no step
+    std::optional<OpenBlock> take(double enough, std::size_t& steps);
+
+    /// Whether take() may give anything.
+    bool pending(double enough) const { return count_ > 0 && (enough <= 0 || urgent_.size > 0); }
+    std::size_t count() const { return count_; } ///< blocks that are open
+    /// Sums over the open blocks of all senders: of factor * power [lux], and of factor.
+    double light(std::size_t block) const { return sums_[block].light; }
+    double factor(std::size_t block) const { return sums_[block].factor; }
+    std::size_t blocks() const { return sums_.size(); }
+    /// What may change in what the receivers of a block reflect [lm/m^2].
+    double bound(std::size_t block) const {
+        const Receivers& r = receivers_[block];
+        return double(r.reflectance) * (sums_[block].light + sums_[block].factor * double(r.light));
+    }
+
+private:
+    struct Entry {
+        std::uint64_t anew;
+        std::uint32_t block, since;
+        float factor;
+        std::uint32_t ticket; ///< its place in a queue has the same; 0: closed
+    };
+    struct RowList {
+        std::vector<Entry> entries; ///< by block
+        std::size_t open = 0;       ///< of those
+        double power = 0;
+    };
+    struct Place {
+        std::uint32_t row, block, ticket;
+    };
+    static constexpr std::size_t kSteps = 256;
+    struct Queue {
+        std::array<std::vector<Place>, kSteps> steps;
+        std::array<std::size_t, kSteps> next{};
+        std::size_t size = 0, top = 0; ///< places; the highest step that may have any
+
+        void push(std::size_t step, const Place& place);
+        std::size_t pop(Place& place); ///< \return its step \pre size > 0
+    };
+    struct Sum {
+        double light = 0, factor = 0;
+        std::uint32_t count = 0;
+    };
+    void enqueue(std::uint32_t row, Entry& entry);
+    void add(std::uint32_t block, double factor, double power, int count);
+    Entry* find(const Place& place);
+
+    std::vector<RowList> rows_;
+    std::vector<Sum> sums_;            ///< a block of receivers each
+    std::vector<Receivers> receivers_; ///< likewise
+    std::size_t visitCost_;
+    Worth worth_;
+    Queue urgent_, later_; ///< later_: those that were put off
+    std::size_t count_ = 0;
+    std::uint32_t tickets_ = 0;
+};
+
+} // namespace penumbra
