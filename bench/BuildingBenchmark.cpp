@@ -1,9 +1,8 @@
 // The cost of an edit follows what the edit changes: the same seat is moved in buildings of 1, 4
 // and 16 offices. Direct light.
+#include "bench/BenchCase.h"
 #include "bench/BenchScene.h"
 #include "bench/MoveRun.h"
-
-#include <benchmark/benchmark.h>
 
 #include <string>
 
@@ -54,11 +53,8 @@ void building(benchmark::State& state, int copies) {
 
 const bool registered = [] {
     for (const int copies : {1, 4, 16})
-        benchmark::RegisterBenchmark(("edit/building/" + std::to_string(copies)).c_str(), building,
-                                     copies)
-            ->UseManualTime()
-            ->Iterations(1)
-            ->Unit(benchmark::kMillisecond);
+        addCase("edit/building/" + std::to_string(copies), benchmark::kMillisecond, building,
+                copies);
     return true;
 }();
 

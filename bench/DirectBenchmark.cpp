@@ -1,10 +1,9 @@
 // Direct light from scratch: chamber, office and gallery at 10 k, 100 k and 1 M elements.
 #include "bench/BareTracing.h"
+#include "bench/BenchCase.h"
 #include "bench/BenchScene.h"
 #include "radiosity/RayScene.h"
 #include "radiosity/Solver.h"
-
-#include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <optional>
@@ -131,11 +130,8 @@ void direct(benchmark::State& state, const Case& which) {
 
 const bool registered = [] {
     for (const Case& which : kCases)
-        benchmark::RegisterBenchmark(
-            (std::string("direct/") + which.scene + "/" + which.name).c_str(), direct, which)
-            ->UseManualTime()
-            ->Iterations(1)
-            ->Unit(benchmark::kSecond);
+        addCase(std::string("direct/") + which.scene + "/" + which.name, benchmark::kSecond, direct,
+                which);
     return true;
 }();
 

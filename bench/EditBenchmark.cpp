@@ -1,10 +1,9 @@
 // Following a move against solving from scratch: direct light of office and gallery at 10 k, 100 k
 // and 1 M elements.
+#include "bench/BenchCase.h"
 #include "bench/BenchScene.h"
 #include "bench/LeastRays.h"
 #include "bench/MoveRun.h"
-
-#include <benchmark/benchmark.h>
 
 #include <string>
 #include <string_view>
@@ -38,47 +37,45 @@ struct Times {
 
 void reportTimes(benchmark::State& state, const Times& moves, const Times& scratch,
                  const LeastRays& least) {
-    auto& counters = state.counters;
-    counters["update_s"] = median(moves.wall);
-    counters["update_cpu_s"] = median(moves.cpu);
-    counters["place_s"] = median(moves.place);
-    counters["follow_s"] = median(moves.follow);
-    counters["settle_s"] = median(moves.settle);
-    counters["scratch_s"] = median(scratch.wall);
-    counters["scratch_cpu_s"] = median(scratch.cpu);
-    counters["time_ratio"] = median(scratch.wall) / median(moves.wall);
-    counters["time_ratio_cpu"] = median(scratch.cpu) / median(moves.cpu);
-    counters["bare_s"] = least.wall;
-    counters["bare_cpu_s"] = least.cpu;
-    counters["update_over_bare"] = median(moves.wall) / least.wall;
-    counters["update_over_bare_cpu"] = median(moves.cpu) / least.cpu;
-    counters["settle_over_bare"] = median(moves.settle) / least.wall;
-    counters["moves"] = double(moves.wall.size());
+    report(state, {{"update_s", median(moves.wall)},
+                   {"update_cpu_s", median(moves.cpu)},
+                   {"place_s", median(moves.place)},
+                   {"follow_s", median(moves.follow)},
+                   {"settle_s", median(moves.settle)},
+                   {"scratch_s", median(scratch.wall)},
+                   {"scratch_cpu_s", median(scratch.cpu)},
+                   {"time_ratio", median(scratch.wall) / median(moves.wall)},
+                   {"time_ratio_cpu", median(scratch.cpu) / median(moves.cpu)},
+                   {"bare_s", least.wall},
+                   {"bare_cpu_s", least.cpu},
+                   {"update_over_bare", median(moves.wall) / least.wall},
+                   {"update_over_bare_cpu", median(moves.cpu) / least.cpu},
+                   {"settle_over_bare", median(moves.settle) / least.wall},
+                   {"moves", double(moves.wall.size())}});
 }
 
 void reportCounts(benchmark::State& state, const MoveCost& move, const SolveStatistics& scratch,
                   const LeastRays& least) {
     const RayCount& rays = move.direct.rays;
-    auto& counters = state.counters;
-    counters["update_rays"] = double(rays.total());
-    counters["update_rays_full"] = double(rays.full);
-    counters["update_rays_single"] = double(rays.single);
-    counters["scratch_rays"] = double(scratch.direct.rays.total());
-    counters["ray_ratio"] = double(scratch.direct.rays.total()) / double(rays.total());
-    counters["least_rays"] = double(least.total());
-    counters["rays_over_minimum"] = double(rays.total()) / double(least.total());
-    counters["least_own"] = double(least.own);
-    counters["least_uncovered"] = double(least.uncovered);
-    counters["least_released"] = double(least.released);
-    counters["least_met"] = double(least.met);
-    counters["least_refined"] = double(least.refined);
-    counters["self_rays"] = double(least.selfRays);
-    counters["own_entries"] = double(least.ownEntries);
-    counters["self_entries"] = double(least.selfEntries);
-    counters["entries_changed"] = double(move.direct.entriesChanged);
-    counters["entries"] = double(scratch.entries);
-    counters["bytes_per_entry"] = double(scratch.bytes) / double(scratch.entries);
-    counters["blocks_visited"] = double(move.direct.blocksVisited);
+    report(state, {{"update_rays", double(rays.total())},
+                   {"update_rays_full", double(rays.full)},
+                   {"update_rays_single", double(rays.single)},
+                   {"scratch_rays", double(scratch.direct.rays.total())},
+                   {"ray_ratio", double(scratch.direct.rays.total()) / double(rays.total())},
+                   {"least_rays", double(least.total())},
+                   {"rays_over_minimum", double(rays.total()) / double(least.total())},
+                   {"least_own", double(least.own)},
+                   {"least_uncovered", double(least.uncovered)},
+                   {"least_released", double(least.released)},
+                   {"least_met", double(least.met)},
+                   {"least_refined", double(least.refined)},
+                   {"self_rays", double(least.selfRays)},
+                   {"own_entries", double(least.ownEntries)},
+                   {"self_entries", double(least.selfEntries)},
+                   {"entries_changed", double(move.direct.entriesChanged)},
+                   {"entries", double(scratch.entries)},
+                   {"bytes_per_entry", double(scratch.bytes) / double(scratch.entries)},
+                   {"blocks_visited", double(move.direct.blocksVisited)}});
 }
 
 void edit(benchmark::State& state, const Move& move, float elementSize) {
@@ -130,12 +127,8 @@ const bool registered = [] {
         for (const Size& size : kSizes) {
             const std::string_view name(move.name);
             if (name.substr(0, name.find('/')) != size.scene) continue;
-            benchmark::RegisterBenchmark(
-                ("edit/direct/" + std::string(name) + "/" + size.name).c_str(), edit, move,
-                size.elementSize)
-                ->UseManualTime()
-                ->Iterations(1)
-                ->Unit(benchmark::kMillisecond);
+            addCase("edit/direct/" + std::string(name) + "/" + size.name, benchmark::kMillisecond,
+                    edit, move, size.elementSize);
         }
     return true;
 }();

@@ -1,10 +1,9 @@
 // Indirect light and its detail, at the scenes' default sizes.
+#include "bench/BenchCase.h"
 #include "bench/BenchScene.h"
 #include "radiosity/DetailGather.h"
 #include "radiosity/RayScene.h"
 #include "radiosity/Solver.h"
-
-#include <benchmark/benchmark.h>
 
 #include <string>
 
@@ -61,10 +60,7 @@ void indirect(benchmark::State& state, const std::string& name) {
 
 const bool registered = [] {
     for (const std::string name : {"chamber", "office", "gallery"})
-        benchmark::RegisterBenchmark(("indirect/" + name).c_str(), indirect, name)
-            ->UseManualTime()
-            ->Iterations(1)
-            ->Unit(benchmark::kSecond);
+        addCase("indirect/" + name, benchmark::kSecond, indirect, name);
     return true;
 }();
 

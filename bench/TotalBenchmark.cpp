@@ -1,8 +1,7 @@
 // Following edits of the whole solution, direct and indirect, at default sizes.
+#include "bench/BenchCase.h"
 #include "bench/BenchScene.h"
 #include "bench/MoveRun.h"
-
-#include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <string>
@@ -149,18 +148,11 @@ void play(benchmark::State& state, const std::string& layer, bool directOnly) {
 const bool registered = [] {
     for (const Move& move : kMoves) {
         if (std::string(move.name) == "gallery/ceiling") continue; // half a minute more
-        benchmark::RegisterBenchmark((std::string("edit/total/") + move.name).c_str(), total, move)
-            ->UseManualTime()
-            ->Iterations(1)
-            ->Unit(benchmark::kMillisecond);
+        addCase(std::string("edit/total/") + move.name, benchmark::kMillisecond, total, move);
     }
     for (const bool directOnly : {true, false})
-        benchmark::RegisterBenchmark(
-            (std::string("edit/play/chamber/") + (directOnly ? "direct" : "total")).c_str(), play,
-            "chamber-move", directOnly)
-            ->UseManualTime()
-            ->Iterations(1)
-            ->Unit(benchmark::kSecond);
+        addCase(std::string("edit/play/chamber/") + (directOnly ? "direct" : "total"),
+                benchmark::kSecond, play, "chamber-move", directOnly);
     return true;
 }();
 

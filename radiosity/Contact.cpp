@@ -183,11 +183,10 @@ Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point
           float cover, ObjectId* by) {
     // Not quite along the normal, so as not to run along edges that stand on the surface.
     const glm::vec3 direction = normal + glm::vec3(0.0123f, 0.0234f, -0.0171f);
-    thread_local std::vector<RayHit> hits;
+    std::vector<RayHit> hits;
     rays.all(point, direction, hits);
     // Inside of a solid is what is left once more than it is entered.
-    thread_local std::vector<std::pair<ObjectId, int>> left;
-    left.clear();
+    std::vector<std::pair<ObjectId, int>> left;
     Lie lie = Lie::free;
     for (const RayHit& hit : hits) {
         if (hit.distance < cover) {

@@ -1,11 +1,9 @@
 // Our OpenEXR files read by another library: OpenImageIO's programs (Debian: openimageio-tools).
 #include "ImageSamples.h"
 #include "io/ExrWriter.h"
+#include "tests/support/Command.h"
 
 #include <gmock/gmock.h>
-
-#include <array>
-#include <cstdio>
 
 namespace penumbra {
 
@@ -13,17 +11,6 @@ namespace {
 
 using testing::ContainsRegex;
 using testing::HasSubstr;
-
-/// What a command prints, standard error included; empty if it fails.
-std::string outputOf(const std::string& command) {
-    std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-    if (!pipe) return {};
-    std::string output;
-    std::array<char, 4096> part;
-    while (const std::size_t size = std::fread(part.data(), 1, part.size(), pipe))
-        output.append(part.data(), size);
-    return pclose(pipe) == 0 ? output : std::string();
-}
 
 class ExrTools : public testing::Test {
 protected:

@@ -1,10 +1,8 @@
 // penumbra render: a scene becomes a picture that others can read.
 #include "Program.h"
+#include "tests/support/Command.h"
 
 #include <gmock/gmock.h>
-
-#include <array>
-#include <cstdio>
 
 namespace penumbra {
 
@@ -27,17 +25,6 @@ protected:
         return runPenumbra(arguments);
     }
 };
-
-/// What a command prints; empty if it fails.
-std::string outputOf(const std::string& command) {
-    std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-    if (!pipe) return {};
-    std::string output;
-    std::array<char, 4096> part;
-    while (const std::size_t size = std::fread(part.data(), 1, part.size(), pipe))
-        output.append(part.data(), size);
-    return pclose(pipe) == 0 ? output : std::string();
-}
 
 TEST_F(Render, WritesAnExrAndAPngAndNothingElse) {
     const Outcome outcome = render("a.exr", {"--png", here.path("a.png")});
