@@ -18,6 +18,12 @@ double cpuClock() {
     return double(std::clock()) / CLOCKS_PER_SEC;
 }
 
+double threadClock() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
 } // namespace
 
 LoadedScene loadScene(const std::string& name) {
@@ -38,7 +44,11 @@ BuiltPatches BenchScene::mesh(float elementSize) const {
     return buildPatches(placed_, meshingOf(*loaded_.scene, elementSize));
 }
 
-Stopwatch::Stopwatch() : wallStart_(wallClock()), cpuStart_(cpuClock()) {}
+Stopwatch::Stopwatch()
+    : wallStart_(wallClock()), cpuStart_(cpuClock()), threadStart_(threadClock()) {}
+double Stopwatch::thread() const {
+    return threadClock() - threadStart_;
+}
 double Stopwatch::wall() const {
     return wallClock() - wallStart_;
 }

@@ -31,15 +31,16 @@ private:
     PlacedScene placed_;
 };
 
-/// Wall and processor time since it was made.
+/// Wall and processor time since it was made, by the thread that asks.
 class Stopwatch {
 public:
     Stopwatch();
-    double wall() const; ///< [s]
-    double cpu() const;  ///< of all threads of the process [s]
+    double wall() const;   ///< [s]
+    double cpu() const;    ///< of all threads of the process [s]
+    double thread() const; ///< of this thread alone [s]
 
 private:
-    double wallStart_, cpuStart_;
+    double wallStart_, cpuStart_, threadStart_;
 };
 
 /// Peak resident memory of this process since the last reset (Linux) [bytes].

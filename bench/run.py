@@ -27,15 +27,16 @@ EDIT = ["elements", "lamps", "scratch_s", "scratch_cpu_s", "update_s", "update_c
         "own_entries", "entries_changed", "entries", "blocks_visited", "blocks",
         "bytes_per_entry"]
 TOTAL = ["patches", "elements", "scratch_s", "scratch_settled_s", "update_s", "update_settled_s",
-         "follow_s", "direct_s", "indirect_s", "time_ratio", "time_ratio_settled", "put_off_blocks", "put_off_share", "put_off_bound",
-         "rays_until_converged", "scratch_shots", "update_shots",
-         "scratch_rays", "update_rays", "direct_rays", "indirect_rays_full",
-         "indirect_rays_single", "ray_ratio", "entries_changed", "blocks_visited",
-         "patches_affected", "certificate", "emitter_entries", "emitter_bytes_per_entry",
-         "patch_entries", "patch_bytes_per_entry", "bytes_per_entry", "rows_MB", "peak_MB"]
+         "follow_s", "direct_s", "indirect_s", "time_ratio", "time_ratio_settled", "put_off_blocks",
+         "put_off_share", "put_off_bound", "rays_until_converged", "scratch_shots", "update_shots",
+         "scratch_rays", "update_rays", "direct_rays", "indirect_rays_full", "indirect_rays_single",
+         "ray_ratio", "entries_changed", "blocks_visited", "patches_affected", "certificate",
+         "emitter_entries", "emitter_bytes_per_entry", "patch_entries", "patch_bytes_per_entry",
+         "bytes_per_entry", "rows_MB", "peak_MB"]
 DETAIL = ["elements", "nodes", "gatherers", "scratch_s", "update_s", "apply_s", "scratch_rays",
           "update_rays", "ray_ratio", "groups_visited", "groups"]
 PLAY = ["patches", "elements", "scratch_s", "updates", "updates_per_s", "update_s", "longest_s"]
+STEPS = ["elements", "steps", "over_ms", "over_first_ms", "over_99_ms", "over_thread_ms"]
 BUILDING = ["elements", "lamps", "mesh_s", "scratch_s", "scratch_rays", "update_s",
             "update_cpu_s", "follow_s", "update_rays", "update_rays_full", "update_rays_single",
             "entries_changed", "blocks_visited", "entries", "rows_MB", "peak_MB"]
@@ -104,6 +105,7 @@ def main():
     table(merged["benchmarks"], "edit/total/", TOTAL)
     table(merged["benchmarks"], "edit/detail/", DETAIL)
     table(merged["benchmarks"], "edit/play/", PLAY)
+    table(merged["benchmarks"], "edit/steps/", STEPS)
     table(merged["benchmarks"], "edit/building/",
           BUILDING + [name + "_over_first" for name in GROWTH])
     print()

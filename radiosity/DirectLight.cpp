@@ -51,6 +51,7 @@ void DirectLight::placeReceivers(std::vector<BlockMask>& masks) {
     vertices_.resize(set_.vertices.size());
     vertexSeen_.resize(set_.vertices.size());
     blockTouched_.resize(blocks);
+    if (updates_.open().blocks() != blocks) described_ = false;
     blockSummed_.resize(blocks);
     for (std::size_t row = 0; row < table_.size(); ++row) table_[row].resize(blocks);
     while (table_.blocks().size() < blocks) table_.blocks().append({});
@@ -76,16 +77,19 @@ void DirectLight::forEachPatch(std::uint32_t block, Visit visit) const {
             visit(set_.elements[set_.privateElement[v - set_.firstPrivate]].patch);
 }
 
-/// For bounds of what open work may change.
+/// For bounds of what open work may change. Private vertices are handed out and given back: any
+/// surface may be theirs.
 void DirectLight::describeReceivers() {
     std::vector<OpenWork::Receivers> blocks(table_.blocks().size());
-    for (std::uint32_t b = 0; b < blocks.size(); ++b) {
-        blocks[b].reflectance = 0;
-        forEachPatch(b, [&](std::uint32_t p) {
-            const Rgb rho = set_.materials[set_.patches[p].material].reflectance;
-            blocks[b].reflectance = std::max(blocks[b].reflectance, maxChannel(rho));
-        });
-    }
+    parallelFor(blockPatches_.size(), 256, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) {
+            blocks[b].reflectance = 0;
+            for (std::uint32_t p : blockPatches_[b]) {
+                const Rgb rho = set_.materials[set_.patches[p].material].reflectance;
+                blocks[b].reflectance = std::max(blocks[b].reflectance, maxChannel(rho));
+            }
+        }
+    });
     updates_.open().setReceivers(std::move(blocks));
     for (std::uint32_t e = 0; e < set_.emitters.size(); ++e)
         updates_.open().setPower(e, maxChannel(set_.emitters[e].exitance));
@@ -103,7 +107,7 @@ std::vector<double> DirectLight::openLight() const {
 }
 
 void DirectLight::apply(const SceneChange& change) {
-    described_ = false;
+    if (change.colours || !change.emitters.empty()) described_ = false;
     std::vector<BlockMask> masks;
     const auto isChanged = [&](ObjectId object) {
         return std::find(change.objects.begin(), change.objects.end(), object) !=

@@ -229,9 +229,8 @@ bool IndirectLight::update(std::size_t effort, double enough) {
         forEachReceived(block, arrived.light, [&](int r, float factor, glm::dvec3 light) {
             delta[r] = {0, -double(factor), -light};
         });
-        const int changed =
-            builder.updatePatchBlock(senders_.sender(item.row), receiversOf(item.row, item.block),
-                                     item.anew, moved, block);
+        const int changed = builder.updatePatchBlock(
+            senders_.sender(item.row), receiversOf(item.row, item.block), item.anew, moved, block);
         if (changed == 0) return 0;
         forEachReceived(block, arrived.light, [&](int r, float factor, glm::dvec3 light) {
             delta[r].factor += double(factor);
@@ -256,8 +255,12 @@ bool IndirectLight::update(std::size_t effort, double enough) {
 }
 
 RowUpdates::RowFacts IndirectLight::factsOf(std::uint32_t sender) const {
-    RowUpdates::RowFacts facts{kept_[sender] != 0,   senders_.box(sender), senders_.object(sender),
-                               senders_.area(sender), {},                   {}};
+    RowUpdates::RowFacts facts{kept_[sender] != 0,
+                               senders_.box(sender),
+                               senders_.object(sender),
+                               senders_.area(sender),
+                               {},
+                               {}};
     if (sender < senders_.patchCount() && planar_[sender]) {
         facts.centre = set_.patches[sender].centre;
         facts.normal = set_.patches[sender].normal;
@@ -332,8 +335,8 @@ void IndirectLight::updateResiduals() {
             const double rho = maxChannel(set_.materials[patch.material].reflectance);
             reflects[p] = reflected(p);
             const double open =
-                rho * (openDirect[p] +
-                       mean<double>(patch, [&](std::uint32_t n) { return openAt(n); }));
+                rho *
+                (openDirect[p] + mean<double>(patch, [&](std::uint32_t n) { return openAt(n); }));
             part.open = std::max(part.open, open);
             part.both = std::max(part.both, largest(reflects[p] - sent_[p][0]) + open);
             if (rho <= 0) continue;

@@ -63,7 +63,7 @@ void RowUpdates::add(std::vector<ObjectId> objects, std::vector<BlockMask> recei
     unite(receivers);
     untold_.push_back({std::move(objects), std::move(receivers), std::move(regions)});
     changes_.clear();
-    row_ = 0;
+    row_ = 0, block_ = 0;
 }
 
 double RowUpdates::share() const {
@@ -103,43 +103,57 @@ float RowUpdates::factorBound(const OpenBlock& item, const RowFacts& facts) cons
     return could < kTiny ? could : std::min(could, block.largestFormFactor());
 }
 
-std::vector<OpenBlock> RowUpdates::concerned(std::uint32_t row, const RowFacts& facts,
-                                             const PendingChange& change) const {
-    std::vector<OpenBlock> found;
-    for (const BlockMask& mask : table_.concerned(row, facts.box, facts.object, change)) {
-        found.push_back({row, mask.block, mask.receivers, table_.edits(row), 0});
-        found.back().factor = factorBound(found.back(), facts);
+/// The next run of blocks to be looked for; false: all have been told.
+bool RowUpdates::nextLook(Look& look, const Facts& facts) {
+    constexpr std::uint32_t kRun = 512;
+    for (; row_ < table_.size(); ++row_) {
+        look = {};
+        look.row = std::uint32_t(row_);
+        std::uint32_t& known = table_.edits(row_);
+        if (known == edits_) continue;
+        look.facts = facts(look.row);
+        if (look.facts.known) break;
+        known = edits_;
     }
-    return found;
+    if (row_ == table_.size()) return false;
+    look.change = &changeSince(table_.edits(row_));
+    const auto blocks = std::uint32_t(table_.blocks().size());
+    const std::size_t own = table_[row_].size();
+    look.expected = look.change->moves(look.facts.object.value)
+                        ? own
+                        : std::min(own, look.change->receivers.size());
+    if (look.expected > kRun) {
+        look.expected = kRun;
+        look.first = block_;
+        look.end = block_ = std::min(block_ + kRun, blocks);
+        look.last = look.end == blocks;
+    }
+    if (look.last) ++row_, block_ = 0;
+    return true;
+}
+
+void RowUpdates::find(Look& look) const {
+    const auto masks = table_.concerned(look.row, look.facts.box, look.facts.object, *look.change);
+    for (const BlockMask& mask : masks) {
+        if (mask.block < look.first || mask.block >= look.end) continue;
+        look.found.push_back({look.row, mask.block, mask.receivers, table_.edits(look.row), 0});
+        look.found.back().factor = factorBound(look.found.back(), look.facts);
+    }
 }
 
 void RowUpdates::find(std::size_t effort, const Facts& facts) {
-    struct Look {
-        std::uint32_t row = 0;
-        RowFacts facts;
-        const PendingChange* change = nullptr;
-        std::vector<OpenBlock> found;
-    };
     std::vector<Look> looks;
-    for (std::size_t cost = 0; row_ < table_.size() && cost < effort; ++row_) {
-        if (table_.edits(row_) == edits_) continue;
-        Look look{std::uint32_t(row_), facts(std::uint32_t(row_)), nullptr, {}};
-        if (look.facts.known) {
-            look.change = &changeSince(table_.edits(row_));
-            const bool whole = look.change->moves(look.facts.object.value);
-            cost += kLook + (whole ? kOpen * table_[row_].size() : 0);
-            looks.push_back(std::move(look));
-        } else {
-            table_.edits(row_) = edits_;
-        }
+    Look look;
+    for (std::size_t cost = 0; cost < effort && nextLook(look, facts);) {
+        cost += kLook + kOpen * look.expected;
+        looks.push_back(std::move(look));
     }
     parallelFor(looks.size(), 4, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            looks[i].found = concerned(looks[i].row, looks[i].facts, *looks[i].change);
+        for (std::size_t i = first; i < last; ++i) find(looks[i]);
     });
-    for (const Look& look : looks) {
-        open_.open(look.row, look.found);
-        table_.edits(look.row) = edits_;
+    for (const Look& one : looks) {
+        open_.open(one.row, one.found);
+        if (one.last) table_.edits(one.row) = edits_;
     }
     if (found()) allFound();
 }

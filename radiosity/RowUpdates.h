@@ -78,8 +78,18 @@ private:
     bool found() const { return row_ == table_.size(); }
     void find(std::size_t effort, const Facts& facts);
     void allFound();
-    std::vector<OpenBlock> concerned(std::uint32_t row, const RowFacts& facts,
-                                     const PendingChange& change) const;
+    /// What is looked for at a time: all of a row, or some blocks of one with very many.
+    struct Look {
+        std::uint32_t row = 0;
+        bool last = true; ///< of its row
+        RowFacts facts;
+        const PendingChange* change = nullptr;
+        std::uint32_t first = 0, end = 0xffffffffu; ///< blocks
+        std::size_t expected = 0;                   ///< blocks that will be found, at least
+        std::vector<OpenBlock> found;
+    };
+    bool nextLook(Look& look, const Facts& facts);
+    void find(Look& look) const;
     float factorBound(const OpenBlock& item, const RowFacts& facts) const;
     const PendingChange& changeSince(std::uint32_t edits);
     std::span<const MovedObject> movedSince(std::uint32_t edits) const;
@@ -91,6 +101,7 @@ private:
     std::uint32_t edits_ = 0;       ///< so far
     std::vector<Edit> untold_;      ///< the last of them: not all rows have been told
     std::size_t row_ = 0;           ///< rows before it have been told of all edits
+    std::uint32_t block_ = 0;       ///< of row_, if it is told run by run
     std::map<std::uint32_t, PendingChange> changes_; ///< for rows that know of so many edits
     std::vector<MovedObject> moved_;       ///< since open work was opened; the last moved last
     std::vector<std::uint32_t> movedWhen_; ///< the last edit that moved each of them
