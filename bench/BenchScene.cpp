@@ -40,8 +40,10 @@ MeshingOptions meshingOf(const Scene& scene, float elementSize) {
 BenchScene::BenchScene(const std::string& name)
     : loaded_(loadScene(name)), placed_(placeScene(*loaded_.scene)) {}
 
-BuiltPatches BenchScene::mesh(float elementSize) const {
-    return buildPatches(placed_, meshingOf(*loaded_.scene, elementSize));
+BuiltPatches BenchScene::mesh(float elementSize, float patchSize) const {
+    MeshingOptions meshing = meshingOf(*loaded_.scene, elementSize);
+    if (patchSize > 0) meshing.patchSize = patchSize;
+    return buildPatches(placed_, meshing);
 }
 
 Stopwatch::Stopwatch()

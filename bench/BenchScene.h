@@ -23,8 +23,8 @@ public:
     /// See loadScene().
     explicit BenchScene(const std::string& name);
 
-    /// See meshingOf().
-    BuiltPatches mesh(float elementSize) const;
+    /// See meshingOf(). \param patchSize other than the file's [m]; 0: the file's
+    BuiltPatches mesh(float elementSize, float patchSize = 0) const;
 
 private:
     LoadedScene loaded_;

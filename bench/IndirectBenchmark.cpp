@@ -19,13 +19,19 @@ void gather(DetailGather& detail, const Solver& solver) {
     while (detail.sweeping()) detail.sweep(kEffort);
 }
 
-void indirect(benchmark::State& state, const std::string& name) {
-    const BenchScene scene(name);
+struct Case {
+    std::string name, scene;
+    float patchSize = 0; ///< [m]; 0: the scene's
+    SolverOptions solving;
+};
+
+void indirect(benchmark::State& state, const Case& what) {
+    const BenchScene scene(what.scene);
     for (auto _ : state) {
         resetPeakMemory();
-        const BuiltPatches built = scene.mesh(0);
+        const BuiltPatches built = scene.mesh(0, what.patchSize);
         const RayScene rays(built.patches.rayMeshes);
-        Solver solver(built.patches, rays, {.detail = false});
+        Solver solver(built.patches, rays, what.solving);
         solver.settle();
         const double seconds = solver.statistics().indirect.seconds;
         state.SetIterationTime(seconds);
@@ -51,6 +57,8 @@ void indirect(benchmark::State& state, const std::string& name) {
         counters["indirect_s"] = seconds;
         counters["rays"] = double(statistics.indirect.rays.total());
         counters["Mrays_per_s"] = double(statistics.indirect.rays.total()) * 1e-6 / seconds;
+        counters["certificate"] = statistics.certificate;
+        counters["mean_radiosity"] = statistics.meanRadiosity;
         counters["entries"] = double(size.entries);
         counters["bytes_per_entry"] = double(size.bytes) / double(size.entries);
         counters["rows_MB"] = double(size.bytes) * 1e-6;
@@ -59,8 +67,15 @@ void indirect(benchmark::State& state, const std::string& name) {
 }
 
 const bool registered = [] {
-    for (const std::string name : {"chamber", "office", "gallery"})
-        addCase("indirect/" + name, benchmark::kSecond, indirect, name);
+    const SolverOptions flat{.detail = false}, clusters{.detail = false, .flatPatches = 0};
+    for (const Case& what : {Case{"chamber", "chamber", 0, flat},
+                             {"office", "office", 0, flat},
+                             {"office-clusters", "office", 0, clusters},
+                             {"gallery", "gallery", 0, flat},
+                             {"gallery-clusters", "gallery", 0, clusters},
+                             // Of more patches than SolverOptions::flatPatches.
+                             {"gallery-1M", "gallery", 0.37f, flat}})
+        addCase("indirect/" + what.name, benchmark::kSecond, indirect, what);
     return true;
 }();
 
