@@ -1,9 +1,7 @@
 #include "io/PngWriter.h"
 
 #include "io/AtomicFile.h"
-#include "scenegraph/Error.h"
-
-#include <png.h>
+#include "io/PngEncoder.h"
 
 #include <algorithm>
 #include <cassert>
@@ -104,17 +102,8 @@ std::vector<std::uint8_t> toneMappedBytes(const FrameLayers& frame, const Exposu
 
 void writePng(const std::string& path, const FrameLayers& frame, const ToneOptions& options) {
     assert(frame.width > 0 && frame.height > 0);
-    const std::vector<std::uint8_t> pixels = toneMappedBytes(frame, chooseExposure(frame, options));
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    image.width = png_uint_32(frame.width);
-    image.height = png_uint_32(frame.height);
-    image.format = PNG_FORMAT_RGB; // 8 bits of sRGB, and the file says so
-    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
-    std::vector<std::byte> file(size);
-    if (!png_image_write_to_memory(&image, file.data(), &size, 0, pixels.data(), 0, nullptr))
-        throw Error(path + ": error: can't write as PNG: " + image.message);
-    file.resize(size);
+    const std::vector<std::byte> file = encodePng(
+        frame.width, frame.height, toneMappedBytes(frame, chooseExposure(frame, options)));
     writeFileAtomically(path, std::span<const std::byte>(file));
 }
 

@@ -150,6 +150,11 @@ bool DirectLight::work(std::size_t effort, double enough) {
     return updateRows(effort, enough) || sumBlocks(effort) || averagePatches(effort);
 }
 
+void DirectLight::sumUp() {
+    while (sumBlocks(std::size_t(1) << 20)) {
+    }
+}
+
 bool DirectLight::updateRows(std::size_t effort, double enough) {
     if (!described_) describeReceivers();
     if (updates_.done(enough)) return false;

@@ -32,6 +32,8 @@ public:
     bool work(std::size_t effort, double enough);
     /// Bound of what is still open in the mean light of patches [lux].
     std::vector<double> openLight() const;
+    /// Sums what the rows, as they are now, give to the vertices.
+    void sumUp();
 
     std::span<const Rgb> vertices() const { return vertices_; }      ///< [lux]
     std::span<const glm::dvec3> patches() const { return patches_; } ///< means [lux]

@@ -94,7 +94,6 @@ void Solver::settle(const Progress& progress) {
     }
 }
 
-/// One piece of work; false: there is none left.
 bool Solver::work(std::size_t effort, const Progress& progress) {
     if (workOnce(effort, progress)) return true;
     converged_ = converged_ || !indirect_ || settled();
@@ -222,6 +221,21 @@ std::vector<Rgb> Solver::radiosity() const {
                                       : rho * toRgb(direct_.patches()[p]));
     }
     return radiosity;
+}
+
+WorkDone Solver::done() const {
+    WorkDone done;
+    done.rays = direct_.updates().rays().total();
+    done.blocks = direct_.updates().blocksVisited();
+    done.nodes = set_.nodes.size();
+    if (!indirect_) return done;
+    done.rays += indirect_->updates().rays().total() + indirect_->buildRays().total();
+    done.blocks += indirect_->updates().blocksVisited();
+    done.shots = indirect_->shots();
+    if (!detail_) return done;
+    done.rays += detail_->hits().rayCount();
+    done.blocks += detail_->hits().groupsVisited();
+    return done;
 }
 
 SolveStatistics Solver::statistics() const {

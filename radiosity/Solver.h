@@ -66,6 +66,17 @@ struct SolveStatistics {
     std::size_t rows = 0, entries = 0, bytes = 0; ///< of the SFFL
 };
 
+/// What a solver has done since it was made, in counts that are the same on every machine.
+struct WorkDone {
+    std::uint64_t rays = 0;
+    std::uint64_t blocks = 0; ///< of 64 entries, looked at by updates
+    std::uint64_t shots = 0;  ///< of patches, each onto all nodes
+    std::size_t nodes = 0;
+
+    /// About [rays]: looking at 64 entries, or sending light through them, takes as long as a ray.
+    double inRays() const { return double(rays + blocks) + double(shots) * double(nodes) / 64; }
+};
+
 /// Lights a PatchSet, and keeps it lit while it is edited: emitters light the elements directly,
 /// what patches reflect travels between patches' nodes. The result is the same for any number of
 /// threads.
@@ -93,6 +104,12 @@ public:
     bool converged() const { return converged_; }
     /// Works until converged(), or until everything is settled if that comes first.
     void converge(const Progress& progress = {});
+    /// Does one piece of work of about `effort` rays; false: there is none left. What is computed
+    /// does not depend on how large the pieces are.
+    bool work(std::size_t effort, const Progress& progress = {});
+    /// Direct light is summed when all its rows are up to date; this sums what is to be summed now,
+    /// so that lighting() shows all that is known.
+    void sumUp() { direct_.sumUp(); }
 
     /// What the vertices receive. What is still owed is added as an ambient term (Cohen et al.
     /// 1988); fine shadows are as far as they have been brought.
@@ -107,6 +124,7 @@ public:
     std::vector<Rgb> radiosity() const;
     SolveStatistics statistics() const;
     double detailSeconds() const { return detailSeconds_; } ///< of statistics(), at no cost
+    WorkDone done() const;                                  ///< cheap, unlike statistics()
 
     /// Blocks of vertices whose direct light may differ from what it was at the last call.
     std::vector<std::uint32_t> takeSummedBlocks() { return direct_.takeSummedBlocks(); }
@@ -124,7 +142,6 @@ public:
 
 private:
     void begin();
-    bool work(std::size_t effort, const Progress& progress);
     bool workOnce(std::size_t effort, const Progress& progress);
     bool run(double budget, bool untilConverged, const Progress& progress);
     double mayStayOpen(double share) const;

@@ -11,7 +11,8 @@ MAY_SEE = {
     "radiosity": {"importance", "scenegraph"},
     "io": {"scenegraph"},
     "viewer": {"io", "radiosity", "importance", "scenegraph"},
-    "tools": {"viewer", "io", "radiosity", "importance", "scenegraph"},
+    "comparison": {"io", "radiosity", "importance", "scenegraph"},
+    "tools": {"comparison", "viewer", "io", "radiosity", "importance", "scenegraph"},
 }
 # Third-party headers (by how their path begins) that one folder keeps to itself, in its .cpp files.
 HOME = {

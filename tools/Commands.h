@@ -11,5 +11,6 @@ void addRenderCommand(CLI::App& app);
 void addSolveCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
 void addRadiosityCommand(CLI::App& app);
+void addCompareCommand(CLI::App& app);
 
 } // namespace penumbra

@@ -4,6 +4,7 @@
 #include "radiosity/Parallel.h"
 #include "scenegraph/Camera.h"
 #include "scenegraph/Error.h"
+#include "tools/CameraChoice.h"
 #include "tools/Commands.h"
 #include "tools/SceneSolution.h"
 #include "tools/Statistics.h"
@@ -32,40 +33,17 @@ struct RenderCommand {
     int height = 0; ///< 0: the camera's shape
 };
 
-/// The camera that was asked for, or the first one, or none.
-const Placed<Camera>* chooseCamera(const PlacedScene& placed, const std::string& path,
-                                   const std::string& file) {
-    if (path.empty()) return placed.cameras.empty() ? nullptr : &placed.cameras.front();
-    const auto matches = [&](const Placed<Camera>& camera) {
-        // A camera prim with a transform of its own is two nodes of the same name.
-        return camera.path == path || camera.path == path + "/" + camera.node->name();
-    };
-    const auto found = std::find_if(placed.cameras.begin(), placed.cameras.end(), matches);
-    if (found != placed.cameras.end()) return &*found;
-    std::string known;
-    for (const auto& camera : placed.cameras) known += (known.empty() ? "" : ", ") + camera.path;
-    throw SceneFileError({file},
-                         fmt::format("no camera '{}' ({})", path,
-                                     known.empty() ? "the file has none" : "it has " + known));
-}
-
 /// \param command its height is set from the camera's film if it was not given
 View chooseView(RenderCommand& command, const SceneSolution& solution) {
-    const auto* const camera = chooseCamera(solution.placed(), command.camera, command.solve.scene);
-    if (command.height == 0) {
-        const Lens lens =
-            camera ? camera->node->lens() : Lens{.horizontalAperture = 16, .verticalAperture = 9};
-        const float shape = lens.verticalAperture / lens.horizontalAperture;
-        command.height = std::clamp(int(std::lround(float(command.width) * shape)), 1, 16384);
-    }
-    if (camera)
-        return makeView(camera->node->lens(), camera->toWorld, command.width, command.height);
-    if (!command.solve.quiet)
+    const PlacedScene& placed = solution.placed();
+    const std::string& file = command.solve.scene;
+    if (command.height == 0)
+        command.height = heightFor(placed, command.camera, file, command.width);
+    if (placed.cameras.empty() && !command.solve.quiet)
         fmt::print(stderr, "{}: no camera in the file: the whole scene is framed from above\n",
-                   command.solve.scene);
-    const Bounds& bounds = solution.placed().bounds;
-    return frameBox(bounds.lower, bounds.upper, int(solution.scene().upAxis), command.width,
-                    command.height);
+                   file);
+    return viewOf(placed, solution.scene().upAxis, command.camera, file, command.width,
+                  command.height);
 }
 
 ExrMetadata metadata(const RenderCommand& command, const SceneSolution& solution) {

@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
     penumbra::addSolveCommand(app);
     penumbra::addInfoCommand(app);
     penumbra::addRadiosityCommand(app);
+    penumbra::addCompareCommand(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) { // --help, --version

@@ -61,6 +61,27 @@ TEST(WorkInSteps, EditsThatComeBeforeTheLastIsWorkedOffAreThoseInOneGo) {
     }
 }
 
+TEST(WorkInSteps, LookingAtLightThatIsHalfDoneChangesNothing) {
+    EditableRoom room(2);
+    LitScene whole(placeScene(room.scene()), EditableRoom::meshing(), kTight);
+    LitScene watched(placeScene(room.scene()), EditableRoom::meshing(), kTight);
+    bool seenEarly = false; // that something shows before all rows are up to date
+    for (int i = 0; i < 3; ++i) {
+        whole.solver().settle();
+        const std::vector<Rgb> before = watched.solver().lighting().direct;
+        while (watched.solver().work(600)) {
+            watched.solver().sumUp();
+            if (!seenEarly && watched.solver().direct().updates().open().count() > 0)
+                seenEarly = watched.solver().lighting().direct != before;
+        }
+        ASSERT_EQ(watched.solver().lighting().direct, whole.solver().lighting().direct);
+        ASSERT_EQ(difference(watched, whole), "");
+        room.edit();
+        for (LitScene* lit : {&whole, &watched}) lit->follow(placeScene(room.scene()));
+    }
+    EXPECT_TRUE(seenEarly);
+}
+
 TEST(WorkInSteps, NoBudgetDoesNoWork) {
     const EditableRoom room(1);
     LitScene lit(placeScene(room.scene()), EditableRoom::meshing(), kTight);

@@ -1,0 +1,80 @@
+// Playing an animation under several orders of work, and watching the picture come right.
+#pragma once
+
+#include "comparison/ErrorCurve.h"
+#include "importance/Pyramid.h"
+#include "radiosity/BuildPatches.h"
+#include "radiosity/Solver.h"
+#include "scenegraph/Camera.h"
+#include "scenegraph/Objects.h"
+#include "scenegraph/Rgb.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace penumbra {
+
+/// A picture as it is looked at.
+struct Picture {
+    int width = 0, height = 0;
+    std::vector<Rgb> colours; ///< top row first [nit]
+};
+
+/// One way of ordering the work.
+struct OrderUnderTest {
+    std::string name;
+    SolverOptions options;
+};
+
+struct ComparisonOptions {
+    MeshingOptions meshing;
+    int width = 480, height = 270;   ///< of the pictures that are compared [pixels]
+    double firstLook = 1000;         ///< work until the picture is looked at first, about [rays]
+    double growth = 1.25;            ///< of the work until the next look; > 1
+    std::vector<double> filmSeconds; ///< the film strip's moments, ascending [s]
+    int filmFrame = 0;               ///< which of the edits the film strip shows: index of a frame
+};
+
+/// What plays: the scene at a frame, and the view of it.
+struct Playback {
+    std::vector<double> frames; ///< the first is where it starts; each later one is an edit
+    std::function<PlacedScene(double frame)> show;
+    std::function<View(const PlacedScene&)> view;
+};
+
+/// One picture of the film strip: the first that was there at or after its moment.
+struct FilmPicture {
+    double seconds = 0, work = 0;
+    Picture picture;
+    Plane jnd; ///< against the settled picture
+    DifferenceSummary error;
+};
+
+/// How one order did.
+struct OrderResult {
+    std::string name;
+    std::vector<std::vector<ErrorSample>> frames; ///< one an edit; the first sample before any work
+    std::vector<double> work, seconds;            ///< to the settled light, one an edit
+    std::vector<FilmPicture> film;
+    double differsFromTruth = 0; ///< when settled, the most of all frames [JND]
+};
+
+struct ComparisonResult {
+    std::vector<double> frames; ///< that were edits
+    std::vector<OrderResult> orders;
+    Picture truth;     ///< settled, of the film strip's frame
+    int filmFrame = 0; ///< which of the edits that is: an index
+    std::size_t elements = 0, patches = 0, lamps = 0;
+    double pixelsPerDegree = 0; ///< of the film strip's view
+};
+
+/// Plays under each order. The truth of each frame is the settled solution of the same mesh, found
+/// by a solver that is not watched. Pictures are as drawn.
+///
+/// Settling between edits, so that each starts from the same light whatever the order.
+/// \param progress called with a phase and the share done in [0, 1]
+ComparisonResult compareOrders(const Playback& playback, const std::vector<OrderUnderTest>& orders,
+                               const ComparisonOptions& options, const Progress& progress = {});
+
+} // namespace penumbra

@@ -1,0 +1,186 @@
+#include "comparison/HtmlReport.h"
+
+#include "comparison/Chart.h"
+#include "comparison/ReportImages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace penumbra {
+
+namespace {
+
+constexpr const char* kStyle = R"(
+body { font: 15px/1.5 sans-serif; color: #222; background: #fff; margin: 2em auto; max-width: 1180px; padding: 0 1em }
+h1 { font-size: 1.5em } h2 { font-size: 1.2em; margin-top: 2em; border-bottom: 1px solid #ccc }
+table { border-collapse: collapse; margin: 1em 0 }
+th, td { padding: 3px 10px; border-bottom: 1px solid #ddd; text-align: right }
+th { font-weight: 600 } th:first-child, td:first-child, .facts td { text-align: left; white-space: nowrap }
+.facts td { white-space: normal } .charts svg { width: 49% } thead th { border-bottom: 2px solid #888 }
+figure { display: inline-block; margin: 0 8px 12px 0; vertical-align: top } figcaption { font-size: 12px; color: #444 }
+img { display: block; image-rendering: auto; border: 1px solid #bbb } .strip { white-space: nowrap; overflow-x: auto }
+.note { color: #555; font-size: 13px; max-width: 60em } .swatch { display: inline-block; width: 1.6em; height: .5em; margin-right: .5em }
+svg { max-width: 100%; height: auto }
+)";
+
+using Curves = std::vector<std::vector<CurvePoint>>;
+
+template <class Over>
+Curves curvesOf(const OrderResult& order, Over over) {
+    Curves curves;
+    for (const auto& samples : order.frames) curves.push_back(over(samples));
+    return curves;
+}
+
+std::vector<CurvePoint> meanOverWork(const OrderResult& order) {
+    return meanOf(curvesOf(order, errorOverWork));
+}
+std::vector<CurvePoint> meanOverTime(const OrderResult& order) {
+    return meanOf(curvesOf(order, errorOverTime));
+}
+
+double mean(const std::vector<double>& values) {
+    double sum = 0;
+    for (double value : values) sum += value;
+    return values.empty() ? 0 : sum / double(values.size());
+}
+
+/// Until where areas are taken: all orders are settled there.
+double lastWork(const ComparisonResult& result) {
+    double last = 0;
+    for (const OrderResult& order : result.orders)
+        for (double work : order.work) last = std::max(last, work);
+    return last;
+}
+
+std::string orNever(double value, double scale = 1) {
+    return value < 0 ? "–" : figure(value * scale);
+}
+
+void writeFigures(std::string& page, const ComparisonResult& result) {
+    page += "<table><thead><tr><th>order</th><th>area under the curve</th><th>work to 10 %</th>"
+            "<th>work to 1 %</th><th>work in all</th><th>time to 10 % [ms]</th>"
+            "<th>time to 1 % [ms]</th><th>time in all [ms]</th><th>settled, off by [JND]</th>"
+            "</tr></thead><tbody>\n";
+    std::size_t index = 0;
+    for (const OrderFigures& f : figuresOf(result))
+        fmt::format_to(std::back_inserter(page),
+                       "<tr><td><span class='swatch' style='background:{}'></span>{}</td>"
+                       "<td>{:.4f}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
+                       "<td>{}</td><td>{:.3f}</td></tr>\n",
+                       seriesColour(index++), escaped(f.name), f.area, orNever(f.work10),
+                       orNever(f.work1), figure(f.work), orNever(f.seconds10, 1e3),
+                       orNever(f.seconds1, 1e3), figure(1e3 * f.seconds), f.differsFromTruth);
+    page += "</tbody></table>\n";
+}
+
+void writeCharts(std::string& page, const ComparisonResult& result) {
+    std::vector<ChartSeries> work, time;
+    for (const OrderResult& order : result.orders) {
+        work.push_back({order.name, meanOverWork(order)});
+        time.push_back({order.name, meanOverTime(order)});
+        for (CurvePoint& point : time.back().points) point.x *= 1e3;
+    }
+    page += "<div class='charts'>" +
+            lineChart(work, {.title = "Visible error over work",
+                             .xLabel = "work since the edit [rays' worth], logarithmic",
+                             .yLabel = "mean visible error [JND]"});
+    page += lineChart(time, {.title = "Visible error over time",
+                             .xLabel = "time since the edit [ms], logarithmic",
+                             .yLabel = "mean visible error [JND]"});
+}
+
+/// One moment of the film: the picture, and below it what is wrong with it.
+void writeMoment(std::string& page, const std::string& order, const FilmPicture& film,
+                 const Exposure& exposure) {
+    const int width = std::min(film.picture.width, 320);
+    const int height = film.picture.height * width / film.picture.width;
+    fmt::format_to(std::back_inserter(page),
+                   "<figure><img src='{0}' width='{2}' height='{3}' alt='{4}, picture'>"
+                   "<img src='{1}' width='{2}' height='{3}' alt='{4}, visible error'>"
+                   "<figcaption><b>{5} ms</b>, {6} rays' worth<br>mean {7} JND, 99 % below {8}<br>"
+                   "{9:.2f} % of pixels above 1</figcaption></figure>\n",
+                   pictureUri(film.picture, exposure), differenceUri(film.jnd), width, height,
+                   escaped(order), figure(1e3 * film.seconds), figure(film.work),
+                   figure(film.error.mean), figure(film.error.p99), 100 * film.error.visible);
+}
+
+void writeFilm(std::string& page, const OrderResult& order, const Exposure& exposure) {
+    page += "<h3>" + escaped(order.name) + "</h3>\n<div class='strip'>";
+    for (const FilmPicture& film : order.film) writeMoment(page, order.name, film, exposure);
+    page += "</div>\n";
+}
+
+void writeFilms(std::string& page, const ComparisonResult& result, int frame) {
+    const Exposure exposure = exposureFor(result.truth);
+    fmt::format_to(
+        std::back_inserter(page),
+        "<h2>Frame {}, as the viewer sees it</h2>\n<p class='note'>Above, the picture at "
+        "the first look after 0, 1, 2, 4, 8 ... ms of work; below, how visible it is that "
+        "it is not yet the settled one.</p>\n{}<div class='strip'>",
+        result.frames[std::size_t(frame)], differenceLegend());
+    fmt::format_to(
+        std::back_inserter(page),
+        "<figure><img src='{}' width='{}' height='{}' alt='settled'><figcaption>settled: "
+        "what is to come out</figcaption></figure></div>\n",
+        pictureUri(result.truth, exposure), result.truth.width, result.truth.height);
+    for (const OrderResult& order : result.orders) writeFilm(page, order, exposure);
+}
+
+void writeFacts(std::string& page, const std::string& heading, const Facts& facts) {
+    page += "<h2>" + heading + "</h2>\n<table class='facts'><tbody>\n";
+    for (const auto& [name, value] : facts)
+        page += "<tr><td>" + escaped(name) + "</td><td>" + escaped(value) + "</td></tr>\n";
+    page += "</tbody></table>\n";
+}
+
+constexpr const char* kReading = R"(<h2>How to read this</h2>
+<p class='note'>Each frame is an edit. Before it, the light is settled; after it, the orders under
+comparison do the same work in different sequence, and the picture is looked at again and again. The
+visible error of a pixel is in just noticeable differences (JND): at 1, an observer who compares it
+with the settled picture sees the difference half the time. The curves are means over all pixels and
+all edits. The area under the curve is the share of the initial error that is there on average until
+the slowest order is settled (0: right at once, 1: not until the end). Work is what the solver did, in
+rays and what costs as much as a ray; it is the same on every machine. Time includes all of it: finding
+the work, ordering it, rays and sums; looking at the picture is not counted.</p>
+)";
+
+} // namespace
+
+std::vector<OrderFigures> figuresOf(const ComparisonResult& result) {
+    const double last = lastWork(result);
+    std::vector<OrderFigures> figures;
+    for (const OrderResult& order : result.orders) {
+        const std::vector<CurvePoint> work = meanOverWork(order), time = meanOverTime(order);
+        OrderFigures f;
+        f.name = order.name;
+        f.area = normalisedArea(work, last);
+        f.work10 = whenBelow(work, 0.1).value_or(-1);
+        f.work1 = whenBelow(work, 0.01).value_or(-1);
+        f.seconds10 = whenBelow(time, 0.1).value_or(-1);
+        f.seconds1 = whenBelow(time, 0.01).value_or(-1);
+        f.work = mean(order.work);
+        f.seconds = mean(order.seconds);
+        f.differsFromTruth = order.differsFromTruth;
+        figures.push_back(f);
+    }
+    return figures;
+}
+
+std::string htmlReport(const ComparisonResult& result, const ReportOptions& options) {
+    std::string page = "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
+                       "<meta name='viewport' content='width=device-width'><title>" +
+                       escaped(options.title) + "</title><style>" + kStyle +
+                       "</style></head><body>\n<h1>" + escaped(options.title) + "</h1>\n";
+    writeFigures(page, result);
+    writeCharts(page, result);
+    writeFilms(page, result, result.filmFrame);
+    page += kReading;
+    writeFacts(page, "Settings", options.settings);
+    writeFacts(page, "Machine", options.machine);
+    return page + "</body></html>\n";
+}
+
+} // namespace penumbra

@@ -1,0 +1,25 @@
+// Which camera of a scene is looked through.
+#pragma once
+
+#include "scenegraph/Camera.h"
+#include "scenegraph/Objects.h"
+#include "scenegraph/Scene.h"
+
+#include <string>
+
+namespace penumbra {
+
+/// The camera that was asked for by its path, or the first one; null if there is none at all.
+/// \param file of the scene, for what is said of an unknown path \throws SceneFileError
+const Placed<Camera>* chooseCamera(const PlacedScene& placed, const std::string& path,
+                                   const std::string& file);
+
+/// Height of a picture of `width` pixels, as the chosen camera's film is shaped (16:9 without one).
+int heightFor(const PlacedScene& placed, const std::string& path, const std::string& file,
+              int width);
+
+/// The view of the chosen camera; without any, the whole scene is framed from above.
+View viewOf(const PlacedScene& placed, UpAxis up, const std::string& path, const std::string& file,
+            int width, int height);
+
+} // namespace penumbra

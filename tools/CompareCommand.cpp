@@ -1,0 +1,159 @@
+#include "comparison/CompareOrders.h"
+#include "comparison/HtmlReport.h"
+#include "io/AtomicFile.h"
+#include "radiosity/Parallel.h"
+#include "scenegraph/Error.h"
+#include "tools/CameraChoice.h"
+#include "tools/Commands.h"
+#include "tools/ComparisonJson.h"
+#include "tools/Machine.h"
+#include "tools/SceneSolution.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace penumbra {
+
+namespace {
+
+struct CompareCommand {
+    SolveSettings solve;
+    std::string output, json, camera;
+    int width = 480, height = 0;
+    double looks = 1.25;
+    int filmFrame = 0;
+};
+
+/// The animation, as the comparison plays it.
+Playback playbackOf(const CompareCommand& command, LoadedScene& loaded) {
+    const FrameRange range = frameRange(command.solve.frames);
+    if (range.first == range.last)
+        throw CLI::ValidationError("--frames", "needs at least two frames: what changes from one "
+                                               "to the next is what is watched");
+    Playback playback;
+    for (int frame = range.first; frame <= range.last; ++frame) playback.frames.push_back(frame);
+    playback.show = [&loaded](double frame) {
+        if (loaded.animation) loaded.animation->setTime(frame);
+        return placeScene(*loaded.scene);
+    };
+    playback.view = [&command, &loaded](const PlacedScene& placed) {
+        return viewOf(placed, loaded.scene->upAxis, command.camera, command.solve.scene,
+                      command.width, command.height);
+    };
+    return playback;
+}
+
+ComparisonOptions optionsOf(const CompareCommand& command, const LoadedScene& loaded) {
+    ComparisonOptions options;
+    options.meshing = command.solve.meshing;
+    if (options.meshing.patchSize == 0) options.meshing.patchSize = float(loaded.scene->patchSize);
+    options.width = command.width;
+    options.height = command.height;
+    options.growth = command.looks;
+    const FrameRange range = frameRange(command.solve.frames);
+    options.filmFrame = command.filmFrame == 0 ? 0 : command.filmFrame - range.first - 1;
+    if (options.filmFrame < 0 || options.filmFrame >= range.last - range.first)
+        throw CLI::ValidationError("--film",
+                                   fmt::format("{} is no frame from {} to {}", command.filmFrame,
+                                               range.first + 1, range.last));
+    options.filmSeconds = {0};
+    for (double ms = 1; ms < 70'000; ms *= 2) options.filmSeconds.push_back(1e-3 * ms);
+    return options;
+}
+
+ReportOptions reportOptions(const CompareCommand& command, const ComparisonResult& result) {
+    const SolverOptions& solver = command.solve.solver;
+    ReportOptions report;
+    const std::string name = std::filesystem::path(command.solve.scene).filename().string();
+    report.title = fmt::format("{}: orders of work compared", name);
+    report.settings = {
+        {"scene", name},
+        {"frames", command.solve.frames},
+        {"camera", command.camera.empty() ? "the first one" : command.camera},
+        {"pictures", fmt::format("{} x {} pixels, {:.1f} pixels per degree", command.width,
+                                 command.height, result.pixelsPerDegree)},
+        {"elements", std::to_string(result.elements)},
+        {"patches", std::to_string(result.patches)},
+        {"lamps", std::to_string(result.lamps)},
+        {"light", solver.directOnly ? "direct only" : "direct and indirect"},
+        {"visibility samples", std::to_string(solver.samples)},
+        {"residual", solver.residual > 0 ? fmt::format("{}", solver.residual) : "default"},
+        {"visible error", "mean over pixels, in JND; contrast sensitivity of castleCSF, bands and "
+                          "masking of ColorVideoVDP"},
+        {"program", "penumbra " PENUMBRA_VERSION}};
+    report.machine = machineFacts();
+    return report;
+}
+
+void run(CompareCommand command) {
+    const ThreadLimit limit(command.solve.threads);
+    if (command.solve.frames.empty())
+        throw CLI::ValidationError("--frames", "is needed: A:B, the frames to play");
+    if (command.json.empty())
+        command.json = std::filesystem::path(command.output).replace_extension(".json").string();
+    checkOutputs(command.solve.scene, {command.output, command.json});
+    ProgressBar progress(command.solve.quiet      ? ProgressBar::When::never
+                         : command.solve.progress ? ProgressBar::When::always
+                                                  : ProgressBar::When::terminal);
+    LoadOptions load;
+    load.time = frameRange(command.solve.frames).first;
+    LoadedScene loaded = loadUsdScene(command.solve.scene, load);
+    if (!command.solve.quiet) reportDiagnostics(loaded.diagnostics, command.solve.verbose);
+    if (!loaded.animation)
+        throw SceneFileError({command.solve.scene},
+                             "nothing moves: the file has no animation to play");
+    const PlacedScene placed = placeScene(*loaded.scene);
+    if (command.height == 0)
+        command.height = heightFor(placed, command.camera, command.solve.scene, command.width);
+    const Playback playback = playbackOf(command, loaded);
+    const std::vector<OrderUnderTest> orders{{"plain", command.solve.solver}};
+    const ComparisonResult result =
+        compareOrders(playback, orders, optionsOf(command, loaded),
+                      [&](const char* phase, double done) { progress.show(phase, done); });
+    progress.clear();
+    const ReportOptions report = reportOptions(command, result);
+    writeFileAtomically(command.json, comparisonJson(result, report));
+    writeFileAtomically(command.output, htmlReport(result, report));
+    if (command.solve.quiet) return;
+    for (const OrderFigures& f : figuresOf(result))
+        fmt::print(stderr, "{:<12} area {:.4f}, {} rays' worth to 10 % of the error, {} in all\n",
+                   f.name, f.area, f.work10 < 0 ? "never" : fmt::format("{:.0f}", f.work10),
+                   fmt::format("{:.0f}", f.work));
+}
+
+} // namespace
+
+void addCompareCommand(CLI::App& app) {
+    const auto command = std::make_shared<CompareCommand>();
+    CLI::App* const compare = app.add_subcommand(
+        "compare", "How soon the picture is right under each order of work: an HTML report.\n"
+                   "Example: penumbra compare scenes/office-seat.usda --frames 1:8 -o seat.html");
+    addSolveOptions(*compare, command->solve);
+    compare->add_option("-o,--output", command->output, "HTML file to write")->required();
+    compare->add_option("--json", command->json,
+                        "All figures as JSON (default: beside the HTML file)");
+    compare->add_option("--camera", command->camera, "Path of the camera (default: the first one)");
+    compare->add_option("--width", command->width, "Of the pictures that are compared [pixels]")
+        ->capture_default_str()
+        ->check(CLI::Range(16, 4096));
+    compare
+        ->add_option("--height", command->height,
+                     "Of the pictures [pixels] (default: as the camera's film is shaped)")
+        ->check(CLI::Range(16, 4096));
+    compare
+        ->add_option("--looks", command->looks,
+                     "The picture is looked at each time the work has grown by this factor")
+        ->capture_default_str()
+        ->check(CLI::Range(1.01, 10.0));
+    compare->add_option("--film", command->filmFrame,
+                        "Frame of the film strip (default: the second one)");
+    compare->callback([command] { run(*command); });
+}
+
+} // namespace penumbra
