@@ -1,0 +1,131 @@
+#include "radiosity/process/LightingWorker.h"
+#include "tests/support/LitNode.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <exception>
+#include <random>
+
+namespace penumbra {
+
+namespace {
+
+/// Remembers what it hands out.
+class WatchedRegions : public Regions {
+public:
+    RegionPtr create(std::size_t bytes) override {
+        RegionPtr region = regions_->create(bytes);
+        std::erase_if(all, [](const auto& known) { return known.expired(); });
+        all.push_back(region);
+        return region;
+    }
+    RegionPtr open(const std::string& name) override { return regions_->open(name); }
+
+    std::vector<std::weak_ptr<Region>> all;
+
+private:
+    std::unique_ptr<Regions> regions_ = makeHeapRegions();
+};
+
+/// A worker that takes its turns when it is told to: both sides in one thread, so that a test is
+/// the same each time and every byte can be written to between any two steps.
+class SteppedLink : public LightingLink {
+public:
+    Regions& regions() override { return watched; }
+    bool apart() const override { return false; }
+    void start(const RegionPtr& control, const WorkerLimits&) override {
+        why_.reset();
+        worker_ = std::make_unique<LightingWorker>(watched, control);
+    }
+    std::optional<std::string> ended() override { return why_; }
+    void end() override { worker_.reset(); }
+
+    void step() {
+        if (!worker_ || why_) return;
+        try {
+            if (worker_->turn(0.0005) == LightingWorker::Turn::stopped) why_ = "it has stopped";
+        } catch (const std::exception& error) {
+            why_ = error.what();
+        }
+    }
+
+    WatchedRegions watched;
+
+private:
+    std::unique_ptr<LightingWorker> worker_;
+    std::optional<std::string> why_;
+};
+
+class Mutator {
+public:
+    explicit Mutator(unsigned seed) : random_(seed) {}
+
+    /// Overwrites one to eight bytes: most where the numbers are that others depend on.
+    void mutate(WatchedRegions& regions) {
+        if (regions.all.empty()) return;
+        const auto region = regions.all[below(regions.all.size())].lock();
+        if (!region) return;
+        const std::span<std::byte> bytes = region->bytes();
+        const std::size_t range =
+            below(2) == 0 ? bytes.size() : std::min<std::size_t>(bytes.size(), 2048);
+        const std::size_t at = below(range);
+        for (std::size_t i = at; i < std::min(bytes.size(), at + 1 + below(8)); ++i)
+            bytes[i] = std::byte(below(3) == 0 ? 0xff : below(256));
+    }
+    std::size_t below(std::size_t count) { return random_() % count; }
+
+private:
+    std::mt19937_64 random_;
+};
+
+/// Until it is settled, or for so many steps.
+bool settle(RadiosityNode& node, SteppedLink& link) {
+    for (int i = 0; i < 3000; ++i) {
+        link.step();
+        node.update();
+        if (node.state().phase == RadiosityState::Phase::settled) return true;
+    }
+    return false;
+}
+
+TEST(FuzzedSegment, NoByteOfItCanCrashOrHangEitherSide) {
+    const char* const wanted = std::getenv("PENUMBRA_MUTATIONS");
+    const int mutations = wanted ? std::atoi(wanted) : 2000;
+    auto owned = std::make_unique<SteppedLink>();
+    SteppedLink& link = *owned;
+    RadiosityOptions options = LitRoom::smallRoomOptions();
+    options.meshing = {.patchSize = 2, .elementSize = 1};
+    options.mostMemory = 10 << 20; // what a mad worker asks for is not to be had
+    LitRoom room(std::move(owned), options);
+    ASSERT_TRUE(settle(*room.node, link)) << describe(*room.node);
+    Mutator mutator(1);
+    unsigned restarts = 0;
+    int stuck = 0;
+    for (int done = 0; done < mutations; ++done) {
+        mutator.mutate(link.watched);
+        if (done % 3 == 0) room.box->setMatrix(moved(0.1 * double(mutator.below(10)), 0, 0));
+        link.step();
+        room.node->update();
+        if (room.node->state().restarts == restarts && done % 50 != 0) continue;
+        // It was noticed, or it may be that nothing goes on any more: then people start it anew.
+        if (!settle(*room.node, link)) {
+            ++stuck;
+            room.node->stop();
+            room.node->start();
+        }
+        restarts = room.node->state().restarts;
+    }
+    EXPECT_GT(restarts, 0u);
+    room.node->stop();
+    room.node->start();
+    ASSERT_TRUE(settle(*room.node, link)) << describe(*room.node);
+    EXPECT_EQ(room.difference(), "");
+    RecordProperty("restarts", int(restarts));
+    RecordProperty("stuck", stuck);
+}
+
+} // namespace
+
+} // namespace penumbra
