@@ -112,7 +112,7 @@ void run(CompareCommand command) {
     if (command.height == 0)
         command.height = heightFor(placed, command.camera, command.solve.scene, command.width);
     const Playback playback = playbackOf(command, loaded);
-    const std::vector<OrderUnderTest> orders{{"plain", command.solve.solver}};
+    const std::vector<OrderUnderTest> orders{{"bound", command.solve.solver}};
     const ComparisonResult result =
         compareOrders(playback, orders, optionsOf(command, loaded),
                       [&](const char* phase, double done) { progress.show(phase, done); });
