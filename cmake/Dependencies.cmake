@@ -9,6 +9,7 @@ find_package(PNG REQUIRED)
 find_package(CLI11 REQUIRED CONFIG)
 find_package(fmt REQUIRED CONFIG)
 find_package(nlohmann_json REQUIRED CONFIG)
+find_package(glfw3 3.3 REQUIRED CONFIG)
 find_package(OpenGL REQUIRED COMPONENTS OpenGL EGL)
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
 

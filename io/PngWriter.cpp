@@ -26,44 +26,55 @@ double gradientNoise(int x, int y) {
     return outer - std::floor(outer);
 }
 
-/// Adds the logarithm of a luminance if it has one.
-void addLogarithm(std::vector<float>& logs, Rgb colour) {
-    const float y = luminance(colour);
-    if (y > 0 && std::isfinite(y)) logs.push_back(std::log2(y));
-}
-
-/// Logarithms of the luminances that count, ascending: of reflected light, the extremes cut off.
-std::vector<float> sortedLogarithms(const FrameLayers& frame) {
+/// Logarithms of the luminances that have one, ascending, the extremes cut off.
+std::vector<float> sortedLogarithms(std::span<const float> luminances) {
     std::vector<float> logs;
-    logs.reserve(frame.pixelCount());
-    for (std::size_t i = 0; i < frame.pixelCount(); ++i)
-        addLogarithm(logs, frame.direct[i] + frame.indirect[i]);
-    if (logs.empty())
-        for (const Rgb& colour : frame.beauty) addLogarithm(logs, colour);
+    logs.reserve(luminances.size());
+    for (const float y : luminances)
+        if (y > 0 && std::isfinite(y)) logs.push_back(std::log2(y));
     std::sort(logs.begin(), logs.end());
     const std::ptrdiff_t cut = std::ptrdiff_t(logs.size()) / 100;
     return {logs.begin() + cut, logs.end() - cut};
 }
 
+bool anyLight(const std::vector<float>& luminances) {
+    return std::any_of(luminances.begin(), luminances.end(),
+                       [](float y) { return y > 0 && std::isfinite(y); });
+}
+
+/// The luminances that count: of reflected light, or else of all.
+std::vector<float> luminancesOf(const FrameLayers& frame) {
+    std::vector<float> luminances(frame.pixelCount());
+    for (std::size_t i = 0; i < luminances.size(); ++i)
+        luminances[i] = luminance(frame.direct[i] + frame.indirect[i]);
+    if (anyLight(luminances)) return luminances;
+    for (std::size_t i = 0; i < luminances.size(); ++i) luminances[i] = luminance(frame.beauty[i]);
+    return luminances;
+}
+
 } // namespace
+
+Exposure chooseExposure(std::span<const float> luminances) {
+    const std::vector<float> logs = sortedLogarithms(luminances);
+    Exposure exposure;
+    if (logs.empty()) return exposure;
+    double sum = 0;
+    for (float log : logs) sum += log;
+    const double mean = sum / double(logs.size());
+    const double range = double(logs.back()) - logs.front();
+    // -1 for a picture that is all dark but for little, 1 for one that is all bright
+    const double lean = range > 0 ? (2 * mean - logs.front() - logs.back()) / range : 0;
+    exposure.middleGrey = float(std::exp2(mean) * std::pow(4.0, -lean));
+    // Below this the operator would no longer press highlights together but stretch them.
+    exposure.white = std::max(std::exp2(logs.back()), exposure.middleGrey / kMiddleGrey);
+    return exposure;
+}
 
 Exposure chooseExposure(const FrameLayers& frame, const ToneOptions& options) {
     assert(!options.middleGrey || *options.middleGrey > 0);
-    const std::vector<float> logs = sortedLogarithms(frame);
-    Exposure exposure;
-    if (!logs.empty()) {
-        double sum = 0;
-        for (float log : logs) sum += log;
-        const double mean = sum / double(logs.size());
-        const double range = double(logs.back()) - logs.front();
-        // -1 for a picture that is all dark but for little, 1 for one that is all bright
-        const double lean = range > 0 ? (2 * mean - logs.front() - logs.back()) / range : 0;
-        exposure.middleGrey = float(std::exp2(mean) * std::pow(4.0, -lean));
-        exposure.white = std::exp2(logs.back());
-    }
+    Exposure exposure = chooseExposure(luminancesOf(frame));
     if (options.middleGrey) exposure.middleGrey = *options.middleGrey;
     if (options.white) exposure.white = *options.white;
-    // Below this the operator would no longer press highlights together but stretch them.
     exposure.white = std::max(exposure.white, exposure.middleGrey / kMiddleGrey);
     return exposure;
 }
@@ -83,27 +94,36 @@ Rgb toneMapped(Rgb colour, const Exposure& exposure) {
     return Rgb(shown) + (scaled - Rgb(shown)) * keep;
 }
 
-std::vector<std::uint8_t> toneMappedBytes(const FrameLayers& frame, const Exposure& exposure) {
+std::vector<std::uint8_t> displayBytes(std::span<const Rgb> shown, int width) {
+    assert(width > 0 && shown.size() % std::size_t(width) == 0);
     std::vector<std::uint8_t> bytes;
-    bytes.reserve(3 * frame.pixelCount());
-    for (int y = 0; y < frame.height; ++y) {
-        for (int x = 0; x < frame.width; ++x) {
-            const Rgb shown = toneMapped(frame.beauty[frame.index(x, y)], exposure);
-            // not quite 0 to 1, so that rounding errors never show in black and in white
-            const double noise = 0.0005 + 0.999 * gradientNoise(x, y);
-            for (float channel : {shown.r, shown.g, shown.b}) {
-                const double level = 255 * srgbEncoded(std::clamp(channel, 0.0f, 1.0f));
-                bytes.push_back(std::uint8_t(std::min(255.0, std::floor(level + noise))));
-            }
+    bytes.reserve(3 * shown.size());
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        // not quite 0 to 1, so that rounding errors never show in black and in white
+        const double noise = 0.0005 + 0.999 * gradientNoise(int(i % std::size_t(width)),
+                                                            int(i / std::size_t(width)));
+        for (float channel : {shown[i].r, shown[i].g, shown[i].b}) {
+            const double level = 255 * srgbEncoded(std::clamp(channel, 0.0f, 1.0f));
+            bytes.push_back(std::uint8_t(std::min(255.0, std::floor(level + noise))));
         }
     }
     return bytes;
 }
 
+std::vector<std::uint8_t> toneMappedBytes(const FrameLayers& frame, const Exposure& exposure) {
+    std::vector<Rgb> shown(frame.beauty);
+    for (Rgb& colour : shown) colour = toneMapped(colour, exposure);
+    return displayBytes(shown, std::max(1, frame.width));
+}
+
 void writePng(const std::string& path, const FrameLayers& frame, const ToneOptions& options) {
-    assert(frame.width > 0 && frame.height > 0);
-    const std::vector<std::byte> file = encodePng(
-        frame.width, frame.height, toneMappedBytes(frame, chooseExposure(frame, options)));
+    writePngBytes(path, frame.width, frame.height,
+                  toneMappedBytes(frame, chooseExposure(frame, options)));
+}
+
+void writePngBytes(const std::string& path, int width, int height,
+                   std::span<const std::uint8_t> pixels) {
+    const std::vector<std::byte> file = encodePng(width, height, pixels);
     writeFileAtomically(path, std::span<const std::byte>(file));
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,14 +45,26 @@ Exposure chooseExposure(const FrameLayers& frame, const ToneOptions& options = {
 /// (Reinhard et al. 2002, equation 4.)
 Rgb toneMapped(Rgb colour, const Exposure& exposure);
 
-/// The picture as 8-bit sRGB (IEC 61966-2-1), three bytes a pixel, top row first. Rounding follows
-/// a fixed pattern (interleaved gradient noise; Jimenez, SIGGRAPH 2014 course "Advances in
+/// Exposure for the reflected luminances [nit] of a picture, as above; what is not positive is left
+/// out. With nothing left a middle grey of 1.
+Exposure chooseExposure(std::span<const float> luminances);
+
+/// Display values, linear in [0, 1], as 8-bit sRGB (IEC 61966-2-1), three bytes a pixel. Rounding
+/// follows a fixed pattern (interleaved gradient noise; Jimenez, SIGGRAPH 2014 course "Advances in
 /// Real-Time Rendering") which hides the steps in smooth shades; the same picture gives the same
 /// bytes.
+/// \param width of a row [pixel]
+std::vector<std::uint8_t> displayBytes(std::span<const Rgb> shown, int width);
+
+/// The picture, tone mapped, by displayBytes(); top row first.
 std::vector<std::uint8_t> toneMappedBytes(const FrameLayers& frame, const Exposure& exposure);
 
 /// Writes the beauty layer as a PNG file, whole or not at all (see AtomicFile.h).
 /// \throws Error if the file can't be written
 void writePng(const std::string& path, const FrameLayers& frame, const ToneOptions& options = {});
+
+/// Writes 8-bit sRGB pixels, three bytes each, top row first, in the same way. \throws Error
+void writePngBytes(const std::string& path, int width, int height,
+                   std::span<const std::uint8_t> pixels);
 
 } // namespace penumbra

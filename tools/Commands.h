@@ -7,6 +7,7 @@ class App;
 
 namespace penumbra {
 
+void addViewCommand(CLI::App& app);
 void addRenderCommand(CLI::App& app);
 void addSolveCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);

@@ -11,13 +11,14 @@ int main(int argc, char** argv) {
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
     CLI::App app{"Penumbra: soft, physically right light for scenes in which things move.\n"
-                 "Reads USD text (.usda), solves radiosity, writes lit frames as OpenEXR.\n",
+                 "Reads USD text (.usda), solves radiosity, shows it in a window or writes lit frames.\n",
                  "penumbra"};
     app.set_version_flag("--version", "penumbra " PENUMBRA_VERSION);
     app.require_subcommand(1);
     app.footer(
         "Each command explains itself: penumbra render --help\n"
         "Exit codes: 0 done; 1 it failed, and one line says why; 2 the command line was wrong.");
+    penumbra::addViewCommand(app);
     penumbra::addRenderCommand(app);
     penumbra::addSolveCommand(app);
     penumbra::addInfoCommand(app);

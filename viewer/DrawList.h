@@ -7,11 +7,14 @@
 #include <glm/glm.hpp>
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 namespace penumbra {
 
+class Light;
 class LitGeometry;
+class Mesh;
 
 /// One lit surface in its place. The pointers are good until the graph is edited.
 struct DrawItem {
@@ -20,13 +23,26 @@ struct DrawItem {
     glm::dmat4 toWorld{1.0};
 };
 
-struct DrawList {
-    std::vector<DrawItem> items; ///< in traversal order
-    std::size_t culled = 0;      ///< places left out because they are outside of the view
+/// A mesh or a light that nobody has lit yet.
+struct UnlitItem {
+    const Mesh* mesh = nullptr;   ///< one of
+    const Light* light = nullptr; ///< the two
+    const Group* parent = nullptr;
+    glm::dmat4 toWorld{1.0};
 };
 
-/// Lists every place of a LitGeometry below `root`, hidden ones (Switch) not counted, whose box may
-/// be seen in `frustum`.
+struct DrawList {
+    std::vector<DrawItem> items;  ///< in traversal order
+    std::vector<UnlitItem> unlit; ///< in traversal order
+    std::size_t culled = 0;       ///< places left out because they are outside of the view
+};
+
+/// Lists every place of a LitGeometry, a Mesh or a Light below `root`, hidden ones (Switch) not
+/// counted, whose box may be seen in `frustum`.
 DrawList listVisible(const Group& root, const Frustum& frustum);
+
+/// The owner of a node, found among its parent's children. While it lives, the address is not that
+/// of a later node.
+std::weak_ptr<const Node> ownerOf(const Group& parent, const Node& node);
 
 } // namespace penumbra

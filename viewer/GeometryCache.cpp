@@ -52,14 +52,6 @@ std::vector<std::uint32_t> sortByMaterial(const LitMeshData& mesh,
     return indices;
 }
 
-/// The owner of a geometry, found among its parent's children.
-std::weak_ptr<const Node> ownerOf(const DrawItem& item) {
-    for (const NodePtr& child : item.parent->children())
-        if (child.get() == item.geometry) return child;
-    assert(!"a draw item's parent holds its geometry");
-    return {};
-}
-
 } // namespace
 
 GpuGeometry::GpuGeometry(const LitGeometry& geometry)
@@ -110,7 +102,7 @@ const GpuGeometry& GeometryCache::get(const DrawItem& item) {
         return found->second.gpu;
     }
     ++uploads_;
-    Entry entry{ownerOf(item), GpuGeometry(*item.geometry)};
+    Entry entry{ownerOf(*item.parent, *item.geometry), GpuGeometry(*item.geometry)};
     return entries_.emplace(item.geometry, std::move(entry)).first->second.gpu;
 }
 

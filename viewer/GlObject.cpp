@@ -28,6 +28,12 @@ GlObject makeFramebuffer() {
     return {name, [](unsigned n) { glDeleteFramebuffers(1, &n); }};
 }
 
+GlObject makeTexture() {
+    unsigned name = 0;
+    glGenTextures(1, &name);
+    return {name, [](unsigned n) { glDeleteTextures(1, &n); }};
+}
+
 GlObject makeShader(unsigned stage) {
     return {glCreateShader(stage), [](unsigned n) { glDeleteShader(n); }};
 }

@@ -34,6 +34,7 @@ GlObject makeBuffer();
 GlObject makeVertexArray();
 GlObject makeRenderbuffer();
 GlObject makeFramebuffer();
+GlObject makeTexture();
 GlObject makeShader(unsigned stage); ///< GL_VERTEX_SHADER or GL_FRAGMENT_SHADER
 GlObject makeProgram();
 

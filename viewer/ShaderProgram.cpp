@@ -75,4 +75,17 @@ void ShaderProgram::set(const char* uniform, std::uint32_t value) const {
     glUniform1ui(location(uniform), value);
 }
 
+void ShaderProgram::set(const char* uniform, int value) const {
+    glUniform1i(location(uniform), value);
+}
+
+void ShaderProgram::set(const char* uniform, float value) const {
+    glUniform1f(location(uniform), value);
+}
+
+void ShaderProgram::set(const char* uniform, std::span<const glm::vec4> values) const {
+    if (values.empty()) return;
+    glUniform4fv(location(uniform), GLsizei(values.size()), glm::value_ptr(values.front()));
+}
+
 } // namespace penumbra

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <span>
 
 namespace penumbra {
 
@@ -23,6 +24,9 @@ public:
     void set(const char* uniform, glm::vec4 value) const;
     void set(const char* uniform, Rgb value) const;
     void set(const char* uniform, std::uint32_t value) const;
+    void set(const char* uniform, int value) const;
+    void set(const char* uniform, float value) const;
+    void set(const char* uniform, std::span<const glm::vec4> values) const; ///< an array
 
 private:
     int location(const char* uniform) const;

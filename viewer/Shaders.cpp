@@ -74,4 +74,77 @@ void main() {
 }
 )";
 
+const char* const kScreenFragmentShader = R"(#version 330 core
+centroid in vec3 surfaceDirect;
+centroid in vec3 surfaceIndirect;
+
+uniform vec3 reflectance;
+uniform vec3 emission;                   // nit
+
+layout(location = 0) out vec4 beauty;
+
+const float kInversePi = 0.31830988618;
+const float kMost = 65000.0;             // nit; 16-bit floats end at 65504
+
+void main() {
+    vec3 reflected = reflectance * kInversePi * (surfaceDirect + surfaceIndirect);
+    float shines = max(max(emission.r, emission.g), emission.b);
+    beauty = vec4(min(reflected + emission, kMost), shines > 0.0 ? 0.0 : 1.0);
+}
+)";
+
+const char* const kPreviewVertexShader = R"(#version 330 core
+layout(location = 0) in vec3 position;   // local frame
+
+uniform mat4 localToClip;
+uniform mat4 localToEye;
+
+out vec3 eyePosition;                    // the camera is at the origin and looks along -z [m]
+
+void main() {
+    gl_Position = localToClip * vec4(position, 1.0);
+    eyePosition = vec3(localToEye * vec4(position, 1.0));
+}
+)";
+
+const char* const kPreviewFragmentShader = R"(#version 330 core
+in vec3 eyePosition;
+
+uniform vec3 reflectance;
+uniform vec3 emission;                   // nit
+uniform int lampCount;
+uniform vec4 lampPlaces[16];             // position [m], area [m^2]
+uniform vec4 lampAxes[16];               // unit; zero: shines all round
+uniform vec4 lampIntensities[16];        // cd
+uniform vec3 ambient;                    // lux
+
+layout(location = 0) out vec4 beauty;
+
+const float kInversePi = 0.31830988618;
+const float kMost = 65000.0;
+
+vec3 illuminance(vec3 normal) {
+    float headOn = abs(dot(normal, normalize(eyePosition)));
+    vec3 sum = ambient * (0.5 + 0.5 * headOn);
+    for (int i = 0; i < lampCount; ++i) {
+        vec3 way = lampPlaces[i].xyz - eyePosition;
+        float distance2 = max(dot(way, way), 1e-8);
+        vec3 towards = way * inversesqrt(distance2);
+        vec3 axis = lampAxes[i].xyz;
+        float shape = dot(axis, axis) > 0.0 ? max(-dot(towards, axis), 0.0) : 1.0;
+        float facing = max(dot(normal, towards), 0.0);
+        sum += lampIntensities[i].rgb *
+               (shape * facing / (distance2 + lampPlaces[i].w * kInversePi));
+    }
+    return sum;
+}
+
+void main() {
+    vec3 normal = normalize(cross(dFdx(eyePosition), dFdy(eyePosition))); // towards the eye
+    vec3 reflected = reflectance * kInversePi * illuminance(normal);
+    float shines = max(max(emission.r, emission.g), emission.b);
+    beauty = vec4(min(reflected + emission, kMost), shines > 0.0 ? 0.0 : 1.0);
+}
+)";
+
 } // namespace penumbra

@@ -17,4 +17,12 @@ extern const char* const kLightFragmentShader;
 /// 3 object id; these may not be averaged.
 extern const char* const kSurfaceFragmentShader;
 
+/// What the eye receives of a lit surface [nit], up to the range of 16-bit floats; alpha says how
+/// much it counts for exposure: what reflects does, what shines does not.
+extern const char* const kScreenFragmentShader;
+
+/// Surfaces before radiosity, lit as PreviewLighting says, flat shaded; the same output.
+extern const char* const kPreviewVertexShader;
+extern const char* const kPreviewFragmentShader;
+
 } // namespace penumbra

@@ -1,0 +1,158 @@
+#include "viewer/InteractiveRenderer.h"
+
+#include "scenegraph/Error.h"
+#include "scenegraph/Light.h"
+#include "scenegraph/LitGeometry.h"
+#include "scenegraph/Mesh.h"
+#include "viewer/DrawList.h"
+#include "viewer/DrawState.h"
+#include "viewer/LitItem.h"
+#include "viewer/LuminanceMeter.h"
+#include "viewer/PreviewGeometry.h"
+#include "viewer/Shaders.h"
+#include "viewer/TonePass.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cassert>
+
+namespace penumbra {
+
+namespace {
+
+/// The lamps as the preview shader wants them, in the frame of the camera.
+void setPreviewLighting(const ShaderProgram& program, const PreviewLighting& lighting,
+                        const View& view) {
+    std::vector<glm::vec4> places, axes, intensities;
+    for (const PreviewLamp& lamp : lighting.lamps) {
+        const glm::dvec3 place(view.worldToCamera * glm::dvec4(lamp.position, 1));
+        const glm::dvec3 axis = glm::dmat3(view.worldToCamera) * lamp.axis;
+        places.emplace_back(glm::vec3(place), lamp.area);
+        axes.emplace_back(glm::vec3(axis), 0);
+        intensities.emplace_back(lamp.intensity.r, lamp.intensity.g, lamp.intensity.b, 0);
+    }
+    program.set("lampCount", int(lighting.lamps.size()));
+    program.set("lampPlaces", places);
+    program.set("lampAxes", axes);
+    program.set("lampIntensities", intensities);
+    program.set("ambient", lighting.ambient);
+}
+
+} // namespace
+
+struct InteractiveRenderer::Impl {
+    explicit Impl(const InteractiveOptions& wanted) : options(wanted) {}
+
+    void requireTarget(int width, int height);
+    void drawLit(const std::vector<LitItem>& items);
+    void drawUnlit(const std::vector<UnlitItem>& items, const View& view,
+                   const PreviewLighting& lighting);
+    void drawUnlitItem(const UnlitItem& item, const View& view);
+
+    InteractiveOptions options;
+    bool reversed = canReverseDepth();
+    ShaderProgram litProgram{kLitVertexShader, kScreenFragmentShader};
+    ShaderProgram previewProgram{kPreviewVertexShader, kPreviewFragmentShader};
+    GeometryCache litCache;
+    PreviewCache previewCache;
+    std::optional<HdrTarget> target;
+    LuminanceMeter meter;
+    TonePass tonePass;
+    InteractiveStatistics statistics;
+};
+
+void InteractiveRenderer::Impl::requireTarget(int width, int height) {
+    if (target && target->width() == width && target->height() == height) return;
+    target.reset(); // first: two may be more than the card can hold
+    target.emplace(width, height, options.samples, options.precision);
+}
+
+void InteractiveRenderer::Impl::drawLit(const std::vector<LitItem>& items) {
+    litProgram.use();
+    for (const LitItem& item : items) {
+        setPlace(litProgram, item.place);
+        item.gpu->bind();
+        for (const MaterialRange& range : item.gpu->ranges()) {
+            const LitMaterial& material = item.geometry->data().materials[range.material];
+            litProgram.set("reflectance", material.reflectance);
+            litProgram.set("emission", material.emission);
+            drawRange(range);
+        }
+    }
+}
+
+void InteractiveRenderer::Impl::drawUnlit(const std::vector<UnlitItem>& items, const View& view,
+                                          const PreviewLighting& lighting) {
+    if (items.empty()) return;
+    previewProgram.use();
+    setPreviewLighting(previewProgram, lighting, view);
+    for (const UnlitItem& item : items) drawUnlitItem(item, view);
+}
+
+void InteractiveRenderer::Impl::drawUnlitItem(const UnlitItem& item, const View& view) {
+    const PreviewGeometry& geometry = previewCache.get(item);
+    setPlace(previewProgram, DrawPlace(item.toWorld, view, reversed));
+    const bool doubleSided = item.mesh && item.mesh->data().doubleSided;
+    (doubleSided ? glDisable : glEnable)(GL_CULL_FACE);
+    geometry.bind();
+    for (const MaterialRange& range : geometry.ranges()) {
+        const Material* const material =
+            item.mesh ? item.mesh->data().materials[range.material].get() : nullptr;
+        previewProgram.set("reflectance", material ? material->reflectance() : Rgb());
+        previewProgram.set("emission", material ? material->emission() : item.light->luminance());
+        drawRange(range);
+    }
+    if (doubleSided) glEnable(GL_CULL_FACE);
+}
+
+InteractiveRenderer::InteractiveRenderer(const InteractiveOptions& options)
+    : impl_(std::make_unique<Impl>(options)) {}
+
+InteractiveRenderer::~InteractiveRenderer() = default;
+
+void InteractiveRenderer::drawScene(const Group& root, const View& view,
+                                    const PreviewLighting& preview, int width, int height) {
+    assert(width > 0 && height > 0);
+    Impl& impl = *impl_;
+    impl.requireTarget(width, height);
+    impl.litCache.dropDead();
+    impl.previewCache.dropDead();
+    const std::size_t uploads = impl.litCache.uploads();
+    const std::size_t lightUploads = impl.litCache.lightUploads();
+    const DrawList list = listVisible(root, Frustum(view.worldToClip()));
+    const std::vector<LitItem> lit = prepareLit(list, view, impl.reversed, impl.litCache);
+    {
+        const DrawState state(impl.reversed);
+        impl.target->begin(state.clearDepth());
+        impl.drawLit(lit);
+        impl.drawUnlit(list.unlit, view, preview);
+    }
+    impl.target->resolve();
+    impl.meter.measure(impl.target->texture());
+    impl.statistics = {lit.size(), list.unlit.size(), list.culled,
+                       impl.litCache.uploads() - uploads,
+                       impl.litCache.lightUploads() - lightUploads};
+}
+
+void InteractiveRenderer::show(unsigned framebuffer, float middleGrey, ToneStyle style) {
+    assert(impl_->target);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, impl_->target->width(), impl_->target->height());
+    impl_->tonePass.draw(impl_->target->texture(), middleGrey, style);
+}
+
+std::optional<std::vector<float>> InteractiveRenderer::luminances(bool wait) {
+    return impl_->meter.take(wait);
+}
+
+std::vector<Rgb> InteractiveRenderer::readLuminances() const {
+    assert(impl_->target);
+    return impl_->target->read();
+}
+
+const InteractiveStatistics& InteractiveRenderer::statistics() const {
+    return impl_->statistics;
+}
+
+} // namespace penumbra

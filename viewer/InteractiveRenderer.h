@@ -1,0 +1,69 @@
+// The walkthrough's pictures: drawn in luminances, shown through exposure and tone curve.
+#pragma once
+
+#include "scenegraph/Camera.h"
+#include "scenegraph/Group.h"
+#include "viewer/HdrTarget.h"
+#include "viewer/PreviewLighting.h"
+#include "viewer/ToneCurve.h"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace penumbra {
+
+struct InteractiveOptions {
+    int samples = 4; ///< a pixel
+    HdrTarget::Precision precision = HdrTarget::Precision::half;
+};
+
+/// What the last drawScene() did.
+struct InteractiveStatistics {
+    std::size_t lit = 0;          ///< places of lit surfaces in view
+    std::size_t unlit = 0;        ///< places of meshes and lights that nobody has lit yet
+    std::size_t culled = 0;       ///< places outside of the view
+    std::size_t uploads = 0;      ///< lit geometries copied to the graphics card
+    std::size_t lightUploads = 0; ///< of which the light alone was copied
+};
+
+/// Draws a scene graph many times a second. A frame is
+///
+///     drawScene()   the graph into a float framebuffer, luminances [nit] against depth:
+///                   lit surfaces as Renderer draws them, what is not lit yet by PreviewLighting
+///     show()        that, through exposure and tone curve, into a framebuffer or window
+///
+/// between which others may draw into the same target, with the same depth convention.
+///
+/// Belongs to one context (OpenGL 3.3 core) that must be current in every call and at destruction.
+class InteractiveRenderer {
+public:
+    explicit InteractiveRenderer(const InteractiveOptions& options = {});
+    ~InteractiveRenderer();
+    InteractiveRenderer(const InteractiveRenderer&) = delete;
+    InteractiveRenderer& operator=(const InteractiveRenderer&) = delete;
+
+    /// \param width,height [pixel], at least 1 \throws Error if the driver can't
+    void drawScene(const Group& root, const View& view, const PreviewLighting& preview, int width,
+                   int height);
+
+    /// Shows what was drawn last in `framebuffer` (0: the window), whose lower left corner it
+    /// fills.
+    void show(unsigned framebuffer, float middleGrey, ToneStyle style);
+
+    /// Reflected luminances [nit] of a frame drawn not long ago, once; see LuminanceMeter.
+    /// \param wait for those of the last frame
+    std::optional<std::vector<float>> luminances(bool wait = false);
+
+    /// What was drawn last [nit], lower row first.
+    std::vector<Rgb> readLuminances() const;
+
+    const InteractiveStatistics& statistics() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace penumbra

@@ -1,0 +1,32 @@
+#include "viewer/SceneLoader.h"
+
+#include "scenegraph/Error.h"
+
+#include <chrono>
+
+namespace penumbra {
+
+namespace {
+
+ReadyScene readyScene(const std::string& file) {
+    ReadyScene ready;
+    ready.loaded = loadUsdScene(file);
+    ready.placed = placeScene(*ready.loaded.scene);
+    if (ready.placed.meshes.empty() && ready.placed.lights.empty())
+        throw SceneFileError({file}, "nothing to see: no visible mesh that can be read");
+    ready.rays = std::make_unique<SceneRays>(ready.placed);
+    return ready;
+}
+
+} // namespace
+
+SceneLoader::SceneLoader(std::string file)
+    : file_(std::move(file)), future_(std::async(std::launch::async, readyScene, file_)) {}
+
+std::optional<ReadyScene> SceneLoader::take() {
+    if (!busy() || future_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        return std::nullopt;
+    return future_.get();
+}
+
+} // namespace penumbra

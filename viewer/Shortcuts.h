@@ -1,0 +1,45 @@
+// Which key does what: the one list that both the keyboard and the help are read from.
+#pragma once
+
+#include "viewer/Input.h"
+
+#include <optional>
+#include <span>
+
+namespace penumbra {
+
+/// What a single key stroke asks for.
+enum class Action {
+    help,
+    quit,
+    fullScreen,
+    nextMode,
+    gravity,
+    collision,
+    bookmark, ///< with its number
+    home,
+    frame,
+    brighterView,
+    darkerView,
+    autoExposure,
+    nextTone,
+};
+
+/// A line of the help.
+struct HelpLine {
+    const char* group;
+    const char* keys;
+    const char* text;
+};
+std::span<const HelpLine> helpLines();
+
+struct Command {
+    Action action;
+    int number = 0; ///< of a bookmark, from 1
+};
+
+/// The command of a key stroke, if it is one. Letters count as the keyboard's layout has them;
+/// signs such as '?' come as text.
+std::optional<Command> commandOf(const InputEvent& event);
+
+} // namespace penumbra
