@@ -9,7 +9,7 @@ namespace {
 constexpr std::array kHelp = std::to_array<HelpLine>({
     {"Move", "W A S D", "ahead, left, back, right (Shift: run)"},
     {"Move", "E Q", "up, down (flying, or without gravity)"},
-    {"Move", "right mouse button", "look around; also the left one on what can't be moved"},
+    {"Move", "right mouse button", "look around; also the left one, on what can't be moved"},
     {"Move", "mouse wheel", "forward, back; sideways: turn"},
     {"Move", "middle button, Alt+left", "circle around what is under the pointer"},
     {"Move", "Shift+middle, Alt+middle", "shift the view (Alt+right: nearer, farther)"},
@@ -19,6 +19,15 @@ constexpr std::array kHelp = std::to_array<HelpLine>({
     {"Move", "1 ... 9", "the cameras of the file"},
     {"Move", "Home", "the whole scene"},
     {"Move", "F", "what is selected"},
+    {"Edit", "left mouse button", "select; drag along what the thing stands or hangs on"},
+    {"Edit", "... with Shift", "up and down"},
+    {"Edit", "... with Ctrl", "turn"},
+    {"Edit", "arrows, Page up, down", "nudge what is selected by 1 cm (Shift: 10 cm)"},
+    {"Edit", "R  Shift+R", "turn it by 15 degrees"},
+    {"Edit", "-  +", "dim or brighten the selected lamp, or all lamps, by a third of a stop"},
+    {"Edit", "L", "the lamp off and on"},
+    {"Edit", "Ctrl+Z  Ctrl+Shift+Z", "undo, redo"},
+    {"Edit", "Esc", "put back what is being dragged; select nothing"},
     {"View", "[  ]", "darker, brighter (exposure)"},
     {"View", "\\", "exposure by itself, or fixed"},
     {"View", "T", "next tone curve: AgX, ACES, sRGB"},
@@ -37,13 +46,30 @@ std::optional<Command> ofText(char32_t character) {
         return Command{Action::brighterView};
     case U'\\':
         return Command{Action::autoExposure};
+    case U'-':
+        return Command{Action::dimmer};
+    case U'+':
+    case U'=': // the same key without Shift on many keyboards
+        return Command{Action::brighter};
     default:
         return std::nullopt;
     }
 }
 
-std::optional<Command> ofLetter(char letter, bool control) {
-    if (control) return letter == 'Q' ? std::optional(Command{Action::quit}) : std::nullopt;
+std::optional<Command> ofLetter(char letter, Modifiers modifiers) {
+    const bool shift = modifiers.shift;
+    if (modifiers.control) {
+        switch (letter) {
+        case 'Q':
+            return Command{Action::quit};
+        case 'Z':
+            return Command{shift ? Action::redo : Action::undo};
+        case 'Y':
+            return Command{Action::redo};
+        default:
+            return std::nullopt;
+        }
+    }
     switch (letter) {
     case 'G':
         return Command{Action::gravity};
@@ -53,6 +79,31 @@ std::optional<Command> ofLetter(char letter, bool control) {
         return Command{Action::frame};
     case 'T':
         return Command{Action::nextTone};
+    case 'R':
+        return Command{shift ? Action::turnRight : Action::turnLeft};
+    case 'L':
+        return Command{Action::switchLamp};
+    default:
+        return std::nullopt;
+    }
+}
+
+/// Keys that go on while they are held.
+std::optional<Command> ofHeldKey(Key pressed, bool shift) {
+    const auto nudge = [&](NudgeDirection way) { return Command{Action::nudge, int(way), shift}; };
+    switch (pressed) {
+    case Key::left:
+        return nudge(NudgeDirection::left);
+    case Key::right:
+        return nudge(NudgeDirection::right);
+    case Key::up:
+        return nudge(NudgeDirection::farther);
+    case Key::down:
+        return nudge(NudgeDirection::nearer);
+    case Key::pageUp:
+        return nudge(NudgeDirection::up);
+    case Key::pageDown:
+        return nudge(NudgeDirection::down);
     default:
         return std::nullopt;
     }
@@ -62,6 +113,8 @@ std::optional<Command> ofKey(Key pressed) {
     if (pressed >= key('1') && pressed <= key('9'))
         return Command{Action::bookmark, int(pressed) - int(Key::zero)};
     switch (pressed) {
+    case Key::escape:
+        return Command{Action::cancel};
     case Key::tab:
         return Command{Action::nextMode};
     case Key::home:
@@ -84,8 +137,11 @@ std::span<const HelpLine> helpLines() {
 std::optional<Command> commandOf(const InputEvent& event) {
     if (const auto* text = std::get_if<TextEvent>(&event)) return ofText(text->character);
     const auto* stroke = std::get_if<KeyEvent>(&event);
-    if (!stroke || !stroke->down || stroke->repeat || stroke->modifiers.alt) return std::nullopt;
-    if (const auto command = ofLetter(stroke->letter, stroke->modifiers.control)) return command;
+    if (!stroke || !stroke->down || stroke->modifiers.alt) return std::nullopt;
+    if (!stroke->modifiers.control)
+        if (const auto command = ofHeldKey(stroke->key, stroke->modifiers.shift)) return command;
+    if (stroke->repeat && !stroke->modifiers.control) return std::nullopt;
+    if (const auto command = ofLetter(stroke->letter, stroke->modifiers)) return command;
     return stroke->modifiers.control ? std::nullopt : ofKey(stroke->key);
 }
 

@@ -19,6 +19,15 @@ enum class Action {
     bookmark, ///< with its number
     home,
     frame,
+    cancel,
+    undo,
+    redo,
+    nudge, ///< with its NudgeDirection as number
+    turnLeft,
+    turnRight,
+    dimmer,
+    brighter,
+    switchLamp,
     brighterView,
     darkerView,
     autoExposure,
@@ -33,9 +42,13 @@ struct HelpLine {
 };
 std::span<const HelpLine> helpLines();
 
+/// As seen by the camera.
+enum class NudgeDirection { left, right, nearer, farther, up, down };
+
 struct Command {
     Action action;
-    int number = 0; ///< of a bookmark, from 1
+    int number = 0;    ///< of a bookmark, from 1; see Action
+    bool more = false; ///< Shift: in larger steps
 };
 
 /// The command of a key stroke, if it is one. Letters count as the keyboard's layout has them;

@@ -2,14 +2,19 @@
 #pragma once
 
 #include "viewer/CameraRig.h"
+#include "viewer/Drag.h"
 #include "viewer/MotionControls.h"
+#include "viewer/SceneEdit.h"
 #include "viewer/SceneLoader.h"
+#include "viewer/Selection.h"
 #include "viewer/Shortcuts.h"
 
 #include <glm/glm.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 namespace penumbra {
@@ -33,19 +38,50 @@ public:
     void perform(const Command& command);
     /// Lets time pass.
     void advance(double seconds);
+    double time() const { return time_; } ///< that has passed [s]
 
+    const std::optional<Selection>& selection() const { return selection_; }
+    void select(std::optional<Selection> selection) { selection_ = std::move(selection); }
+    /// The thing that is being dragged.
+    const Transform* inHand() const { return held_ && held_->moving ? held_->node.get() : nullptr; }
+
+    const EditHistory& history() const { return history_; }
+    /// Makes an edit of the scene, such that it can be taken back.
+    void make(const EditHistory::Step& step);
+    /// Makes the selected lamp, or all lamps, so many stops brighter.
+    void brighten(double stops);
+    /// Something else has edited the scene graph: a played animation.
+    void followScene();
+
+    /// Rises with every edit of the scene.
+    std::uint64_t revision() const { return revision_; }
     /// Whether things go on moving without input.
     bool moving() const;
     /// Whether the pointer is to be hidden and let move without end.
     bool wantsPointer() const { return pointerHeld_; }
 
 private:
-    struct Ray {
-        glm::dvec3 origin, direction; ///< direction: unit
+    /// What the left button took hold of.
+    struct Held {
+        std::shared_ptr<Transform> node;
+        ObjectId object;
+        glm::dmat4 before{1.0}; ///< the node's matrix
+        Drag drag;
+        glm::dvec2 from{0.0}; ///< where the button went down [pixel]
+        bool moving = false;  ///< false: not far enough from there yet, it may be a click
     };
-    Ray rayAt(glm::dvec2 position, glm::ivec2 picture) const;
+
+    SightLine sightAt(glm::dvec2 position, glm::ivec2 picture) const;
     void press(const ButtonEvent& button, glm::ivec2 picture);
-    void centreOrbitAt(glm::dvec2 position, glm::ivec2 picture);
+    void release(const ButtonEvent& button);
+    bool takeHold(const ButtonEvent& button, glm::ivec2 picture);
+    void dragTo(const MoveEvent& move, glm::ivec2 picture);
+    void letGo(bool keep);
+    void place(const Selection& selection, const glm::dmat4& toWorld);
+    void nudge(NudgeDirection way, double metres);
+    void turnSelected(double angle);
+    void switchLamps();
+    void changed();
 
     LoadedScene loaded_;
     PlacedScene placed_;
@@ -55,6 +91,12 @@ private:
     std::vector<Bookmark> bookmarks_;
     std::optional<MouseButton> gestureButton_; ///< ends the gesture when it is let go
     bool pointerHeld_ = false;
+    std::optional<Selection> selection_;
+    std::optional<Held> held_;
+    EditHistory history_;
+    std::unordered_map<const Light*, Rgb> switchedOff_; ///< what a lamp was before [nit]
+    double time_ = 0;
+    std::uint64_t revision_ = 1;
 };
 
 } // namespace penumbra

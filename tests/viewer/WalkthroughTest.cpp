@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace penumbra {
 
 namespace {
@@ -25,6 +27,11 @@ ReadyScene field() {
         scene.root->add(placed("stand" + std::to_string(int(x)), pose.toWorld(Compass(UpAxis::z)),
                                {std::make_shared<Camera>("Eye", lens)}));
     }
+    const auto box =
+        movable("box", {polygon("front", {{-.5f, 0, 0}, {.5f, 0, 0}, {.5f, 0, 1}, {-.5f, 0, 1}})});
+    box->setMatrix(glm::translate(glm::dmat4(1.0), {0, 4, 0}));
+    scene.root->add(box);
+    scene.root->add(placed("hook", glm::translate(glm::dmat4(1.0), {-3, 4, 3}), {lamp("lamp")}));
     ready.placed = placeScene(scene);
     ready.rays = std::make_unique<SceneRays>(ready.placed);
     return ready;
@@ -70,6 +77,105 @@ TEST(Walkthrough, TheMiddleButtonCirclesAroundWhatIsUnderThePointer) {
     walk.advance(0.01);
     EXPECT_NEAR(glm::distance(walk.rig().pose().eye, centre), distance, 1e-6);
     EXPECT_GT(std::abs(walk.rig().pose().eye.x), 0.1);
+}
+
+/// Where a place of the scene is in the picture [pixel].
+glm::dvec2 pixelOf(const Walkthrough& walk, glm::dvec3 place) {
+    const View view = walk.rig().view(kPicture.x, kPicture.y);
+    const glm::dvec4 clip = view.worldToClip() * glm::dvec4(place, 1);
+    return glm::dvec2(1 + clip.x / clip.w, 1 - clip.y / clip.w) / 2.0 * glm::dvec2(kPicture);
+}
+
+void press(Walkthrough& walk, glm::dvec2 at, bool down = true) {
+    walk.take(ButtonEvent{.button = MouseButton::left, .down = down, .position = at}, kPicture);
+}
+void moveTo(Walkthrough& walk, glm::dvec2 from, glm::dvec2 to) {
+    walk.take(MoveEvent{.position = to, .moved = to - from}, kPicture);
+}
+
+TEST(Walkthrough, DragsAThingOverTheFloorAndTakesThatBack) {
+    Walkthrough walk(field());
+    const glm::dvec3 hold(0, 4, 0.5), there(1, 5, 0.5);
+    const glm::dvec2 from = pixelOf(walk, hold), to = pixelOf(walk, there);
+    press(walk, from);
+    ASSERT_TRUE(walk.selection());
+    EXPECT_EQ(walk.selection()->objectPath, "/box");
+    EXPECT_EQ(walk.inHand(), nullptr) << "a click, so far";
+    moveTo(walk, from, to);
+    const auto revision = walk.revision();
+    EXPECT_EQ(walk.inHand(), walk.selection()->node.get());
+    press(walk, to, false);
+    EXPECT_EQ(walk.inHand(), nullptr);
+    EXPECT_GT(walk.revision(), 1u);
+    EXPECT_GE(walk.revision(), revision);
+    const auto place = [&] { return glm::dvec3(walk.selection()->node->matrix()[3]); };
+    EXPECT_LT(glm::distance(place(), glm::dvec3(1, 5, 0)), 1e-4);
+    EXPECT_EQ(walk.placed().objects[walk.selection()->object.value].toWorld[3].x, place().x);
+    walk.perform({Action::undo});
+    EXPECT_EQ(place(), glm::dvec3(0, 4, 0));
+    walk.perform({Action::redo});
+    EXPECT_LT(glm::distance(place(), glm::dvec3(1, 5, 0)), 1e-4);
+}
+
+TEST(Walkthrough, EscapePutsBackWhatIsBeingDragged) {
+    Walkthrough walk(field());
+    const glm::dvec2 from = pixelOf(walk, {0, 4, 0.5});
+    press(walk, from);
+    moveTo(walk, from, from + glm::dvec2(100, 0));
+    walk.perform({Action::cancel});
+    EXPECT_EQ(glm::dvec3(walk.selection()->node->matrix()[3]), glm::dvec3(0, 4, 0));
+    EXPECT_EQ(walk.history().undoable(), 0u);
+    moveTo(walk, from, from + glm::dvec2(200, 0)); // the button is still down
+    EXPECT_EQ(glm::dvec3(walk.selection()->node->matrix()[3]), glm::dvec3(0, 4, 0));
+}
+
+TEST(Walkthrough, AClickSelectsAndWhatCannotBeMovedIsLookedAroundWith) {
+    Walkthrough walk(field());
+    const glm::dvec2 floor(400, 580);
+    press(walk, floor);
+    ASSERT_TRUE(walk.selection());
+    EXPECT_EQ(walk.selection()->path, "/floor");
+    moveTo(walk, floor, floor + glm::dvec2(50, 0));
+    walk.advance(0.01);
+    EXPECT_GT(walk.rig().pose().heading, 0.05);
+    EXPECT_EQ(walk.history().undoable(), 0u);
+    walk.perform({Action::nudge, int(NudgeDirection::left)});
+    EXPECT_EQ(walk.history().undoable(), 0u) << "the floor stays";
+}
+
+TEST(Walkthrough, NudgesAndTurnsWhatIsSelected) {
+    Walkthrough walk(field());
+    press(walk, pixelOf(walk, {0, 4, 0.5}));
+    press(walk, pixelOf(walk, {0, 4, 0.5}), false);
+    const auto& matrix = [&]() -> const glm::dmat4& { return walk.selection()->node->matrix(); };
+    walk.perform({Action::nudge, int(NudgeDirection::right), true});
+    EXPECT_LT(glm::distance(glm::dvec3(matrix()[3]), glm::dvec3(0.1, 4, 0)), 1e-12);
+    walk.perform({Action::nudge, int(NudgeDirection::farther)});
+    walk.perform({Action::nudge, int(NudgeDirection::up)});
+    EXPECT_LT(glm::distance(glm::dvec3(matrix()[3]), glm::dvec3(0.1, 4.01, 0.01)), 1e-12);
+    walk.perform({Action::turnLeft});
+    EXPECT_NEAR(matrix()[0].y, std::sin(15 * 3.14159265358979 / 180), 1e-12);
+    walk.perform({Action::undo}); // a burst of keys is one step
+    EXPECT_EQ(matrix()[3], glm::dvec4(0, 4, 0, 1));
+}
+
+TEST(Walkthrough, DimsAndSwitchesLamps) {
+    Walkthrough walk(field());
+    const auto nits = [&] { return walk.placed().lights[0].node->luminance().r; };
+    walk.brighten(-1); // nothing is selected: all lamps
+    EXPECT_FLOAT_EQ(nits(), 50);
+    walk.advance(2);
+    const auto touch = walk.rays().touch({-3, 4, 2}, {0, 0, 1}, 10);
+    ASSERT_TRUE(touch);
+    walk.select(selectionOf(walk.scene(), walk.placed(), *touch));
+    walk.perform({Action::switchLamp});
+    EXPECT_EQ(nits(), 0);
+    walk.perform({Action::switchLamp});
+    EXPECT_FLOAT_EQ(nits(), 50);
+    walk.perform({Action::undo});
+    EXPECT_FLOAT_EQ(nits(), 50) << "off and on again at once is nothing";
+    walk.perform({Action::undo});
+    EXPECT_FLOAT_EQ(nits(), 100);
 }
 
 TEST(Walkthrough, CommandsGoToBookmarksAndSwitchTheWayOfMoving) {
