@@ -12,6 +12,7 @@ find_package(nlohmann_json REQUIRED CONFIG)
 find_package(glfw3 3.3 REQUIRED CONFIG)
 find_package(OpenGL REQUIRED COMPONENTS OpenGL EGL)
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
+pkg_check_modules(imgui REQUIRED IMPORTED_TARGET imgui)
 
 # Debian's OpenSubdivConfig.cmake names a static library that is not shipped, so look for it here.
 find_path(OPENSUBDIV_INCLUDE_DIR opensubdiv/version.h REQUIRED)

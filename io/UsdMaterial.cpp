@@ -51,6 +51,7 @@ UsdSurface UsdMaterials::make(const UsdPrim& prim) {
         diagnostics_.warn(prim.location(), "transparency ignored: the surface blocks light");
     const double cover = (threshold > 0 ? 1 : opacity) * (specularWorkflow ? 1 : 1 - metallic);
     surface.material = std::make_shared<Material>(prim.name);
+    surface.shader = shader->path;
     surface.material->setReflectance(diffuse * float(cover));
     surface.material->setEmission(
         {std::max(emission.r, 0.0f), std::max(emission.g, 0.0f), std::max(emission.b, 0.0f)});

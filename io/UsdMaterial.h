@@ -15,6 +15,7 @@ namespace penumbra {
 struct UsdSurface {
     std::shared_ptr<Material> material; ///< null if nothing in it is understood
     bool invisible = false;             ///< cut out or fully transparent: the faces are not there
+    std::string shader = {};            ///< path of the UsdPreviewSurface it comes from
 };
 
 /// The materials of a stage, each made once and shared by all that is bound to it.

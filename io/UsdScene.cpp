@@ -9,11 +9,13 @@
 #include "io/UsdTracks.h"
 #include "io/UsdXform.h"
 #include "scenegraph/Camera.h"
+#include "scenegraph/Mesh.h"
 #include "scenegraph/Transform.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <unordered_map>
 
 namespace penumbra {
 
@@ -56,14 +58,16 @@ struct Place {
 
 class SceneBuilder {
 public:
-    SceneBuilder(UsdStage& stage, UsdTime time, UsdTracks& tracks)
-        : stage_(stage), tracks_(tracks), time_(time), warnings_(stage.diagnostics()),
-          materials_(stage, time, warnings_), places_(stage.prims().size()) {}
+    SceneBuilder(UsdStage& stage, UsdTime time, UsdTracks& tracks, UsdAddresses& addresses)
+        : stage_(stage), tracks_(tracks), addresses_(addresses), time_(time),
+          warnings_(stage.diagnostics()), materials_(stage, time, warnings_),
+          places_(stage.prims().size()) {}
 
     void build(std::shared_ptr<Group> root) {
         places_[0].container = std::move(root);
         for (std::size_t i = 1; i < stage_.prims().size(); ++i) add(i);
         tracks_.addMaterials(materials_);
+        notePaints();
     }
 
 private:
@@ -83,6 +87,7 @@ private:
         if (leaf && isUsdAreaLight(prim.typeName)) tracks_.addLight(leaf, prim, place.toWorld);
         if (const auto camera = std::dynamic_pointer_cast<Camera>(leaf))
             tracks_.addCamera(camera, prim);
+        if (leaf) noteLeaf(leaf, prim);
         attach(prim, parent, place, transform, leaf);
         places_[index] = std::move(place);
     }
@@ -125,6 +130,7 @@ private:
         transform->setMovable(movable);
         place.toWorld = parent.toWorld * local.matrix;
         tracks_.addTransform(transform, prim, parent.toWorld);
+        addresses_.places.push_back({transform, prim.path});
         return transform;
     }
 
@@ -185,15 +191,57 @@ private:
         choice->add(place.container);
         choice->setVisible(!usdHidden(UsdAttributes(prim, time_)));
         tracks_.addSwitch(choice, prim);
+        addresses_.choices.push_back({choice, prim.path});
         return choice;
+    }
+
+    // Where a leaf comes from; its paint is noted when all materials are known.
+    void noteLeaf(const NodePtr& leaf, const UsdPrim& prim) {
+        if (const auto camera = std::dynamic_pointer_cast<Camera>(leaf))
+            addresses_.eyes.push_back({camera, prim.path});
+        if (const auto light = std::dynamic_pointer_cast<Light>(leaf))
+            addresses_.lamps.push_back({light, nullptr, prim.path});
+        const auto mesh = std::dynamic_pointer_cast<Mesh>(leaf);
+        if (!mesh) return;
+        if (isUsdAreaLight(prim.typeName))
+            addresses_.lamps.push_back({nullptr, mesh->materialOf(0), prim.path});
+        else
+            painted_.push_back({mesh, prim.path, UsdStage::hasApi(prim, "MeshLightAPI")});
+    }
+
+    void notePaints() {
+        std::unordered_map<const Material*, std::size_t> known;
+        for (const auto& [path, surface] : materials_.made()) {
+            if (!surface.material) continue;
+            known[surface.material.get()] = addresses_.paints.size();
+            addresses_.paints.push_back({surface.material, surface.shader, {}});
+        }
+        const std::size_t shaders = addresses_.paints.size();
+        for (const auto& [mesh, path, isLight] : painted_)
+            for (const auto& material : mesh->data().materials) {
+                const auto [entry, isNew] =
+                    known.try_emplace(material.get(), addresses_.paints.size());
+                if (isNew) addresses_.paints.push_back({material, {}, {}});
+                const bool alone = mesh->data().materials.size() == 1 && !isLight;
+                if (entry->second >= shaders && alone)
+                    addresses_.paints[entry->second].meshes.push_back(path);
+            }
     }
 
     UsdStage& stage_;
     UsdTracks& tracks_;
+    UsdAddresses& addresses_;
     UsdTime time_;
     Diagnostics& warnings_;
     UsdMaterials materials_;
     std::vector<Place> places_;
+
+    struct Painted {
+        std::shared_ptr<Mesh> mesh;
+        std::string path;
+        bool isLight;
+    };
+    std::vector<Painted> painted_;
 };
 
 std::optional<double> layerNumber(const UsdLayer& layer, std::string_view key) {
@@ -256,7 +304,10 @@ LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& o
     const UsdTime time =
         options.time ? options.time : layerNumber(stage->rootLayer(), "startTimeCode");
     const auto tracks = std::make_shared<UsdTracks>(stage);
-    SceneBuilder(*stage, time, *tracks).build(scene.root);
+    if (const UsdValue* name = find(stage->rootLayer().metadata, "defaultPrim"))
+        if (name->text()) loaded.addresses.defaultPrim = *name->text();
+    SceneBuilder(*stage, time, *tracks, loaded.addresses).build(scene.root);
+    loaded.files = stage->files();
     if (!tracks->empty()) loaded.animation = tracks;
     loaded.diagnostics = stage->diagnostics().take();
     return loaded;

@@ -1,6 +1,7 @@
 // Loading a scene: USD text to the scene graph.
 #pragma once
 
+#include "io/UsdAddresses.h"
 #include "io/UsdAnimation.h"
 #include "io/UsdDiagnostic.h"
 #include "scenegraph/Scene.h"
@@ -24,6 +25,8 @@ struct LoadedScene {
     std::shared_ptr<Scene> scene;
     std::shared_ptr<UsdAnimation> animation; ///< plays the file's time samples; null: nothing moves
     std::vector<Diagnostic> diagnostics;     ///< what was not understood or left out; see summary()
+    UsdAddresses addresses;                  ///< where in the file the nodes come from
+    std::vector<std::filesystem::path> files; ///< all layers that were read, the file itself first
 };
 
 /// Reads a USD text file as a scene graph. Below the root everything is in metres, in the file's

@@ -35,6 +35,12 @@ UsdStage UsdStage::open(const std::filesystem::path& root, const UsdLayerLimits&
     return stage;
 }
 
+std::vector<std::filesystem::path> UsdStage::files() const {
+    std::vector<std::filesystem::path> files;
+    for (const UsdStackedLayer& stacked : layers_) files.push_back(stacked.layer->file);
+    return files;
+}
+
 const UsdPrim* UsdStage::find(std::string_view path) const {
     const auto found = indexOf_.find(std::string(path));
     return found == indexOf_.end() ? nullptr : &prims_[found->second];

@@ -66,6 +66,8 @@ public:
     const std::vector<UsdPrim>& prims() const { return prims_; }
     const UsdPrim* find(std::string_view path) const;
     const UsdLayer& rootLayer() const { return *layers_.front().layer; }
+    /// The files of all layers, the root layer's first.
+    std::vector<std::filesystem::path> files() const;
     Diagnostics& diagnostics() { return diagnostics_; }
 
     // The strongest opinions on one prim. ------------------------------------------------------

@@ -12,17 +12,7 @@ namespace penumbra {
 const Placed<Camera>* chooseCamera(const PlacedScene& placed, const std::string& path,
                                    const std::string& file) {
     if (path.empty()) return placed.cameras.empty() ? nullptr : &placed.cameras.front();
-    const auto matches = [&](const Placed<Camera>& camera) {
-        // A camera prim with a transform of its own is two nodes of the same name.
-        return camera.path == path || camera.path == path + "/" + camera.node->name();
-    };
-    const auto found = std::find_if(placed.cameras.begin(), placed.cameras.end(), matches);
-    if (found != placed.cameras.end()) return &*found;
-    std::string known;
-    for (const auto& camera : placed.cameras) known += (known.empty() ? "" : ", ") + camera.path;
-    throw SceneFileError({file},
-                         fmt::format("no camera '{}' ({})", path,
-                                     known.empty() ? "the file has none" : "it has " + known));
+    return &placed.cameras[cameraIndex(placed, path, file)];
 }
 
 int heightFor(const PlacedScene& placed, const std::string& path, const std::string& file,

@@ -1,4 +1,5 @@
 #include "tools/Commands.h"
+#include "tools/SceneSolution.h"
 #include "viewer/Viewer.h"
 
 #include <CLI/CLI.hpp>
@@ -7,14 +8,47 @@
 
 namespace penumbra {
 
+namespace {
+
+struct ViewCommand {
+    SolveSettings solve; ///< what of it counts: see addViewCommand()
+    ViewerOptions viewer;
+};
+
+void run(ViewCommand& command) {
+    checkOutputs(command.solve.scene, {command.viewer.record});
+    ViewerOptions& options = command.viewer;
+    options.scene = command.solve.scene;
+    options.frame = command.solve.frame;
+    options.light.meshing = command.solve.meshing;
+    options.light.solving = command.solve.solver;
+    options.light.threads = command.solve.threads;
+    options.said = [&](const std::vector<Diagnostic>& diagnostics) {
+        if (!command.solve.quiet) reportDiagnostics(diagnostics, command.solve.verbose);
+    };
+    runViewer(options);
+}
+
+} // namespace
+
 void addViewCommand(CLI::App& app) {
-    auto options = std::make_shared<ViewerOptions>();
+    auto command = std::make_shared<ViewCommand>();
     CLI::App* const view = app.add_subcommand(
-        "view", "The walkthrough: a window onto a scene. Press ? in it for its keys.\n"
-                "Example: penumbra view scenes/office.usda");
-    view->add_option("SCENE", options->scene, "USD text file (.usda) to walk through")->required();
-    view->add_flag("!--no-vsync", options->vsync, "Draw as many pictures as possible");
-    view->callback([options] { runViewer(*options); });
+        "view", "The walkthrough: a window onto a scene, in which things are moved and the light\n"
+                "follows. Press ? in it for its keys.\n"
+                "Example: penumbra view scenes/office.usda --record take.usda");
+    addSolveOptions(*view, command->solve);
+    for (const char* name : {"--frames", "--from-scratch", "--stats", "--progress"})
+        view->remove_option(view->get_option(name));
+    view->add_option("--camera", command->viewer.camera,
+                     "Path of the camera to begin with (default: the first one)");
+    view->add_option("--record", command->viewer.record,
+                     "Write the session (camera, edits, times) to this file, as a USD layer over\n"
+                     "the scene: view --replay and render --frames play it");
+    view->add_flag("--replay", command->viewer.replay,
+                   "Play the file's animation, such as a recorded session, from its start");
+    view->add_flag("!--no-vsync", command->viewer.vsync, "Draw as many pictures as possible");
+    view->callback([command] { run(*command); });
 }
 
 } // namespace penumbra

@@ -1,5 +1,7 @@
 #include "viewer/CameraRig.h"
 
+#include "scenegraph/Error.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -35,6 +37,19 @@ std::vector<Bookmark> bookmarksOf(const PlacedScene& scene, const Compass& compa
         bookmarks.push_back({camera.path, poseOf(camera.toWorld, compass),
                              inMetres(camera.node->lens(), camera.toWorld)});
     return bookmarks;
+}
+
+std::size_t cameraIndex(const PlacedScene& scene, const std::string& path,
+                        const std::string& file) {
+    std::string known;
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        const Placed<Camera>& camera = scene.cameras[i];
+        if (camera.path == path || camera.path == path + "/" + camera.node->name()) return i;
+        known += (known.empty() ? "" : ", ") + camera.path;
+    }
+    throw SceneFileError({file}, "no camera '" + path + "' (" +
+                                     (known.empty() ? "the file has none" : "it has " + known) +
+                                     ")");
 }
 
 Bookmark openingView(const PlacedScene& scene, UpAxis up) {

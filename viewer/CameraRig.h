@@ -20,6 +20,11 @@ struct Bookmark {
 /// All cameras of a scene, in its order.
 std::vector<Bookmark> bookmarksOf(const PlacedScene& scene, const Compass& compass);
 
+/// The index of a camera among the scene's. A camera prim with a transform of its own is two nodes
+/// of one name, and either path will do. \param file for the message
+/// \throws Error there is none, with those that there are
+std::size_t cameraIndex(const PlacedScene& scene, const std::string& path, const std::string& file);
+
 /// The view a scene begins with: its first camera, or the whole scene from a corner above.
 Bookmark openingView(const PlacedScene& scene, UpAxis up);
 

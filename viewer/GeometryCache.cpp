@@ -26,9 +26,12 @@ GlObject attributeBuffer(LitAttribute attribute, const std::vector<T>& values, G
     return buffer;
 }
 
-void replaceValues(const GlObject& buffer, const std::vector<Rgb>& values) {
+/// Copies values first ... first + count - 1.
+void replaceValues(const GlObject& buffer, const std::vector<Rgb>& values, std::size_t first,
+                   std::size_t count) {
     glBindBuffer(GL_ARRAY_BUFFER, buffer.name());
-    glBufferSubData(GL_ARRAY_BUFFER, 0, GLsizeiptr(values.size() * sizeof(Rgb)), values.data());
+    glBufferSubData(GL_ARRAY_BUFFER, GLintptr(first * sizeof(Rgb)), GLsizeiptr(count * sizeof(Rgb)),
+                    values.data() + first);
 }
 
 /// Indices of all triangles, those of one material after those of another, and where each begins.
@@ -56,7 +59,8 @@ std::vector<std::uint32_t> sortByMaterial(const LitMeshData& mesh,
 
 GpuGeometry::GpuGeometry(const LitGeometry& geometry)
     : vertexArray_(makeVertexArray()), revision_(geometry.revision()),
-      topologyRevision_(geometry.topologyRevision()) {
+      topologyRevision_(geometry.topologyRevision()), blockRevisions_(geometry.blockRevisions()),
+      blockTimes_(blockRevisions_.size(), -1e6f) {
     const LitMeshData& mesh = geometry.data();
     assert(mesh.direct.size() == mesh.positions.size());
     assert(mesh.indirect.size() == mesh.positions.size());
@@ -74,11 +78,26 @@ GpuGeometry::GpuGeometry(const LitGeometry& geometry)
     glBindVertexArray(0);
 }
 
-bool GpuGeometry::refresh(const LitGeometry& geometry) {
-    if (std::exchange(revision_, geometry.revision()) == geometry.revision()) return false;
-    replaceValues(direct_, geometry.data().direct);
-    replaceValues(indirect_, geometry.data().indirect);
-    return true;
+std::size_t GpuGeometry::refresh(const LitGeometry& geometry, double now) {
+    if (std::exchange(revision_, geometry.revision()) == geometry.revision()) return 0;
+    const std::vector<std::uint64_t>& latest = geometry.blockRevisions();
+    const std::size_t vertices = geometry.data().direct.size();
+    std::size_t bytes = 0;
+    for (std::size_t block = 0; block < latest.size(); ++block) {
+        const std::size_t begin = block;
+        while (block < latest.size() && blockRevisions_[block] != latest[block]) {
+            blockTimes_[block] = float(now);
+            ++block;
+        }
+        if (block == begin) continue;
+        const std::size_t first = begin * LitGeometry::kBlock;
+        const std::size_t count = std::min(block * LitGeometry::kBlock, vertices) - first;
+        replaceValues(direct_, geometry.data().direct, first, count);
+        replaceValues(indirect_, geometry.data().indirect, first, count);
+        bytes += 2 * count * sizeof(Rgb);
+    }
+    blockRevisions_ = latest;
+    return bytes;
 }
 
 bool GpuGeometry::sameTopology(const LitGeometry& geometry) const {
@@ -89,7 +108,8 @@ void GpuGeometry::bind() const {
     glBindVertexArray(vertexArray_.name());
 }
 
-void GeometryCache::dropDead() {
+void GeometryCache::dropDead(double now) {
+    now_ = now;
     std::erase_if(entries_, [](const auto& entry) { return entry.second.alive.expired(); });
 }
 
@@ -98,7 +118,9 @@ const GpuGeometry& GeometryCache::get(const DrawItem& item) {
     if (found != entries_.end() && !found->second.gpu.sameTopology(*item.geometry)) {
         entries_.erase(found);
     } else if (found != entries_.end()) {
-        lightUploads_ += found->second.gpu.refresh(*item.geometry);
+        const std::size_t bytes = found->second.gpu.refresh(*item.geometry, now_);
+        lightUploads_ += bytes > 0;
+        lightBytes_ += bytes;
         return found->second.gpu;
     }
     ++uploads_;

@@ -25,19 +25,24 @@ class GpuGeometry {
 public:
     explicit GpuGeometry(const LitGeometry& geometry);
 
-    /// Copies the light again if the geometry was edited since; returns whether it was.
-    bool refresh(const LitGeometry& geometry);
+    /// Copies the light of those blocks again that were edited since; returns how many bytes.
+    /// \param now [s]
+    std::size_t refresh(const LitGeometry& geometry, double now);
 
     /// Whether its triangles are still those of the geometry.
     bool sameTopology(const LitGeometry& geometry) const;
 
     void bind() const;
     const std::vector<MaterialRange>& ranges() const { return ranges_; }
+    /// When the light of each block was copied last, by the time given to refresh() [s].
+    const std::vector<float>& blockTimes() const { return blockTimes_; }
 
 private:
     GlObject vertexArray_, positions_, normals_, direct_, indirect_, indices_;
     std::vector<MaterialRange> ranges_;
     std::uint64_t revision_ = 0, topologyRevision_ = 0;
+    std::vector<std::uint64_t> blockRevisions_; ///< of the light that is in the buffers
+    std::vector<float> blockTimes_;
 };
 
 /// Uploads each geometry once, and afterwards only its light when that has changed. A geometry that
@@ -45,14 +50,15 @@ private:
 /// for free.
 class GeometryCache {
 public:
-    /// Drops what no longer exists. To be called before each frame.
-    void dropDead();
+    /// Drops what no longer exists. To be called before each frame. \param now its time [s]
+    void dropDead(double now = 0);
 
     /// The geometry with its present light.
     const GpuGeometry& get(const DrawItem& item);
 
     std::size_t uploads() const { return uploads_; }           ///< of whole geometries, ever
     std::size_t lightUploads() const { return lightUploads_; } ///< of light alone, ever
+    std::size_t lightBytes() const { return lightBytes_; }     ///< of these, ever
     std::size_t size() const { return entries_.size(); }
 
 private:
@@ -64,6 +70,8 @@ private:
     std::unordered_map<const LitGeometry*, Entry> entries_;
     std::size_t uploads_ = 0;
     std::size_t lightUploads_ = 0;
+    std::size_t lightBytes_ = 0;
+    double now_ = 0;
 };
 
 } // namespace penumbra

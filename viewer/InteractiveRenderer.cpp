@@ -59,6 +59,10 @@ struct InteractiveRenderer::Impl {
     std::optional<HdrTarget> target;
     LuminanceMeter meter;
     TonePass tonePass;
+    OverlayPass overlayPass;
+    Overlay overlay = Overlay::none;
+    float overlayGrey = 1;
+    double now = 0;
     InteractiveStatistics statistics;
 };
 
@@ -111,28 +115,39 @@ InteractiveRenderer::InteractiveRenderer(const InteractiveOptions& options)
 
 InteractiveRenderer::~InteractiveRenderer() = default;
 
-void InteractiveRenderer::drawScene(const Group& root, const View& view,
+void InteractiveRenderer::drawScene(const DrawList& list, const View& view,
                                     const PreviewLighting& preview, int width, int height) {
     assert(width > 0 && height > 0);
     Impl& impl = *impl_;
     impl.requireTarget(width, height);
-    impl.litCache.dropDead();
+    impl.litCache.dropDead(impl.now);
+    impl.overlayPass.dropDead();
+    const std::size_t lightBytes = impl.litCache.lightBytes();
     impl.previewCache.dropDead();
     const std::size_t uploads = impl.litCache.uploads();
     const std::size_t lightUploads = impl.litCache.lightUploads();
-    const DrawList list = listVisible(root, Frustum(view.worldToClip()));
     const std::vector<LitItem> lit = prepareLit(list, view, impl.reversed, impl.litCache);
     {
         const DrawState state(impl.reversed);
         impl.target->begin(state.clearDepth());
         impl.drawLit(lit);
         impl.drawUnlit(list.unlit, view, preview);
+        impl.overlayPass.draw(impl.overlay, lit, impl.overlayGrey, impl.now, impl.reversed);
     }
     impl.target->resolve();
     impl.meter.measure(impl.target->texture());
-    impl.statistics = {lit.size(), list.unlit.size(), list.culled,
+    impl.statistics = {lit.size(),
+                       list.unlit.size(),
+                       list.culled,
                        impl.litCache.uploads() - uploads,
-                       impl.litCache.lightUploads() - lightUploads};
+                       impl.litCache.lightUploads() - lightUploads,
+                       impl.litCache.lightBytes() - lightBytes};
+}
+
+void InteractiveRenderer::setOverlay(Overlay overlay, float middleGrey, double now) {
+    impl_->overlay = overlay;
+    impl_->overlayGrey = middleGrey;
+    impl_->now = now;
 }
 
 void InteractiveRenderer::show(unsigned framebuffer, float middleGrey, ToneStyle style) {

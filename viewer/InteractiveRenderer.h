@@ -2,8 +2,9 @@
 #pragma once
 
 #include "scenegraph/Camera.h"
-#include "scenegraph/Group.h"
+#include "viewer/DrawList.h"
 #include "viewer/HdrTarget.h"
+#include "viewer/OverlayPass.h"
 #include "viewer/PreviewLighting.h"
 #include "viewer/ToneCurve.h"
 
@@ -26,6 +27,7 @@ struct InteractiveStatistics {
     std::size_t culled = 0;       ///< places outside of the view
     std::size_t uploads = 0;      ///< lit geometries copied to the graphics card
     std::size_t lightUploads = 0; ///< of which the light alone was copied
+    std::size_t lightBytes = 0;   ///< of that light: changed blocks only
 };
 
 /// Draws a scene graph many times a second. A frame is
@@ -44,9 +46,14 @@ public:
     InteractiveRenderer(const InteractiveRenderer&) = delete;
     InteractiveRenderer& operator=(const InteractiveRenderer&) = delete;
 
+    /// \param list         what is in view, see listVisible()
     /// \param width,height [pixel], at least 1 \throws Error if the driver can't
-    void drawScene(const Group& root, const View& view, const PreviewLighting& preview, int width,
-                   int height);
+    void drawScene(const DrawList& list, const View& view, const PreviewLighting& preview,
+                   int width, int height);
+
+    /// What drawScene() draws over the lit surfaces. \param middleGrey as for show()
+    /// \param now time that only grows [s]: what the age of light counts by
+    void setOverlay(Overlay overlay, float middleGrey, double now);
 
     /// Shows what was drawn last in `framebuffer` (0: the window), whose lower left corner it
     /// fills.

@@ -1,5 +1,6 @@
 #include "viewer/LitItem.h"
 
+#include "scenegraph/LitGeometry.h"
 #include "viewer/DrawState.h"
 
 #include <epoxy/gl.h>
@@ -32,7 +33,8 @@ std::vector<LitItem> prepareLit(const DrawList& list, const View& view, bool rev
     std::vector<LitItem> items;
     items.reserve(list.items.size());
     for (const DrawItem& item : list.items) // an unordered_map never moves its elements
-        items.push_back({item.geometry, &cache.get(item), DrawPlace(item.toWorld, view, reversed)});
+        items.push_back({item.geometry, &cache.get(item), ownerOf(*item.parent, *item.geometry),
+                         DrawPlace(item.toWorld, view, reversed)});
     return items;
 }
 

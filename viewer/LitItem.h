@@ -8,6 +8,7 @@
 
 #include <glm/glm.hpp>
 
+#include <memory>
 #include <vector>
 
 namespace penumbra {
@@ -32,6 +33,7 @@ void setPlace(const ShaderProgram& program, const DrawPlace& place);
 struct LitItem {
     const LitGeometry* geometry = nullptr;
     const GpuGeometry* gpu = nullptr; ///< in the cache
+    std::weak_ptr<const Node> owner;  ///< of the geometry
     DrawPlace place;
 };
 

@@ -8,9 +8,11 @@ namespace penumbra {
 
 namespace {
 
-ReadyScene readyScene(const std::string& file) {
+ReadyScene readyScene(const std::string& file, std::optional<double> frame) {
     ReadyScene ready;
-    ready.loaded = loadUsdScene(file);
+    LoadOptions options;
+    options.time = frame;
+    ready.loaded = loadUsdScene(file, options);
     ready.placed = placeScene(*ready.loaded.scene);
     if (ready.placed.meshes.empty() && ready.placed.lights.empty())
         throw SceneFileError({file}, "nothing to see: no visible mesh that can be read");
@@ -20,8 +22,8 @@ ReadyScene readyScene(const std::string& file) {
 
 } // namespace
 
-SceneLoader::SceneLoader(std::string file)
-    : file_(std::move(file)), future_(std::async(std::launch::async, readyScene, file_)) {}
+SceneLoader::SceneLoader(std::string file, std::optional<double> frame)
+    : file_(std::move(file)), future_(std::async(std::launch::async, readyScene, file_, frame)) {}
 
 std::optional<ReadyScene> SceneLoader::take() {
     if (!busy() || future_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)

@@ -22,7 +22,8 @@ struct ReadyScene {
 /// Reads a file in a thread of its own. Waits for it at destruction.
 class SceneLoader {
 public:
-    explicit SceneLoader(std::string file);
+    /// \param frame time code at which it is read; none: the file's start
+    explicit SceneLoader(std::string file, std::optional<double> frame = std::nullopt);
 
     /// The scene, once, when it is there. \throws Error what reading it threw
     std::optional<ReadyScene> take();

@@ -46,6 +46,8 @@ public:
     std::optional<Obstacle> ahead(glm::dvec3 from, glm::dvec3 direction,
                                   double reach) const override;
 
+    const RayScene& rays() const { return *rays_; } ///< its objects are the scene's
+
     /// Box around an object as it stands [m, world].
     Bounds bounds(ObjectId object) const;
 

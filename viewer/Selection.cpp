@@ -20,6 +20,8 @@ Selection selectionOf(const Scene& scene, const PlacedScene& placed, const Touch
     selection.object = touch.object;
     selection.objectPath = placed.objects[touch.object.value].path;
     selection.path = touch.path;
+    selection.position = touch.position;
+    selection.normal = touch.normal;
     selection.material = touch.material;
     const std::vector<NodePtr> nodes = nodesAlong(*scene.root, selection.objectPath);
     if (!nodes.empty()) selection.node = std::dynamic_pointer_cast<Transform>(nodes.back());

@@ -18,6 +18,7 @@ struct Selection {
     ObjectId object;
     std::string objectPath;                     ///< "/": what belongs to no object
     std::string path;                           ///< of the mesh or light that was clicked on
+    glm::dvec3 position{0.0}, normal{0.0};      ///< where, when it was clicked [m, world]
     std::shared_ptr<Transform> node;            ///< that begins the object; null: the rest
     std::shared_ptr<Material> material;         ///< of the face; null: of a light
     std::vector<std::shared_ptr<Light>> lights; ///< all lamps of the object

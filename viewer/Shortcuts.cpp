@@ -31,7 +31,13 @@ constexpr std::array kHelp = std::to_array<HelpLine>({
     {"View", "[  ]", "darker, brighter (exposure)"},
     {"View", "\\", "exposure by itself, or fixed"},
     {"View", "T", "next tone curve: AgX, ACES, sRGB"},
+    {"View", "O", "next overlay: element mesh, age of the light"},
+    {"View", "N", "panels on, off"},
     {"View", "F11", "full screen"},
+    {"Scene", "U", "update the light now"},
+    {"Scene", "P", "play the file's animation, pause"},
+    {"Scene", "F5", "read the file again; also when it has been saved"},
+    {"Scene", "F12", "save the picture as EXR and PNG"},
     {"View", "?", "this help"},
     {"View", "Ctrl+Q", "end"},
 });
@@ -83,6 +89,14 @@ std::optional<Command> ofLetter(char letter, Modifiers modifiers) {
         return Command{shift ? Action::turnRight : Action::turnLeft};
     case 'L':
         return Command{Action::switchLamp};
+    case 'N':
+        return Command{Action::panels};
+    case 'O':
+        return Command{Action::nextOverlay};
+    case 'P':
+        return Command{Action::play};
+    case 'U':
+        return Command{Action::update};
     default:
         return std::nullopt;
     }
@@ -121,6 +135,10 @@ std::optional<Command> ofKey(Key pressed) {
         return Command{Action::home};
     case Key::f1:
         return Command{Action::help};
+    case Key::f5:
+        return Command{Action::reload};
+    case Key::f12:
+        return Command{Action::save};
     case Key::f11:
         return Command{Action::fullScreen};
     default:

@@ -11,6 +11,7 @@ namespace penumbra {
 /// What a single key stroke asks for.
 enum class Action {
     help,
+    panels,
     quit,
     fullScreen,
     nextMode,
@@ -32,6 +33,11 @@ enum class Action {
     darkerView,
     autoExposure,
     nextTone,
+    nextOverlay,
+    update,
+    play,
+    save,
+    reload,
 };
 
 /// A line of the help.

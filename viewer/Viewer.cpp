@@ -1,9 +1,18 @@
 #include "viewer/Viewer.h"
 
-#include "viewer/AutoExposure.h"
+#include "scenegraph/Error.h"
+#include "viewer/FileWatcher.h"
+#include "viewer/GuiLayer.h"
 #include "viewer/InteractiveRenderer.h"
+#include "viewer/PanelState.h"
+#include "viewer/Panels.h"
+#include "viewer/PictureSaver.h"
+#include "viewer/Replay.h"
 #include "viewer/SceneLoader.h"
+#include "viewer/SessionFile.h"
 #include "viewer/Signals.h"
+#include "viewer/ViewerSettings.h"
+#include "viewer/WalkLight.h"
 #include "viewer/Walkthrough.h"
 #include "viewer/Window.h"
 
@@ -12,6 +21,7 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 namespace penumbra {
 
@@ -19,6 +29,7 @@ namespace {
 
 constexpr double kLongestStep = 0.1;   // after a stall things don't jump further than this [s]
 constexpr double kIdlePoll = 1.0 / 60; // how long a picture that does not change is kept [s]
+constexpr int kAfterglow = 3;          // pictures that follow the last event: panels need some
 
 using Clock = std::chrono::steady_clock;
 
@@ -31,74 +42,229 @@ bool drawnInSoftware(const Window& window) {
 
 class Viewer {
 public:
-    explicit Viewer(const ViewerOptions& options)
-        : options_(options), name_(std::filesystem::path(options.scene).filename().string()),
-          loader_(options.scene),
-          window_({.title = name_ + " (loading) - Penumbra", .vsync = options.vsync}),
-          renderer_({.samples = options.samples > 0 ? options.samples
-                                                    : (drawnInSoftware(window_) ? 1 : 4)}) {}
+    explicit Viewer(const ViewerOptions& options);
+    ~Viewer();
+    Viewer(const Viewer&) = delete;
+    Viewer& operator=(const Viewer&) = delete;
 
     void run();
 
 private:
     void takeEvents();
     void perform(const Command& command);
+    void doAsAsked();
+    void takeScene();
     void openScene(ReadyScene ready);
+    void lightScene();
+    void reload();
+    void advance(double seconds);
     void draw(double seconds);
+    void drawPanelsOver();
+    void save();
+    void tellTitle();
     bool changing() const;
 
     const ViewerOptions& options_;
-    std::string name_;
+    const std::string name_; ///< of the scene's file
+    ViewerSettings settings_;
     Signals signals_; // before any thread
-    SceneLoader loader_;
+    std::optional<SceneLoader> loader_;
     Window window_;
     InteractiveRenderer renderer_;
-    AutoExposure exposure_;
-    ToneStyle tone_ = ToneStyle::agx;
+    Renderer stills_;
+    PanelState state_;
     std::optional<Walkthrough> walk_;
+    std::optional<WalkLight> light_;
+    std::optional<Replay> replay_;
+    std::optional<SessionFile> session_;
+    FileWatcher watcher_;
     PreviewLighting preview_;
+    std::uint64_t previewOf_ = 0; ///< revision of the walkthrough
     Group nothing_{""};
+    std::optional<GuiLayer> gui_; // after what it draws over
+    std::string title_;
     bool quit_ = false;
-    int stale_ = 2; ///< frames that are to be drawn whether anything changes or not
+    int stale_ = kAfterglow; ///< pictures to be drawn whether anything changes or not
 };
 
+Viewer::Viewer(const ViewerOptions& options)
+    : options_(options), name_(std::filesystem::path(options.scene).filename().string()),
+      settings_(loadSettings()), loader_(std::in_place, options.scene, options.frame),
+      window_({.width = settings_.width,
+               .height = settings_.height,
+               .title = name_ + " (loading) - Penumbra",
+               .vsync = options.vsync}),
+      renderer_(
+          {.samples = options.samples > 0 ? options.samples : (drawnInSoftware(window_) ? 1 : 4)}) {
+    gui_.emplace(window_);
+    state_.sceneName = name_;
+    state_.renderer = window_.renderer();
+    state_.tone = settings_.tone;
+    state_.showPanels = settings_.panels;
+    state_.trigger = settings_.trigger;
+    state_.exposure.setCompensation(settings_.compensation);
+    state_.patchSize = options.light.meshing.patchSize;
+    state_.elementSize = options.light.meshing.elementSize;
+}
+
+Viewer::~Viewer() {
+    if (!window_.fullScreen() && window_.visible()) {
+        settings_.width = int(float(window_.size().x) / window_.contentScale());
+        settings_.height = int(float(window_.size().y) / window_.contentScale());
+    }
+    settings_.tone = state_.tone;
+    settings_.panels = state_.showPanels;
+    settings_.trigger = state_.trigger;
+    settings_.compensation = state_.exposure.compensation();
+    if (walk_) {
+        settings_.walkSpeed = walk_->rig().options.speed;
+        settings_.eyeHeight = walk_->rig().options.eyeHeight;
+        settings_.gravity = walk_->rig().options.gravity;
+        settings_.collision = walk_->rig().options.collision;
+        settings_.sensitivity = walk_->controls().sensitivity;
+    }
+    saveSettings(settings_);
+}
+
+/// The scene, when it has been read; a fault in it ends the program only if there is no other.
+void Viewer::takeScene() {
+    if (!loader_) return;
+    try {
+        auto ready = loader_->take();
+        if (ready) openScene(std::move(*ready));
+        if (!loader_->busy()) loader_.reset();
+    } catch (const Error& error) {
+        loader_.reset();
+        if (!walk_) throw;
+        state_.tell(error.what(), 20);
+    }
+}
+
 void Viewer::openScene(ReadyScene ready) {
-    preview_ = previewLighting(ready.placed);
+    const bool again = walk_.has_value();
+    std::optional<CameraRig> before;
+    if (again) before = walk_->rig();
+    light_.reset();
+    replay_.reset();
+    if (!again && options_.said) options_.said(ready.loaded.diagnostics);
+    watcher_ = FileWatcher(ready.loaded.files);
     walk_.emplace(std::move(ready));
-    window_.setTitle(name_ + " - Penumbra");
-    stale_ = 2;
+    CameraRig& rig = walk_->rig();
+    if (before)
+        rig = *before;
+    else
+        rig.options = {.speed = settings_.walkSpeed,
+                       .gravity = settings_.gravity,
+                       .collision = settings_.collision,
+                       .eyeHeight = settings_.eyeHeight};
+    walk_->controls().sensitivity = settings_.sensitivity;
+    if (!again && !options_.camera.empty()) walk_->goTo(options_.camera, options_.scene);
+    state_.walk = &*walk_;
+    if (walk_->loaded().animation) replay_.emplace(*walk_, options_.replay && !again);
+    state_.hasAnimation = replay_.has_value();
+    if (!again && !options_.record.empty())
+        session_.emplace(*walk_, options_.scene, options_.record);
+    state_.recording = session_.has_value();
+    lightScene();
+    stale_ = kAfterglow;
+}
+
+void Viewer::lightScene() {
+    RadiosityOptions how = options_.light;
+    how.trigger = state_.trigger;
+    how.meshing.patchSize =
+        state_.patchSize > 0 ? state_.patchSize : float(walk_->scene().patchSize);
+    how.meshing.elementSize = state_.elementSize;
+    light_.reset();
+    light_.emplace(*walk_, how);
+}
+
+void Viewer::reload() {
+    if (loader_) return;
+    if (session_) {
+        state_.tell("The file is not read again while a session is being recorded");
+        return;
+    }
+    loader_.emplace(options_.scene, options_.frame);
+    state_.tell("Reading " + name_ + " again");
 }
 
 void Viewer::perform(const Command& command) {
     constexpr float kStop = 1.0f / 3;
+    AutoExposure& exposure = state_.exposure;
     switch (command.action) {
     case Action::quit:
         quit_ = true;
+        break;
+    case Action::help:
+        state_.showHelp = !state_.showHelp;
+        break;
+    case Action::panels:
+        state_.showPanels = !state_.showPanels;
         break;
     case Action::fullScreen:
         window_.setFullScreen(!window_.fullScreen());
         break;
     case Action::brighterView:
-        exposure_.setCompensation(exposure_.compensation() + kStop);
+        exposure.setCompensation(exposure.compensation() + kStop);
         break;
     case Action::darkerView:
-        exposure_.setCompensation(exposure_.compensation() - kStop);
+        exposure.setCompensation(exposure.compensation() - kStop);
         break;
     case Action::autoExposure:
-        exposure_.fix(exposure_.automatic() ? std::optional(exposure_.uncompensated())
-                                            : std::nullopt);
+        exposure.fix(exposure.automatic() ? std::optional(exposure.uncompensated()) : std::nullopt);
         break;
     case Action::nextTone:
-        tone_ = ToneStyle((int(tone_) + 1) % int(kToneStyleNames.size()));
+        state_.tone = ToneStyle((int(state_.tone) + 1) % int(kToneStyleNames.size()));
         break;
+    case Action::nextOverlay:
+        state_.overlay = Overlay((int(state_.overlay) + 1) % int(std::size(kOverlayNames)));
+        break;
+    case Action::update:
+        state_.wantsUpdate = true;
+        break;
+    case Action::save:
+        state_.wantsSave = true;
+        break;
+    case Action::reload:
+        state_.wantsReload = true;
+        break;
+    case Action::play:
+        if (replay_)
+            replay_->toggle(*walk_);
+        else
+            state_.tell("The file has no animation");
+        break;
+    case Action::cancel:
+        if (state_.showHelp) {
+            state_.showHelp = false;
+            break;
+        }
+        [[fallthrough]];
     default:
         if (walk_) walk_->perform(command);
     }
 }
 
+/// What panels and keys asked for.
+void Viewer::doAsAsked() {
+    if (std::exchange(state_.wantsUpdate, false) && light_) light_->requestUpdate();
+    if (std::exchange(state_.wantsSave, false)) save();
+    if (std::exchange(state_.wantsReload, false)) reload();
+    if (std::exchange(state_.wantsRestart, false) && walk_) lightScene();
+    if (light_) light_->setTrigger(state_.trigger);
+}
+
 void Viewer::takeEvents() {
     for (const InputEvent& event : window_.takeEvents()) {
-        stale_ = 2;
+        stale_ = kAfterglow;
+        const auto* const stroke = std::get_if<KeyEvent>(&event);
+        const auto* const button = std::get_if<ButtonEvent>(&event);
+        const bool lets = (stroke && !stroke->down) || (button && !button->down);
+        const bool typed = stroke || std::holds_alternative<TextEvent>(event);
+        if (!lets && typed && gui_->wantsKeyboard()) continue;
+        const bool pointed = button || std::holds_alternative<ScrollEvent>(event);
+        if (!lets && pointed && gui_->wantsPointer()) continue;
         if (const auto command = commandOf(event)) perform(*command);
         if (walk_) walk_->take(event, window_.pixels());
     }
@@ -107,34 +273,109 @@ void Viewer::takeEvents() {
 }
 
 bool Viewer::changing() const {
-    return stale_ > 0 || !exposure_.settled() || (walk_ && walk_->moving());
+    return stale_ > 0 || !state_.exposure.settled() || (walk_ && walk_->moving()) ||
+           (replay_ && replay_->playing()) || gui_->busy() || state_.overlay == Overlay::age;
+}
+
+void Viewer::save() {
+    if (!light_ || light_->state().blocksTaken == 0) {
+        state_.tell("There is no light to be saved yet");
+        return;
+    }
+    const Picture picture{freeStem(std::filesystem::path(name_).stem().string()),
+                          name_,
+                          state_.saveWidth,
+                          state_.saveHeight,
+                          state_.exposure.middleGrey(),
+                          state_.tone};
+    try {
+        savePicture(picture, stills_, light_->lit(),
+                    walk_->rig().view(picture.width, picture.height));
+        const bool whole = light_->state().phase == RadiosityState::Phase::settled;
+        state_.tell("Saved " + picture.stem + ".exr and .png" +
+                    (whole ? "" : ", before the light has settled"));
+    } catch (const Error& error) {
+        state_.tell(error.what(), 15);
+    }
+}
+
+void Viewer::advance(double seconds) {
+    state_.time += seconds;
+    if (!walk_) return;
+    if (replay_) replay_->advance(*walk_, seconds);
+    state_.playing = replay_ && replay_->playing();
+    walk_->advance(seconds);
+    if (session_) session_->take(*walk_);
+    const glm::ivec2 size = glm::max(window_.pixels(), glm::ivec2(1));
+    if (light_->update(*walk_, walk_->rig().view(size.x, size.y))) stale_ = kAfterglow;
+    for (std::string& message : light_->takeMessages()) state_.tell(std::move(message), 15);
+    state_.light = light_->state();
+    if (std::exchange(previewOf_, walk_->revision()) != walk_->revision()) {
+        stale_ = kAfterglow;
+        if (!light_->complete()) preview_ = previewLighting(walk_->placed());
+    }
+    if (watcher_.changed(state_.time)) reload();
+}
+
+/// The title says what the window is busy with, also to those who have it in the background.
+void Viewer::tellTitle() {
+    using Phase = RadiosityState::Phase;
+    const Phase phase = state_.light.phase;
+    const bool done = walk_ && state_.light.queued == 0 &&
+                      (phase == Phase::settled || phase == Phase::off || phase == Phase::failed);
+    const char* const busy = !walk_ ? " (loading)" : done ? "" : " (lighting)";
+    if (std::exchange(title_, name_ + busy + " - Penumbra") != name_ + busy + " - Penumbra")
+        window_.setTitle(title_);
+}
+
+void Viewer::drawPanelsOver() {
+    gui_->begin();
+    drawSelectionBox(state_);
+    drawPanels(state_);
+    drawStatusLine(state_);
+    drawHelp(state_);
+    gui_->end();
 }
 
 void Viewer::draw(double seconds) {
     const glm::ivec2 size = window_.pixels();
-    const Group& root = walk_ ? *walk_->scene().root : nothing_;
     const View view = walk_ ? walk_->rig().view(size.x, size.y) : View{};
-    renderer_.drawScene(root, view, preview_, size.x, size.y);
-    if (const auto luminances = renderer_.luminances(!exposure_.measured() && walk_))
-        exposure_.measure(*luminances);
-    exposure_.advance(seconds);
-    renderer_.show(0, exposure_.middleGrey(), tone_);
+    const Frustum frustum(view.worldToClip());
+    renderer_.setOverlay(state_.overlay, state_.exposure.middleGrey(), state_.time);
+    renderer_.drawScene(light_ ? light_->listVisible(frustum) : listVisible(nothing_, frustum),
+                        view, preview_, size.x, size.y);
+    if (const auto luminances = renderer_.luminances(!state_.exposure.measured() && walk_))
+        state_.exposure.measure(*luminances);
+    state_.exposure.advance(seconds);
+    state_.drawn = renderer_.statistics();
+    renderer_.show(0, state_.exposure.middleGrey(), state_.tone);
+    drawPanelsOver();
     window_.swap();
     stale_ = std::max(0, stale_ - 1);
 }
 
 void Viewer::run() {
     Clock::time_point last = Clock::now();
+    double sinceCertificate = 0;
     while (!quit_ && !window_.closing() && !signals_.endWanted()) {
         window_.poll(changing() ? 0 : kIdlePoll);
         takeEvents();
-        if (auto ready = loader_.take()) openScene(std::move(*ready));
+        takeScene();
+        doAsAsked();
         const Clock::time_point now = Clock::now();
-        const double seconds =
-            std::min(kLongestStep, std::chrono::duration<double>(now - last).count());
+        const double passed = std::chrono::duration<double>(now - last).count();
         last = now;
-        if (walk_) walk_->advance(seconds);
-        if (window_.visible() && changing()) draw(seconds);
+        advance(std::min(kLongestStep, passed));
+        sinceCertificate += passed;
+        if (state_.light.meanRadiosity > 0 && sinceCertificate > 0.25) {
+            const double share = state_.light.certificate / state_.light.meanRadiosity;
+            state_.certificates.add(float(std::log10(std::max(share, 1e-6))));
+            sinceCertificate = 0;
+        }
+        tellTitle();
+        if (!window_.visible() || !changing()) continue;
+        state_.frameMilliseconds.add(float(1000 * passed));
+        draw(std::min(kLongestStep, passed));
     }
 }
 

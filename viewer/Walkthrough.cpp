@@ -255,6 +255,11 @@ void Walkthrough::perform(const Command& command) {
     }
 }
 
+void Walkthrough::goTo(const std::string& cameraPath, const std::string& file) {
+    const Bookmark& there = bookmarks_[cameraIndex(placed_, cameraPath, file)];
+    rig_.put(there.pose, there.lens);
+}
+
 void Walkthrough::advance(double seconds) {
     time_ += seconds;
     rig_.advance(controls_.takeMotion(), seconds, *rays_);

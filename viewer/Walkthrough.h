@@ -24,6 +24,7 @@ class Walkthrough {
 public:
     explicit Walkthrough(ReadyScene ready);
 
+    const LoadedScene& loaded() const { return loaded_; }
     const Scene& scene() const { return *loaded_.scene; }
     const PlacedScene& placed() const { return placed_; }
     const SceneRays& rays() const { return *rays_; }
@@ -36,6 +37,8 @@ public:
     void take(const InputEvent& event, glm::ivec2 picture);
     /// Carries out a command, if it is one for the camera or the scene.
     void perform(const Command& command);
+    /// Goes to a camera at once. \param file for the error message \throws Error there is none
+    void goTo(const std::string& cameraPath, const std::string& file);
     /// Lets time pass.
     void advance(double seconds);
     double time() const { return time_; } ///< that has passed [s]
@@ -43,7 +46,9 @@ public:
     const std::optional<Selection>& selection() const { return selection_; }
     void select(std::optional<Selection> selection) { selection_ = std::move(selection); }
     /// The thing that is being dragged.
-    const Transform* inHand() const { return held_ && held_->moving ? held_->node.get() : nullptr; }
+    std::shared_ptr<const Transform> inHand() const {
+        return held_ && held_->moving ? held_->node : nullptr;
+    }
 
     const EditHistory& history() const { return history_; }
     /// Makes an edit of the scene, such that it can be taken back.

@@ -1,7 +1,13 @@
 #!/usr/bin/env python3
-"""The walkthrough in a real window with real input. Usage: test_window.py PENUMBRA SCENES OUTPUT"""
+"""The walkthrough in a real window with real input. Usage: test_window.py PENUMBRA SCENES OUTPUT
+
+What the display showed is kept in OUTPUT, as PNG where oiiotool is at hand.
+"""
+import array
 import os
 import pathlib
+import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -10,7 +16,7 @@ import time
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import xwindow  # noqa: E402
 
-PENUMBRA, SCENES, OUTPUT = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+PENUMBRA, SCENES, OUTPUT = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
 SKIPPED = 77
 
 
@@ -33,19 +39,77 @@ def without_a_display():
               f"one line that names penumbra render: {done.stderr.strip()}")
 
 
-def opened(display, *arguments):
-    """A running walkthrough whose scene is there."""
-    OUTPUT.mkdir(parents=True, exist_ok=True)
-    program = xwindow.Program([PENUMBRA, "view", *map(str, arguments)], display.environment,
-                              OUTPUT / "view.log")
-    def there():
-        if program.process.poll() is not None:
-            sys.exit("FAILED  it ended: " + program.said())
-        name = display.hands("search", "--name", "Penumbra", "getwindowname")
-        return name and "(loading)" not in name
-    xwindow.until(there, what="the window")
-    display.hands("mousemove", 640, 400)
-    return program
+class View:
+    """A running walkthrough."""
+
+    def __init__(self, display, *arguments):
+        self.display = display
+        environment = dict(display.environment, XDG_CONFIG_HOME=str(OUTPUT / "config"))
+        self.program = xwindow.Program([str(PENUMBRA), "view", *map(str, arguments)], environment,
+                                       OUTPUT / "view.log", OUTPUT)
+        xwindow.until(lambda: "(loading)" not in (self.title() or "(loading)"), what="the window")
+        display.hands("mousemove", 640, 400)
+
+    def title(self):
+        if self.program.process.poll() is not None:
+            sys.exit("FAILED  it ended: " + self.program.said())
+        return self.display.hands("search", "--name", "Penumbra", "getwindowname")
+
+    def lit(self):
+        """Waits until the light has settled."""
+        time.sleep(0.3)  # for the last edit to be noticed
+        xwindow.until(lambda: "(" not in self.title(), seconds=240, what="the light to settle")
+
+    def shot(self, name):
+        """The display, kept as a picture."""
+        self.display.save(OUTPUT / f"{name}.ppm")
+        if shutil.which("oiiotool"):
+            subprocess.run(["oiiotool", OUTPUT / f"{name}.ppm", "-o", OUTPUT / f"{name}.png"],
+                           check=True)
+            (OUTPUT / f"{name}.ppm").unlink()
+        return self.display.pixels()
+
+    def exr(self):
+        """A frame saved by F12: its luminances [nit], row by row."""
+        before = set(OUTPUT.glob("*.exr"))
+        self.display.hands("key", "F12")
+        new = xwindow.until(lambda: set(OUTPUT.glob("*.exr")) - before, what="the EXR file")
+        xwindow.until(lambda: new.copy().pop().with_suffix(".png").exists(), what="the PNG file")
+        return luminances(new.pop())
+
+    def rest(self):
+        """The picture once it has come to rest."""
+        before = self.display.pixels()
+
+        def still():
+            nonlocal before
+            time.sleep(0.3)
+            now = self.display.pixels()
+            same = xwindow.difference(before, now) < 0.05
+            before = now
+            return same and now
+        return xwindow.until(still, what="a picture at rest")
+
+
+def luminances(exr):
+    """The beauty layer of an EXR file as one list of floats."""
+    pfm = exr.with_suffix(".pfm")
+    subprocess.run(["oiiotool", exr, "--ch", "R,G,B", "-o", pfm], check=True)
+    with open(pfm, "rb") as file:
+        assert file.readline() == b"PF\n"
+        file.readline()
+        little = float(file.readline()) < 0
+        values = array.array("f", file.read())
+    pfm.unlink()
+    if little != (sys.byteorder == "little"):
+        values.byteswap()
+    return [0.2126 * r + 0.7152 * g + 0.0722 * b
+            for r, g, b in zip(values[0::3], values[1::3], values[2::3])]
+
+
+def differing(a, b, relative):
+    """The share of pixels whose luminances differ by more than that."""
+    return sum(abs(p - q) > relative * max(p, q, 0.01) for p, q in zip(a, b)) / len(a)
 
 
 def lively(rows):
@@ -53,42 +117,125 @@ def lively(rows):
     return len({row[x:x + 3] for row in rows[::9] for x in range(0, len(row), 27)})
 
 
-def settled(display):
-    """The picture once it has come to rest."""
-    before = display.pixels()
-    def still():
-        nonlocal before
-        time.sleep(0.4)
-        now = display.pixels()
-        same = xwindow.difference(before, now) < 0.02
-        before = now
-        return same and now
-    return xwindow.until(still, what="a picture at rest")
-
-
-def walk(display):
-    program = opened(display, SCENES / "cornell.usda")
-    first = xwindow.until(lambda: lively(display.pixels()) > 50 and settled(display),
-                          what="the first picture")
-    display.save(OUTPUT / "first.ppm")
+def walk_about(display):
+    view = View(display, SCENES / "cornell.usda", "--patch-size", "0.2", "--quiet")
+    xwindow.until(lambda: lively(display.pixels()) > 50, seconds=20, what="the first picture")
+    display.hands("key", "n")  # the panels off
+    view.lit()
+    first = view.rest()
+    view.shot("cornell")
     display.hands("keydown", "w")
     time.sleep(0.4)
     display.hands("keyup", "w")
-    walked = settled(display)
-    display.save(OUTPUT / "walked.ppm")
+    walked = view.rest()
     check(xwindow.difference(first, walked) > 2, "W walks")
     display.hands("mousedown", 3)
     display.hands("mousemove_relative", "--", 60, 20)
     display.hands("mouseup", 3)
-    check(xwindow.difference(walked, settled(display)) > 2, "the right button looks around")
+    check(xwindow.difference(walked, view.rest()) > 2, "the right button looks around")
     display.hands("key", "1")
     time.sleep(1)
-    back = settled(display)
+    back = view.rest()
     check(xwindow.difference(first, back) < 1, "1 goes back to the camera of the file")
     display.hands("type", "]]]")
-    check(xwindow.difference(back, settled(display)) > 5, "] makes the picture brighter")
-    check(program.end(signal.SIGTERM) == 0, "SIGTERM ends it with exit code 0")
-    check(program.said() == "", "and without a word: " + program.said())
+    check(xwindow.difference(back, view.rest()) > 5, "] makes the picture brighter")
+    display.hands("type", "?")
+    view.rest()
+    view.shot("help")
+    check(view.program.end(signal.SIGTERM) == 0, "SIGTERM ends it with exit code 0")
+    check(view.program.said() == "", "and without a word: " + view.program.said())
+    settings = (OUTPUT / "config/penumbra/viewer.conf").read_text()
+    check("compensation = 1\n" in settings and "panels = 0" in settings, "it remembers settings")
+
+
+def orange(rows):
+    """The middle of what is orange like the seat in the office, left of the panels [pixel]."""
+    places = [(x, y) for y, row in enumerate(rows) for x in range(0, 900, 2)
+              if row[3 * x] > 110 and row[3 * x + 1] < 0.62 * row[3 * x]
+              and row[3 * x + 2] < 0.45 * row[3 * x] and y > 350]
+    check(len(places) > 500, "the seat is seen")
+    xs, ys = sorted(x for x, _ in places), sorted(y for _, y in places)
+    return xs[len(xs) // 2], ys[len(ys) // 2]
+
+
+def seat_samples(take):
+    """Where the recorded seat was [m]."""
+    text = take.read_text()
+    seat = text[text.index('over "Seat"'):]
+    block = re.search(r"xformOp:translate:session.timeSamples = \{(.*?)\}", seat, re.S)
+    return [tuple(map(float, place.split(",")))
+            for place in re.findall(r": \(([^)]*)\)", block.group(1))]
+
+
+def office_session(display):
+    take = OUTPUT / "take.usda"
+    view = View(display, SCENES / "office.usda", "--patch-size", "1", "--element-size", "0.5",
+                "--record", take, "--quiet")
+    check(take.exists(), "the recording is there from the start")
+    view.shot("office-first")
+    view.lit()
+    start = view.rest()
+    view.shot("office-lit")
+    still = view.exr()
+    x, y = orange(start)
+    display.hands("mousemove", x, y)
+    display.hands("mousedown", 1)
+    for step in range(1, 9):
+        display.hands("mousemove", x - 12 * step, y + 6 * step)
+    dragged = display.pixels()
+    view.shot("office-dragged")
+    check(xwindow.difference(start, dragged) > 0.5, "the seat follows the pointer")
+    display.hands("mouseup", 1)
+    view.lit()
+    view.rest()
+    view.shot("office-released")
+    moved = view.exr()
+    check(differing(still, moved, 0.05) > 0.02, "the saved frame shows the seat elsewhere")
+    display.hands("key", "ctrl+z")
+    view.lit()
+    back = view.exr()
+    check(differing(still, back, 0.01) < 0.001, "undo brings the picture back")
+    display.hands("key", "ctrl+shift+z")
+    display.hands("key", "Escape")
+    for _ in range(3):  # a stop
+        display.hands("type", "-")
+    view.lit()
+    dimmed = view.exr()
+    ratios = sorted(d / m for d, m in zip(dimmed, moved) if m > 0.1)
+    check(0.49 < ratios[len(ratios) // 2] < 0.53, "three times - halves the light")
+    display.hands("key", "ctrl+z")
+    view.lit()
+    again = view.exr()
+    check(differing(moved, again, 0.01) < 0.001, "one undo takes the dimming back")
+    check(view.program.end() == 0, "SIGTERM in the middle of a recording: exit code 0")
+    check(view.program.said() == "", "and without a word: " + view.program.said())
+    return take, again
+
+
+def replayed(take, last):
+    """The recording, played by another command: it ends with the picture that was seen last."""
+    places = seat_samples(take)
+    off = max(abs(a - b) for a, b in zip(places[0], places[-1]))
+    check(off > 0.1, f"the recorded seat ends {off:.2f} m from where it was")
+    check(max(abs(p[2] - places[0][2]) for p in places) < 1e-9, "it stayed on the floor")
+    text = take.read_text()
+    code = int(float(re.search(r"endTimeCode = (\S+)", text).group(1)))
+    check("inputs:intensity.timeSamples" in text, "the dimmed lamps are in the recording")
+    frame = OUTPUT / "replayed.exr"
+    subprocess.run([PENUMBRA, "render", take, "-o", frame, "--frame", str(code), "--width", "1280",
+                    "--height", "720", "--patch-size", "1", "--element-size", "0.5", "--quiet"],
+                   check=True, timeout=300)
+    check(differing(luminances(frame), last, 0.02) < 0.01,
+          "penumbra render shows the end of the session as the window did")
+
+
+def replay_in_the_window(display, take):
+    view = View(display, take, "--replay", "--patch-size", "1", "--element-size", "0.5", "--quiet")
+    before = view.display.pixels()
+    time.sleep(1)
+    check(lively(before) > 50, "view --replay shows the session")
+    display.hands("key", "ctrl+q")
+    check(view.program.wait() == 0, "Ctrl+Q ends it with exit code 0")
 
 
 def main():
@@ -97,11 +244,13 @@ def main():
     if missing:
         print(f"skipped: no {', '.join(missing)} (scripts/deps installs them)")
         sys.exit(SKIPPED)
+    shutil.rmtree(OUTPUT, ignore_errors=True)
+    OUTPUT.mkdir(parents=True)
     with xwindow.Display() as display:
-        walk(display)
-        program = opened(display, SCENES / "cornell.usda")
-        display.hands("key", "ctrl+q")
-        check(program.wait() == 0, "Ctrl+Q ends it with exit code 0")
+        walk_about(display)
+        take, last = office_session(display)
+        replayed(take, last)
+        replay_in_the_window(display, take)
 
 
 if __name__ == "__main__":

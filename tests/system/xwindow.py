@@ -78,10 +78,11 @@ class Display:
 class Program:
     """A running program; what it says to standard error goes to a file."""
 
-    def __init__(self, arguments, environment, log):
+    def __init__(self, arguments, environment, log, folder):
         self.log = pathlib.Path(log)
         with open(self.log, "wb") as out:
-            self.process = subprocess.Popen(arguments, env=environment, stdout=out, stderr=out)
+            self.process = subprocess.Popen(arguments, env=environment, stdout=out, stderr=out,
+                                            cwd=folder)
 
     def end(self, how=signal.SIGTERM, seconds=60):
         """Asks it to end; its exit code."""

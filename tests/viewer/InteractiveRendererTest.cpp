@@ -19,7 +19,8 @@ protected:
     static constexpr int kSize = 48;
 
     void draw(InteractiveRenderer& interactive, const View& view) {
-        interactive.drawScene(root, view, preview, kSize, kSize);
+        interactive.drawScene(listVisible(root, Frustum(view.worldToClip())), view, preview, kSize,
+                              kSize);
     }
     PreviewLighting preview;
 };

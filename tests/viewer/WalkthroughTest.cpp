@@ -103,7 +103,7 @@ TEST(Walkthrough, DragsAThingOverTheFloorAndTakesThatBack) {
     EXPECT_EQ(walk.inHand(), nullptr) << "a click, so far";
     moveTo(walk, from, to);
     const auto revision = walk.revision();
-    EXPECT_EQ(walk.inHand(), walk.selection()->node.get());
+    EXPECT_EQ(walk.inHand(), walk.selection()->node);
     press(walk, to, false);
     EXPECT_EQ(walk.inHand(), nullptr);
     EXPECT_GT(walk.revision(), 1u);

@@ -1,0 +1,39 @@
+// The recording of a session, safe on disk.
+#pragma once
+
+#include "io/UsdRecording.h"
+
+#include <string>
+
+namespace penumbra {
+
+class Walkthrough;
+
+/// A UsdRecording that is written now and then, and at the end whatever ends it: what was recorded
+/// is lost by a few seconds at worst, also when the program is killed.
+class SessionFile {
+public:
+    static constexpr double kSaveSeconds = 3;
+
+    /// Begins, and writes the layer at once. \throws Error if it can't be written
+    SessionFile(const Walkthrough& walk, const std::string& scene, std::string layer);
+    /// Writes what has not been written; if that fails, one line goes to standard error.
+    ~SessionFile();
+    SessionFile(const SessionFile&) = delete;
+    SessionFile& operator=(const SessionFile&) = delete;
+
+    /// To be called once a frame, after all edits.
+    void take(const Walkthrough& walk);
+
+    const std::string& layer() const { return layer_; }
+
+private:
+    void sample(const Walkthrough& walk);
+
+    UsdRecording recording_;
+    std::string layer_;
+    double start_ = 0, saved_ = 0; ///< of the walkthrough's time [s]
+    bool unsaved_ = false;
+};
+
+} // namespace penumbra
