@@ -5,9 +5,37 @@
 
 #include <imgui.h>
 
-#include <string>
+#include <cstddef>
+#include <span>
+#include <string_view>
 
 namespace penumbra {
+
+namespace {
+
+std::size_t endOfGroup(std::span<const HelpLine> lines, std::size_t first) {
+    std::size_t end = first;
+    while (end < lines.size() && std::string_view(lines[end].group) == lines[first].group) ++end;
+    return end;
+}
+
+void drawGroup(std::span<const HelpLine> lines) {
+    ImGui::BeginGroup();
+    ImGui::TextDisabled("%s", lines.front().group);
+    if (ImGui::BeginTable(lines.front().group, 2, ImGuiTableFlags_SizingFixedFit)) {
+        for (const HelpLine& line : lines) {
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            ImGui::Text("%s  ", line.keys);
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(line.text);
+        }
+        ImGui::EndTable();
+    }
+    ImGui::EndGroup();
+}
+
+} // namespace
 
 void drawHelp(PanelState& state) {
     if (!state.showHelp) return;
@@ -16,23 +44,14 @@ void drawHelp(PanelState& state) {
     ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x * 0.95f, display.y * 0.95f});
     if (ImGui::Begin("Keys", &state.showHelp,
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
-                         ImGuiWindowFlags_NoMove) &&
-        ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-        std::string group;
-        for (const HelpLine& line : helpLines()) {
-            ImGui::TableNextRow();
-            if (group != line.group) {
-                group = line.group;
-                ImGui::TableNextColumn();
-                ImGui::TextDisabled("%s", line.group);
-                ImGui::TableNextRow();
-            }
-            ImGui::TableNextColumn();
-            ImGui::Text("%s   ", line.keys);
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted(line.text);
+                         ImGuiWindowFlags_NoMove)) {
+        const std::span<const HelpLine> lines = helpLines();
+        for (std::size_t first = 0, group = 0; first < lines.size(); ++group) {
+            const std::size_t end = endOfGroup(lines, first);
+            drawGroup(lines.subspan(first, end - first));
+            if (group % 2 == 0) ImGui::SameLine(0, 2 * ImGui::GetFontSize());
+            first = end;
         }
-        ImGui::EndTable();
     }
     ImGui::End();
 }

@@ -34,12 +34,12 @@ constexpr std::array kHelp = std::to_array<HelpLine>({
     {"View", "O", "next overlay: element mesh, age of the light"},
     {"View", "N", "panels on, off"},
     {"View", "F11", "full screen"},
+    {"View", "?", "this help"},
+    {"View", "Ctrl+Q", "end"},
     {"Scene", "U", "update the light now"},
     {"Scene", "P", "play the file's animation, pause"},
     {"Scene", "F5", "read the file again; also when it has been saved"},
     {"Scene", "F12", "save the picture as EXR and PNG"},
-    {"View", "?", "this help"},
-    {"View", "Ctrl+Q", "end"},
 });
 
 std::optional<Command> ofText(char32_t character) {

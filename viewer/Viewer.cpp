@@ -1,5 +1,6 @@
 #include "viewer/Viewer.h"
 
+#include "radiosity/process/ProcessLink.h"
 #include "scenegraph/Error.h"
 #include "viewer/FileWatcher.h"
 #include "viewer/GuiLayer.h"
@@ -149,6 +150,7 @@ void Viewer::openScene(ReadyScene ready) {
     if (!again && options_.said) options_.said(ready.loaded.diagnostics);
     watcher_ = FileWatcher(ready.loaded.files);
     walk_.emplace(std::move(ready));
+    previewOf_ = 0;
     CameraRig& rig = walk_->rig();
     if (before)
         rig = *before;
@@ -176,7 +178,7 @@ void Viewer::lightScene() {
         state_.patchSize > 0 ? state_.patchSize : float(walk_->scene().patchSize);
     how.meshing.elementSize = state_.elementSize;
     light_.reset();
-    light_.emplace(*walk_, how);
+    light_.emplace(*walk_, how, makeProcessLink());
 }
 
 void Viewer::reload() {

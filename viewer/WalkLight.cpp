@@ -1,6 +1,5 @@
 #include "viewer/WalkLight.h"
 
-#include "radiosity/process/LightingLink.h"
 #include "scenegraph/Light.h"
 #include "viewer/Walkthrough.h"
 
@@ -10,9 +9,10 @@
 
 namespace penumbra {
 
-WalkLight::WalkLight(const Walkthrough& walk, const RadiosityOptions& options)
+WalkLight::WalkLight(const Walkthrough& walk, const RadiosityOptions& options,
+                     std::unique_ptr<LightingLink> link)
     : scene_(*walk.scene().root),
-      node_(std::make_shared<RadiosityNode>("lit", options, makeThreadLink())),
+      node_(std::make_shared<RadiosityNode>("lit", options, std::move(link))),
       trigger_(options.trigger) {
     node_->add(walk.scene().root);
 }

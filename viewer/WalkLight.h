@@ -2,6 +2,7 @@
 #pragma once
 
 #include "radiosity/RadiosityNode.h"
+#include "radiosity/process/LightingLink.h"
 #include "scenegraph/Frustum.h"
 #include "viewer/DrawList.h"
 
@@ -18,7 +19,9 @@ class Walkthrough;
 class WalkLight {
 public:
     /// \param walk its scene must outlive this
-    WalkLight(const Walkthrough& walk, const RadiosityOptions& options);
+    /// \param link where the light is computed: a process, or, for tests, a thread
+    WalkLight(const Walkthrough& walk, const RadiosityOptions& options,
+              std::unique_ptr<LightingLink> link);
     ~WalkLight();
     WalkLight(const WalkLight&) = delete;
     WalkLight& operator=(const WalkLight&) = delete;

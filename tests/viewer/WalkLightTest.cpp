@@ -109,7 +109,7 @@ RadiosityOptions coarse(Trigger trigger = Trigger::continuous) {
 
 TEST_F(WalkLightTest, FirstEverythingIsListedUnlitAndThenLitAndNothingTwice) {
     Walkthrough walk(load(file()));
-    WalkLight light(walk, coarse());
+    WalkLight light(walk, coarse(), makeThreadLink());
     EXPECT_EQ(listOf(light, walk).items.size(), 0u);
     EXPECT_EQ(listOf(light, walk).unlit.size(), 3u) << "floor, box and lamp, before any update";
     light.update(walk, viewOf(walk));
@@ -124,7 +124,7 @@ TEST_F(WalkLightTest, FirstEverythingIsListedUnlitAndThenLitAndNothingTwice) {
 
 TEST_F(WalkLightTest, WhatIsInTheHandIsHeldBackUntilItIsLetGo) {
     Walkthrough walk(load(file()));
-    WalkLight light(walk, coarse(Trigger::implicit));
+    WalkLight light(walk, coarse(Trigger::implicit), makeThreadLink());
     settle(light, walk);
     const auto updates = light.state().updates;
     walk.take(ButtonEvent{.button = MouseButton::left, .down = true, .position = {32, 24}},
@@ -194,7 +194,7 @@ TEST_F(WalkLightTest, WhoHasMovedAwayFromThePlayedCameraIsLeftAlone) {
 
 TEST_F(WalkLightTest, ASavedPictureIsTheLitFrameInBothFormats) {
     Walkthrough walk(load(file()));
-    WalkLight light(walk, coarse());
+    WalkLight light(walk, coarse(), makeThreadLink());
     settle(light, walk);
     const std::string stem = freeStem(file("shot"));
     EXPECT_EQ(stem, file("shot-0001"));
