@@ -45,10 +45,8 @@ public:
 
     const std::optional<Selection>& selection() const { return selection_; }
     void select(std::optional<Selection> selection) { selection_ = std::move(selection); }
-    /// The thing that is being dragged.
-    std::shared_ptr<const Transform> inHand() const {
-        return held_ && held_->moving ? held_->node : nullptr;
-    }
+    /// The thing that somebody has taken hold of, from before it moves.
+    std::shared_ptr<const Transform> inHand() const { return held_ ? held_->node : nullptr; }
 
     const EditHistory& history() const { return history_; }
     /// Makes an edit of the scene, such that it can be taken back.

@@ -46,8 +46,8 @@ TEST(ViewerSettings, LieWhereXdgSays) {
     std::filesystem::remove_all(folder);
     EXPECT_EQ(loadSettings(), ViewerSettings{}) << "no file, no error";
     setenv("XDG_CONFIG_HOME", "relative", 1); // must be ignored
-    setenv("HOME", "/nowhere", 1);
-    EXPECT_EQ(settingsFile(), "/nowhere/.config/penumbra/viewer.conf");
+    setenv("HOME", "/dev/null", 1);           // where not even root can write
+    EXPECT_EQ(settingsFile(), "/dev/null/.config/penumbra/viewer.conf");
     EXPECT_FALSE(saveSettings({}));
 }
 

@@ -47,6 +47,7 @@ def RectLight "Lamp"
 }
 def Camera "Eye"
 {
+    float focalLength = 14
     float2 clippingRange = (0.01, 100)
     double3 xformOp:translate = (0, -4, 1.5)
     float xformOp:rotateX = 75
@@ -131,6 +132,7 @@ TEST_F(WalkLightTest, WhatIsInTheHandIsHeldBackUntilItIsLetGo) {
               kPicture);
     ASSERT_TRUE(walk.selection());
     ASSERT_EQ(walk.selection()->objectPath, "/Box");
+    light.update(walk, viewOf(walk));
     for (const double x : {40.0, 44.0, 48.0}) {
         walk.take(MoveEvent{.position = {x, 24}, .moved = {4, 0}}, kPicture);
         light.update(walk, viewOf(walk));

@@ -100,7 +100,8 @@ TEST(Walkthrough, DragsAThingOverTheFloorAndTakesThatBack) {
     press(walk, from);
     ASSERT_TRUE(walk.selection());
     EXPECT_EQ(walk.selection()->objectPath, "/box");
-    EXPECT_EQ(walk.inHand(), nullptr) << "a click, so far";
+    EXPECT_EQ(walk.inHand(), walk.selection()->node) << "before it moves";
+    EXPECT_EQ(walk.revision(), 1u) << "a click, so far";
     moveTo(walk, from, to);
     const auto revision = walk.revision();
     EXPECT_EQ(walk.inHand(), walk.selection()->node);
