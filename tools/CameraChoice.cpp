@@ -1,8 +1,6 @@
 #include "tools/CameraChoice.h"
 
-#include "io/UsdScene.h"
-
-#include <fmt/format.h>
+#include "viewer/CameraRig.h"
 
 #include <algorithm>
 #include <cmath>

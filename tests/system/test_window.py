@@ -3,12 +3,12 @@
 
 What the display showed is kept in OUTPUT, as PNG where oiiotool is at hand.
 """
-import array
 import os
 import pathlib
 import re
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import time
@@ -92,19 +92,28 @@ class View:
 
 
 def luminances(exr):
-    """The beauty layer of an EXR file as one list of floats."""
-    pfm = exr.with_suffix(".pfm")
-    subprocess.run(["oiiotool", exr, "--ch", "R,G,B", "-o", pfm], check=True)
-    with open(pfm, "rb") as file:
-        assert file.readline() == b"PF\n"
-        file.readline()
-        little = float(file.readline()) < 0
-        values = array.array("f", file.read())
-    pfm.unlink()
-    if little != (sys.byteorder == "little"):
-        values.byteswap()
-    return [0.2126 * r + 0.7152 * g + 0.0722 * b
-            for r, g, b in zip(values[0::3], values[1::3], values[2::3])]
+    """The luminances of an EXR file's beauty layer as one list of floats."""
+    tiff = exr.with_suffix(".tif")
+    subprocess.run(["oiiotool", exr, "--ch", "R,G,B", "--chsum:weight=0.2126,0.7152,0.0722",
+                    "--compression", "none", "-d", "float", "-o", tiff], check=True)
+    data = tiff.read_bytes()
+    tiff.unlink()
+    order = "<" if data[:2] == b"II" else ">"
+    first, = struct.unpack_from(order + "I", data, 4)
+    count, = struct.unpack_from(order + "H", data, first)
+    fields = {}
+    for i in range(count):  # tag -> the numbers it has; 3: 16 bits, 4: 32 bits
+        tag, kind, size = struct.unpack_from(order + "HHI", data, first + 2 + 12 * i)
+        letter = {3: "H", 4: "I"}.get(kind)
+        if letter:
+            at = first + 10 + 12 * i
+            if struct.calcsize(letter) * size > 4:
+                at, = struct.unpack_from(order + "I", data, at)
+            fields[tag] = struct.unpack_from(f"{order}{size}{letter}", data, at)
+    values = []
+    for offset, size in zip(fields[273], fields[279]):  # strips
+        values += struct.unpack_from(f"{order}{size // 4}f", data, offset)
+    return values
 
 
 def differing(a, b, relative):
