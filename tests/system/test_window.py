@@ -126,6 +126,14 @@ def lively(rows):
     return len({row[x:x + 3] for row in rows[::9] for x in range(0, len(row), 27)})
 
 
+def at_the_camera(view, first):
+    """Presses 1, which goes to the camera of the file: the picture is again as it was at first."""
+    view.display.hands("key", "1")
+    xwindow.until(lambda: xwindow.difference(first, view.display.pixels()) < 1, seconds=20,
+                  what="the first camera's picture, exposure and all, after 1")
+    return view.rest()
+
+
 def walk_about(display):
     view = View(display, SCENES / "cornell.usda", "--patch-size", "0.2", "--quiet")
     xwindow.until(lambda: lively(display.pixels()) > 50, seconds=20, what="the first picture")
@@ -134,18 +142,17 @@ def walk_about(display):
     first = view.rest()
     view.shot("cornell")
     display.hands("keydown", "w")
-    time.sleep(0.4)
+    time.sleep(0.2)
     display.hands("keyup", "w")
-    walked = view.rest()
-    check(xwindow.difference(first, walked) > 2, "W walks")
+    check(xwindow.difference(first, view.rest()) > 2, "W walks")
+    view.shot("cornell-walked")
+    back = at_the_camera(view, first)
     display.hands("mousedown", 3)
     display.hands("mousemove_relative", "--", 60, 20)
     display.hands("mouseup", 3)
-    check(xwindow.difference(walked, view.rest()) > 2, "the right button looks around")
-    display.hands("key", "1")
-    time.sleep(1)
-    back = view.rest()
-    check(xwindow.difference(first, back) < 1, "1 goes back to the camera of the file")
+    check(xwindow.difference(back, view.rest()) > 2, "the right button looks around")
+    view.shot("cornell-looked")
+    back = at_the_camera(view, first)
     display.hands("type", "]]]")
     check(xwindow.difference(back, view.rest()) > 5, "] makes the picture brighter")
     display.hands("type", "?")
@@ -240,9 +247,9 @@ def replayed(take, last):
 
 def replay_in_the_window(display, take):
     view = View(display, take, "--replay", "--patch-size", "1", "--element-size", "0.5", "--quiet")
-    before = view.display.pixels()
-    time.sleep(1)
-    check(lively(before) > 50, "view --replay shows the session")
+    xwindow.until(lambda: lively(view.display.pixels()) > 50, seconds=20,
+                  what="the first picture of the session")
+    print("ok      view --replay shows the session")
     display.hands("key", "ctrl+q")
     check(view.program.wait() == 0, "Ctrl+Q ends it with exit code 0")
 
