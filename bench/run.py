@@ -17,7 +17,7 @@ DIRECT = ["elements", "lamps", "mesh_s", "direct_s", "direct_cpu_s", "rays", "Mr
           "cpu_ns_per_element_lamp", "row_bytes_per_element_lamp", "peak_bytes_per_element_lamp",
           "peak_MB"]
 INDIRECT = ["patches", "elements", "nodes", "shots", "certificate", "mean_radiosity", "indirect_s",
-            "indirect_cpu_s", "rays", "Mrays_per_s", "entries", "bytes_per_entry", "rows_MB",
+            "rays", "Mrays_per_s", "entries", "bytes_per_entry", "rows_MB",
             "detail_s", "detail_cpu_s", "detail_rays", "peak_MB"]
 EDIT = ["elements", "lamps", "scratch_s", "scratch_cpu_s", "update_s", "update_cpu_s", "place_s",
         "follow_s", "settle_s", "time_ratio", "time_ratio_cpu", "scratch_rays", "update_rays",
