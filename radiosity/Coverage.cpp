@@ -4,7 +4,7 @@
 #include "radiosity/Shaft.h"
 
 #include <algorithm>
-#include <numeric>
+#include <limits>
 
 namespace penumbra {
 
@@ -22,20 +22,7 @@ void makeUnique(std::vector<std::uint32_t>& items) {
 Coverage::Coverage(PatchSet& set, const RayScene& rays)
     : set_(set), rays_(rays), resolver_(rays, set.rayMeshes, set.skin, set.vertices),
       shared_(set.uncoveredElements), fans_(fansOf(shared_, set.vertices.size())),
-      nodePatchFirst_(set.nodes.size() + 1) {
-    const auto forEachNode = [&](auto visit) {
-        for (std::uint32_t p = 0; p < set_.patches.size(); ++p) {
-            const Patch& patch = set_.patches[p];
-            visit(patch.centreNode, p);
-            if (patch.hasCornerNodes)
-                for (std::uint32_t node : patch.cornerNodes) visit(node, p);
-        }
-    };
-    forEachNode([&](std::uint32_t n, std::uint32_t) { ++nodePatchFirst_[n + 1]; });
-    std::partial_sum(nodePatchFirst_.begin(), nodePatchFirst_.end(), nodePatchFirst_.begin());
-    nodePatches_.resize(nodePatchFirst_.back());
-    std::vector<std::uint32_t> next(nodePatchFirst_.begin(), nodePatchFirst_.end() - 1);
-    forEachNode([&](std::uint32_t n, std::uint32_t p) { nodePatches_[next[n]++] = p; });
+      nodePatches_(set) {
     orderElements();
 
     std::vector<std::uint32_t> near;
@@ -244,8 +231,8 @@ void Coverage::settleNode(std::uint32_t node, Change& change) {
     if (part.present && !free && (part.movable || set_.objects[by.value].movable)) {
         const glm::vec3 place = wanted.position;
         float nearest = std::numeric_limits<float>::infinity();
-        for (std::uint32_t i = nodePatchFirst_[node]; i < nodePatchFirst_[node + 1]; ++i) {
-            const Patch& patch = set_.patches[nodePatches_[i]];
+        for (const std::uint32_t p : nodePatches_.of(node)) {
+            const Patch& patch = set_.patches[p];
             for (std::uint32_t j = 0; j < patch.elementCount; ++j) {
                 const std::uint32_t e = set_.patchElements[patch.firstElement + j];
                 if (set_.covered[e]) continue;

@@ -3,6 +3,7 @@
 
 #include "radiosity/BoundsTree.h"
 #include "radiosity/Contact.h"
+#include "radiosity/NodePatches.h"
 #include "radiosity/PatchSet.h"
 #include "radiosity/RayScene.h"
 
@@ -52,7 +53,7 @@ private:
     ContactResolver resolver_;
     const std::vector<Element>& shared_; ///< elements as they are when nothing movable is near
     Fans fans_;                          ///< of those
-    std::vector<std::uint32_t> nodePatchFirst_, nodePatches_;
+    NodePatches nodePatches_;
     std::vector<std::uint32_t> order_;      ///< elements, object by object along a curve
     std::vector<ObjectId> chunkObject_;     ///< kChunk consecutive ones of one object
     std::vector<std::uint32_t> chunkFirst_; ///< into order_; one more than chunks

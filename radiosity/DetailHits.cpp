@@ -8,7 +8,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace penumbra {
 
@@ -44,21 +43,8 @@ struct DetailHits::Looks {
 
 DetailHits::DetailHits(const PatchSet& patches)
     : patches_(patches), surface_(patches), rays_(patches, surface_, patches.patchSize),
-      fans_(fansOf(patches.uncoveredElements, patches.vertices.size())),
-      nodePatchFirst_(patches.nodes.size() + 1), boxes_(patches.objects.size()) {
-    const auto forEachNode = [&](auto visit) {
-        for (std::uint32_t p = 0; p < patches_.patches.size(); ++p) {
-            const Patch& patch = patches_.patches[p];
-            visit(patch.centreNode, p);
-            if (patch.hasCornerNodes)
-                for (std::uint32_t node : patch.cornerNodes) visit(node, p);
-        }
-    };
-    forEachNode([&](std::uint32_t n, std::uint32_t) { ++nodePatchFirst_[n + 1]; });
-    std::partial_sum(nodePatchFirst_.begin(), nodePatchFirst_.end(), nodePatchFirst_.begin());
-    nodePatches_.resize(nodePatchFirst_.back());
-    std::vector<std::uint32_t> next(nodePatchFirst_.begin(), nodePatchFirst_.end() - 1);
-    forEachNode([&](std::uint32_t n, std::uint32_t p) { nodePatches_[next[n]++] = p; });
+      fans_(fansOf(patches.uncoveredElements, patches.vertices.size())), nodePatches_(patches),
+      boxes_(patches.objects.size()) {
     for (std::uint32_t o = 0; o < boxes_.size(); ++o) boxes_[o] = boxOf(o);
     resize();
 }
@@ -149,8 +135,7 @@ bool DetailHits::workOnNodes(std::size_t effort) {
         ways.push_back(outcomes[i].ways);
         for (std::uint32_t left = outcomes[i].changed; left != 0; left &= left - 1) {
             const std::uint32_t n = groups[i] * kGroup + std::uint32_t(std::countr_zero(left));
-            for (std::uint32_t k = nodePatchFirst_[n]; k < nodePatchFirst_[n + 1]; ++k)
-                lookAgain(nodePatches_[k], false);
+            for (const std::uint32_t p : nodePatches_.of(n)) lookAgain(p, false);
         }
     }
     groupsVisited_ += ways.size();

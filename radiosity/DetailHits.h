@@ -4,6 +4,7 @@
 #include "radiosity/Contact.h"
 #include "radiosity/DetailRays.h"
 #include "radiosity/DrawnSurface.h"
+#include "radiosity/NodePatches.h"
 #include "radiosity/OpenGroups.h"
 #include "radiosity/PatchSet.h"
 #include "radiosity/SceneChange.h"
@@ -110,7 +111,7 @@ private:
     DrawnSurface surface_;
     DetailRays rays_;
     Fans fans_; ///< of the shared vertices
-    std::vector<std::uint32_t> nodePatchFirst_, nodePatches_;
+    NodePatches nodePatches_;
     std::vector<Bounds> boxes_; ///< of objects as drawn, a hair larger; empty: not there
     OpenGroups openNodes_, openVertices_;
 

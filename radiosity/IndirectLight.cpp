@@ -1,11 +1,7 @@
-// After [Cohen1988] (progressive refinement) in the form of Southwell's relaxation (Gortler, Cohen
-// & Slusallek, IEEE CG&A 14(6), 1994). Departures: senders shoot in batches of a fixed size, so
-// that receivers can be worked on side by side; a patch receives at its middle and its corners; its
-// first shot sends more than it owes, by what the ambient estimate says will come (Shao & Badler
-// 1993, Xu & Fussell 1994 call this overshooting).
+// R = E + rho F S - S: what patches reflect, what they owe, and how edits change it. The shots are
+// in IndirectShots.cpp.
 #include "radiosity/IndirectLight.h"
 
-#include "importance/WorkOrder.h"
 #include "radiosity/DirectLight.h"
 #include "radiosity/Parallel.h"
 #include "radiosity/SenderSamples.h"
@@ -18,47 +14,13 @@ namespace penumbra {
 namespace {
 
 constexpr std::uint32_t kBlock = PatchSet::kBlock;
-/// Senders shot at a time: a share of them all, for choosing them goes through all.
-constexpr std::size_t kLeastBatch = 32, kMostBatch = 1024, kBatchShare = 32;
 /// Mean over a patch from its middle and its four corners: Simpson's rule in two dimensions with
 /// the edge points left out, exact for quadratics.
 constexpr double kMiddleWeight = 2.0 / 3.0;
-/// What serving a block of a row costs that is there, and of one that is not [rays].
-constexpr std::size_t kServe = 8, kBuild = 100;
 
 glm::dvec3 toDouble(Rgb c) {
     return {c.r, c.g, c.b};
 }
-double largest(glm::dvec3 v) {
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
-double largest(const SenderLight& light) {
-    return std::max({largest(light[0]), largest(light[1]), largest(light[2]), largest(light[3])});
-}
-
-/// Calls visit(receiver, form factor times visibility, what that makes of `light`).
-template <class Visit>
-void forEachReceived(const RowBlock& block, const SenderLight& light, const Visit& visit) {
-    if (!block.isParted()) {
-        block.forEach([&](int r, float factor) { visit(r, factor, double(factor) * light[0]); });
-        return;
-    }
-    // Sum over the quarters, put by the shares that the first one, two and three of them have.
-    const glm::dvec3 steps[3] = {(light[0] - light[1]) / 255.0, (light[1] - light[2]) / 255.0,
-                                 (light[2] - light[3]) / 255.0};
-    block.forEachParted([&](int r, float factor, RowBlock::Split split) {
-        visit(r, factor,
-              double(factor) * (light[3] + double(split[0]) * steps[0] +
-                                double(split[1]) * steps[1] + double(split[2]) * steps[2]));
-    });
-}
-
-/// Names a node of an object: 32 bits of the object's key and the node's index.
-std::uint32_t keyOf(const ObjectPart& part, std::uint32_t index) {
-    return std::uint32_t(part.key ^ part.key >> 32) + index;
-}
-
 } // namespace
 
 IndirectLight::IndirectLight(const PatchSet& set, const RayScene& rays, const DirectLight& direct,
@@ -89,7 +51,7 @@ ReceiverBlock IndirectLight::receiversOf(std::uint32_t sender, std::uint32_t blo
         part.present && senders_.present(sender) && senders_.linked(sender, linkBoxes_[block]);
     return {std::span(set_.nodes).subspan(block * kBlock, kBlock),
             lit ? reached_[block] : 0,
-            keyOf(part, block * kBlock - part.nodes.first),
+            pieceKey(part, block * kBlock - part.nodes.first),
             {}};
 }
 
@@ -386,44 +348,6 @@ void IndirectLight::coloursChanged() {
     gain_ = 1 / (1 - double(most));
 }
 
-/// The most power first, of those that owe too much: large patches that owe next to nothing would
-/// be served again and again before small ones that owe a lot.
-std::vector<std::uint32_t> IndirectLight::chooseSenders(double enough) const {
-    std::vector<double> power(senders_.count());
-    for (std::uint32_t s = 0; s < power.size(); ++s)
-        if (largest(residuals_[s]) > enough)
-            power[s] = largest(residuals_[s]) * double(senders_.area(s));
-    return mostValuable(power, batch());
-}
-
-std::size_t IndirectLight::batch() const {
-    return std::clamp<std::size_t>(senders_.count() / kBatchShare, kLeastBatch, kMostBatch);
-}
-
-bool IndirectLight::relax(std::size_t effort, double target) {
-    if (!shot_ && residualsStale_) {
-        updateResiduals();
-        return true;
-    }
-    constexpr double kBelow = 0.3; // what a patch may owe, of what the certificate allows
-    if (!shot_) load(chooseSenders(kBelow * target / gain_), false);
-    if (!shot_) return false;
-    serve(effort);
-    return true;
-}
-
-bool IndirectLight::complete(std::size_t effort) {
-    if (!shot_) {
-        std::vector<std::uint32_t> unknown;
-        for (std::uint32_t p = 0; p < known_.size() && unknown.size() < batch(); ++p)
-            if (!known_[p] && sendersReached_[p] && senders_.present(p)) unknown.push_back(p);
-        load(unknown, true);
-    }
-    if (!shot_) return false;
-    serve(effort);
-    return true;
-}
-
 void IndirectLight::updateSendersReached() {
     const auto reached = [&](std::uint32_t n) { return (reached_[n / 64] >> n % 64 & 1) != 0; };
     sendersReached_.assign(senders_.count(), 0);
@@ -439,117 +363,6 @@ void IndirectLight::updateSendersReached() {
              sendersReached_[s] && up != Clusters::kNone && !sendersReached_[up];
              up = senders_.parent(up))
             sendersReached_[up] = 1;
-}
-
-/// Begins a batch. \param dark the senders send nothing, only their rows are wanted
-void IndirectLight::load(const std::vector<std::uint32_t>& senders, bool dark) {
-    if (senders.empty()) return;
-    shot_ = std::make_unique<Shot>();
-    shot_->senders = senders;
-    const glm::dvec3 expected = ambient();
-    const bool keep = rowBytes_ < rowMemory_;
-    for (std::uint32_t i = 0; i < senders.size(); ++i) {
-        const std::uint32_t s = senders[i];
-        // The first time send at once what is sure to come later; too much is taken back in its
-        // turn.
-        const bool fresh = !known_[s];
-        SenderLight light{};
-        for (std::size_t q = 0; q < 4 && !dark; ++q) {
-            light[q] = residuals_[s][q];
-            if (fresh) light[q] += colours_[s][q] * expected;
-        }
-        shot_->fresh.push_back(fresh);
-        shot_->light.push_back(light);
-        shot_->build.push_back(!kept_[s]);
-        Row& row = table_[s];
-        const auto toServe = [&](std::uint32_t block) {
-            shot_->work.push_back(std::uint64_t(block) << 32 | i);
-        };
-        if (kept_[s]) {
-            for (std::size_t b = 0; b < row.size(); ++b) toServe(row.blockAt(b));
-            continue;
-        }
-        const std::vector<std::uint32_t> blocks = senders_.linkedBlocks(s, linkBoxes_);
-        for (std::uint32_t b : blocks) toServe(b);
-        if (keep) {
-            row.open(blocks);
-            updates_.setCurrent(s);
-        }
-        kept_[s] = keep;
-        rowsMissing_ |= !keep;
-    }
-    std::sort(shot_->work.begin(), shot_->work.end());
-    shot_->dark = dark;
-}
-
-/// Serves some more blocks of the batch: each receives from all of its senders before the next one
-/// does, so that sums are taken in a fixed order.
-void IndirectLight::serve(std::size_t effort) {
-    constexpr std::size_t kGrain = 64; // pairs of a sender and a block
-    Shot& shot = *shot_;
-    std::vector<std::size_t> cuts{shot.next}; // of tasks: between two blocks
-    std::size_t last = shot.next;
-    for (std::size_t sum = 0; last < shot.work.size() && sum < effort;) {
-        const std::uint64_t block = shot.work[last] >> 32;
-        for (; last < shot.work.size() && shot.work[last] >> 32 == block; ++last)
-            sum += shot.build[std::uint32_t(shot.work[last])] ? kBuild : kServe;
-        if (last - cuts.back() >= kGrain) cuts.push_back(last);
-    }
-    if (cuts.back() != last) cuts.push_back(last);
-    const std::size_t tasks = cuts.size() - 1;
-    struct Task {
-        std::size_t bytes = 0;
-        std::vector<RowTable::BlockerNote> notes;
-    };
-    std::vector<Task> done(tasks);
-    while (builders_.size() < tasks) builders_.emplace_back(rays_);
-    parallelFor(tasks, 1, [&](std::size_t first, std::size_t end) {
-        for (std::size_t t = first; t < end; ++t)
-            for (std::size_t w = cuts[t]; w < cuts[t + 1]; ++w)
-                servePair(shot.work[w], builders_[t], done[t].bytes, done[t].notes);
-    });
-    for (const Task& task : done) {
-        shot.bytes += task.bytes;
-        table_.note(task.notes);
-    }
-    for (RowBuilder& builder : builders_) buildRays_ += builder.takeRayCount();
-    served_ += last - shot.next;
-    shot.next = last;
-    if (last == shot.work.size()) finishShot();
-}
-
-void IndirectLight::servePair(std::uint64_t work, RowBuilder& builder, std::size_t& bytes,
-                              std::vector<RowTable::BlockerNote>& notes) {
-    const Shot& shot = *shot_;
-    const auto b = std::uint32_t(work >> 32), i = std::uint32_t(work);
-    const std::uint32_t s = shot.senders[i];
-    RowBlock passing;
-    RowBlock& block = kept_[s] ? table_[s][b] : passing;
-    if (shot.build[i]) {
-        builder.patchBlock(senders_.sender(s), receiversOf(s, b), block);
-        if (kept_[s]) {
-            bytes += block.bytes();
-            RowTable::listBlockers(set_, s, b, block, notes);
-        }
-    }
-    const bool fresh = shot.fresh[i];
-    forEachReceived(block, shot.light[i], [&](int r, float factor, glm::dvec3 light) {
-        nodes_[b * kBlock + std::size_t(r)] += light;
-        if (fresh) rowSums_[b * kBlock + std::size_t(r)] += factor;
-    });
-}
-
-void IndirectLight::finishShot() {
-    for (std::size_t i = 0; i < shot_->senders.size(); ++i) {
-        const std::uint32_t p = shot_->senders[i];
-        for (std::size_t q = 0; q < 4; ++q) sent_[p][q] += shot_->light[i][q];
-        known_[p] = 1;
-        updates_.open().setPower(p, largest(sent_[p]));
-    }
-    rowBytes_ += shot_->bytes;
-    if (!shot_->dark) shots_ += shot_->senders.size();
-    shot_.reset();
-    residualsStale_ = true;
 }
 
 /// What is owed goes, on average, once over all surfaces and is reflected on: Cohen et al. 1988.

@@ -22,11 +22,6 @@ float squaredGap(const Bounds& a, const Bounds& b) {
     return gap.x * gap.x + gap.y * gap.y + gap.z * gap.z;
 }
 
-/// Names a piece of an object: 32 bits of the object's key and the piece's index.
-std::uint32_t keyOf(const ObjectPart& part, std::uint32_t index) {
-    return std::uint32_t(part.key ^ part.key >> 32) + index;
-}
-
 } // namespace
 
 IndirectSenders::IndirectSenders(const PatchSet& set, std::size_t flatPatches)
@@ -36,7 +31,7 @@ IndirectSenders::IndirectSenders(const PatchSet& set, std::size_t flatPatches)
     keys_.resize(patches), objects_.resize(patches), samples_.resize(patches * kPatchSamples);
     for (const ObjectPart& part : set.objects)
         for (std::uint32_t p = part.patches.first; p < part.patches.end(); ++p) {
-            keys_[p] = keyOf(part, p - part.patches.first);
+            keys_[p] = pieceKey(part, p - part.patches.first);
             areas_[p] = set.patches[p].area;
             objects_[p] = set.patches[p].object;
         }
@@ -59,7 +54,7 @@ IndirectSenders::IndirectSenders(const PatchSet& set, std::size_t flatPatches)
                            part.shape.patches[i].normal, areas_[part.patches.first + i]});
         familyOf_[o] = std::uint32_t(families_.size());
         clusterRanges_[o].first = count();
-        addFamily(own, keyOf(part, part.patches.count));
+        addFamily(own, pieceKey(part, part.patches.count));
         clusterRanges_[o].count = count() - clusterRanges_[o].first;
     }
     for (std::uint32_t s = 0; s < count(); ++s)

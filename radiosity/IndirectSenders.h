@@ -5,18 +5,15 @@
 #include "radiosity/Clusters.h"
 #include "radiosity/PatchSet.h"
 #include "radiosity/RowBuilder.h"
+#include "radiosity/SenderLight.h"
 
 #include <glm/glm.hpp>
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace penumbra {
-
-/// What leaves a sender, quarter by quarter [lm/m^2]; all the same for a patch.
-using SenderLight = std::array<glm::dvec3, 4>;
 
 /// Senders of indirect light, by one index: first the patches of a PatchSet, then clusters. A block
 /// of receivers takes light from the largest clusters that look small from where it is, and from

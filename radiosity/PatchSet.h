@@ -121,6 +121,12 @@ struct ObjectPart {
     ObjectShape shape; ///< empty for the fixed part
 };
 
+/// Names a piece of an object in every scene that has it: 32 bits of the object's key and the
+/// piece's index.
+inline std::uint32_t pieceKey(const ObjectPart& part, std::uint32_t index) {
+    return std::uint32_t(part.key ^ part.key >> 32) + index;
+}
+
 /// A large convex face of the fixed part, see Walls.h.
 struct Wall {
     ObjectId object;
