@@ -50,6 +50,14 @@ void LitGeometry::setTopology(const std::function<void(LitMeshData&)>& edit) {
     touch();
 }
 
+void LitGeometry::setLamps(std::size_t count) {
+    const LampShare unknown{std::vector<float>(data_.positions.size()),
+                            std::vector<LampShare::Known>(blocksOf(data_), LampShare::Known::no)};
+    data_.lamps.assign(count, unknown);
+    for (std::uint64_t& revision : blockRevisions_) ++revision;
+    touch();
+}
+
 void LitGeometry::setMaterials(std::vector<LitMaterial> materials) {
     if (materials == data_.materials) return;
     data_.materials = std::move(materials);

@@ -24,10 +24,14 @@ struct LitMaterial {
 
 /// What has to do with one lamp alone, for those who exchange its light for a faster estimate.
 struct LampShare {
-    /// Illuminance by this lamp over its exitance pi L, no unit; as long as positions.
+    enum class Known : std::uint8_t {
+        no,    ///< the factors of this block have not come yet
+        stale, ///< an edit may still change some of them
+        exact  ///< they are those of the scene (but see RadiosityState::lampsMarked)
+    };
+    /// Illuminance by this lamp over its exitance pi L: F V, no unit; as long as positions.
     std::vector<float> factor;
-    /// 1 while an edit may still change the factors of this block (see LitGeometry::kBlock).
-    std::vector<std::uint8_t> stale;
+    std::vector<Known> known; ///< one a block, see LitGeometry::kBlock
 };
 
 /// Flat arrays of lit triangles, one-sided: front is counter-clockwise. The luminance of a point is
@@ -40,7 +44,7 @@ struct LitMeshData {
     std::vector<std::uint32_t> indices;          ///< three a triangle
     std::vector<std::uint32_t> triangleMaterial; ///< index into materials, one a triangle
     std::vector<LitMaterial> materials;
-    std::vector<LampShare> lamps = {}; ///< of the live lamps, if any; an empty factor: not known
+    std::vector<LampShare> lamps = {}; ///< of the live lamps, if there are any
 };
 
 /// The lit surface of one object. Its light comes in blocks of kBlock consecutive vertices: one
@@ -68,6 +72,8 @@ public:
     void setBlock(std::size_t block, const std::function<void(LitMeshData&)>& edit);
     /// Replaces what triangles are made of; positions may only be added at the end.
     void setTopology(const std::function<void(LitMeshData&)>& edit);
+    /// From now on there are so many live lamps; nothing is known of them.
+    void setLamps(std::size_t count);
     void setMaterials(std::vector<LitMaterial> materials);
 
     std::uint64_t topologyRevision() const { return topologyRevision_; }
