@@ -18,7 +18,8 @@ public:
 
     using Visitor::visit;
     void visit(const LitGeometry& geometry) override {
-        if (inView(geometry.bounds())) list.items.push_back({&geometry, &parent(), toWorld()});
+        if (inView(geometry.bounds()))
+            list.items.push_back({&geometry, &parent(), toWorld(), nullptr});
     }
     void visit(const Mesh& mesh) override {
         if (inView(mesh.bounds())) list.unlit.push_back({&mesh, nullptr, &parent(), toWorld()});

@@ -15,12 +15,14 @@ namespace penumbra {
 class Light;
 class LitGeometry;
 class Mesh;
+struct ShownLight;
 
 /// One lit surface in its place. The pointers are good until the graph is edited.
 struct DrawItem {
     const LitGeometry* geometry = nullptr;
     const Group* parent = nullptr; ///< one that holds the geometry
     glm::dmat4 toWorld{1.0};
+    const ShownLight* shown = nullptr; ///< its light as it is to be drawn; null: its own
 };
 
 /// A mesh or a light that nobody has lit yet.

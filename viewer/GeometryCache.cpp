@@ -2,6 +2,7 @@
 
 #include "scenegraph/LitGeometry.h"
 #include "viewer/Shaders.h"
+#include "viewer/ShownLight.h"
 
 #include <epoxy/gl.h>
 
@@ -14,24 +15,26 @@ namespace penumbra {
 
 namespace {
 
-/// Fills a new buffer and feeds it to a vertex attribute of three floats.
+/// Fills a new buffer and feeds it to a vertex attribute of as many floats as T has.
 template <class T>
 GlObject attributeBuffer(LitAttribute attribute, const std::vector<T>& values, GLenum usage) {
-    static_assert(sizeof(T) == 3 * sizeof(float));
     GlObject buffer = makeBuffer();
     glBindBuffer(GL_ARRAY_BUFFER, buffer.name());
     glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(values.size() * sizeof(T)), values.data(), usage);
-    glVertexAttribPointer(attribute, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+    glVertexAttribPointer(attribute, GLint(sizeof(T) / sizeof(float)), GL_FLOAT, GL_FALSE, 0,
+                          nullptr);
     glEnableVertexAttribArray(attribute);
     return buffer;
 }
 
-/// Copies values first ... first + count - 1.
-void replaceValues(const GlObject& buffer, const std::vector<Rgb>& values, std::size_t first,
-                   std::size_t count) {
+/// Copies values first ... first + count - 1; returns how many bytes.
+template <class T>
+std::size_t replaceValues(const GlObject& buffer, const std::vector<T>& values, std::size_t first,
+                          std::size_t count) {
     glBindBuffer(GL_ARRAY_BUFFER, buffer.name());
-    glBufferSubData(GL_ARRAY_BUFFER, GLintptr(first * sizeof(Rgb)), GLsizeiptr(count * sizeof(Rgb)),
+    glBufferSubData(GL_ARRAY_BUFFER, GLintptr(first * sizeof(T)), GLsizeiptr(count * sizeof(T)),
                     values.data() + first);
+    return count * sizeof(T);
 }
 
 /// Indices of all triangles, those of one material after those of another, and where each begins.
@@ -55,20 +58,50 @@ std::vector<std::uint32_t> sortByMaterial(const LitMeshData& mesh,
     return indices;
 }
 
+/// Cuts ranges into runs of so many triangles at most; neighbours in the list are neighbours in
+/// space, as patches are.
+std::vector<TriangleChunk> cutIntoChunks(const std::vector<std::uint32_t>& indices,
+                                         const std::vector<MaterialRange>& ranges,
+                                         const std::vector<glm::vec3>& positions) {
+    constexpr std::size_t kMost = 3 * 96;
+    std::vector<TriangleChunk> chunks;
+    for (std::size_t r = 0; r < ranges.size(); ++r)
+        for (std::size_t done = 0; done < ranges[r].indexCount; done += kMost) {
+            TriangleChunk chunk{
+                r, ranges[r].firstIndex + done, std::min(kMost, ranges[r].indexCount - done), {}};
+            for (std::size_t i = 0; i < chunk.indexCount; ++i)
+                chunk.bounds.add(positions[indices[chunk.firstIndex + i]]);
+            chunks.push_back(chunk);
+        }
+    return chunks;
+}
+
+/// What is to be looked at for news: the shown light, or else the geometry's own.
+std::uint64_t revisionOf(const LitGeometry& geometry, const ShownLight* shown) {
+    return shown ? shown->revision : geometry.revision();
+}
+const std::vector<std::uint64_t>& blockRevisionsOf(const LitGeometry& geometry,
+                                                   const ShownLight* shown) {
+    return shown ? shown->blockRevisions : geometry.blockRevisions();
+}
+
 } // namespace
 
-GpuGeometry::GpuGeometry(const LitGeometry& geometry)
-    : vertexArray_(makeVertexArray()), revision_(geometry.revision()),
-      topologyRevision_(geometry.topologyRevision()), blockRevisions_(geometry.blockRevisions()),
+GpuGeometry::GpuGeometry(const LitGeometry& geometry, const ShownLight* shown)
+    : vertexArray_(makeVertexArray()), shown_(shown), revision_(revisionOf(geometry, shown)),
+      topologyRevision_(geometry.topologyRevision()),
+      blockRevisions_(blockRevisionsOf(geometry, shown)),
       blockTimes_(blockRevisions_.size(), -1e6f) {
     const LitMeshData& mesh = geometry.data();
     assert(mesh.direct.size() == mesh.positions.size());
     assert(mesh.indirect.size() == mesh.positions.size());
+    assert(!shown || shown->direct.size() == mesh.positions.size());
     glBindVertexArray(vertexArray_.name());
     positions_ = attributeBuffer(kPosition, mesh.positions, GL_STATIC_DRAW);
     normals_ = attributeBuffer(kNormal, mesh.normals, GL_STATIC_DRAW);
-    direct_ = attributeBuffer(kDirect, mesh.direct, GL_DYNAMIC_DRAW);
-    indirect_ = attributeBuffer(kIndirect, mesh.indirect, GL_DYNAMIC_DRAW);
+    direct_ = attributeBuffer(kDirect, shown ? shown->direct : mesh.direct, GL_DYNAMIC_DRAW);
+    indirect_ =
+        attributeBuffer(kIndirect, shown ? shown->indirect : mesh.indirect, GL_DYNAMIC_DRAW);
 
     const std::vector<std::uint32_t> indices = sortByMaterial(mesh, ranges_);
     indices_ = makeBuffer();
@@ -76,11 +109,45 @@ GpuGeometry::GpuGeometry(const LitGeometry& geometry)
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indices.size() * sizeof(std::uint32_t)),
                  indices.data(), GL_STATIC_DRAW);
     glBindVertexArray(0);
+    chunks_ = cutIntoChunks(indices, ranges_, mesh.positions);
+    if (shown) requireFactors(*shown);
 }
 
-std::size_t GpuGeometry::refresh(const LitGeometry& geometry, double now) {
-    if (std::exchange(revision_, geometry.revision()) == geometry.revision()) return 0;
-    const std::vector<std::uint64_t>& latest = geometry.blockRevisions();
+/// Makes room for the factors of live lamps, or removes it.
+void GpuGeometry::requireFactors(const ShownLight& shown) {
+    if (shown.factors.empty() == (factors_.name() == 0)) return;
+    glBindVertexArray(vertexArray_.name());
+    if (shown.factors.empty()) {
+        glDisableVertexAttribArray(kFactors);
+        glDisableVertexAttribArray(kBehind);
+        factors_ = {};
+        behind_ = {};
+    } else {
+        factors_ = attributeBuffer(kFactors, shown.factors, GL_DYNAMIC_DRAW);
+        behind_ = attributeBuffer(kBehind, shown.behind, GL_DYNAMIC_DRAW);
+    }
+    glBindVertexArray(0);
+}
+
+std::size_t GpuGeometry::copyBlocks(const ShownLight* shown, const LitGeometry& geometry,
+                                    std::size_t first, std::size_t count) {
+    const LitMeshData& own = geometry.data();
+    std::size_t bytes =
+        replaceValues(direct_, shown ? shown->direct : own.direct, first, count) +
+        replaceValues(indirect_, shown ? shown->indirect : own.indirect, first, count);
+    if (shown && !shown->factors.empty())
+        bytes += replaceValues(factors_, shown->factors, first, count) +
+                 replaceValues(behind_, shown->behind, first, count);
+    return bytes;
+}
+
+std::size_t GpuGeometry::refresh(const LitGeometry& geometry, const ShownLight* shown, double now) {
+    const std::uint64_t newest = revisionOf(geometry, shown);
+    const bool otherLight = std::exchange(shown_, shown) != shown;
+    if (std::exchange(revision_, newest) == newest && !otherLight) return 0;
+    if (shown) requireFactors(*shown);
+    const std::vector<std::uint64_t>& latest = blockRevisionsOf(geometry, shown);
+    if (otherLight) blockRevisions_.assign(latest.size(), 0);
     const std::size_t vertices = geometry.data().direct.size();
     std::size_t bytes = 0;
     for (std::size_t block = 0; block < latest.size(); ++block) {
@@ -92,9 +159,7 @@ std::size_t GpuGeometry::refresh(const LitGeometry& geometry, double now) {
         if (block == begin) continue;
         const std::size_t first = begin * LitGeometry::kBlock;
         const std::size_t count = std::min(block * LitGeometry::kBlock, vertices) - first;
-        replaceValues(direct_, geometry.data().direct, first, count);
-        replaceValues(indirect_, geometry.data().indirect, first, count);
-        bytes += 2 * count * sizeof(Rgb);
+        bytes += copyBlocks(shown, geometry, first, count);
     }
     blockRevisions_ = latest;
     return bytes;
@@ -114,18 +179,30 @@ void GeometryCache::dropDead(double now) {
 }
 
 const GpuGeometry& GeometryCache::get(const DrawItem& item) {
-    const auto found = entries_.find(item.geometry);
-    if (found != entries_.end() && !found->second.gpu.sameTopology(*item.geometry)) {
+    return get(*item.geometry, item.shown, ownerOf(*item.parent, *item.geometry));
+}
+
+const GpuGeometry& GeometryCache::peek(const std::shared_ptr<const LitGeometry>& geometry) {
+    const auto found = entries_.find(geometry.get());
+    if (found != entries_.end() && found->second.gpu.sameTopology(*geometry))
+        return found->second.gpu;
+    return get(*geometry, nullptr, geometry);
+}
+
+const GpuGeometry& GeometryCache::get(const LitGeometry& geometry, const ShownLight* shown,
+                                      const std::weak_ptr<const Node>& owner) {
+    const auto found = entries_.find(&geometry);
+    if (found != entries_.end() && !found->second.gpu.sameTopology(geometry)) {
         entries_.erase(found);
     } else if (found != entries_.end()) {
-        const std::size_t bytes = found->second.gpu.refresh(*item.geometry, now_);
+        const std::size_t bytes = found->second.gpu.refresh(geometry, shown, now_);
         lightUploads_ += bytes > 0;
         lightBytes_ += bytes;
         return found->second.gpu;
     }
     ++uploads_;
-    Entry entry{ownerOf(*item.parent, *item.geometry), GpuGeometry(*item.geometry)};
-    return entries_.emplace(item.geometry, std::move(entry)).first->second.gpu;
+    Entry entry{owner, GpuGeometry(geometry, shown)};
+    return entries_.emplace(&geometry, std::move(entry)).first->second.gpu;
 }
 
 } // namespace penumbra

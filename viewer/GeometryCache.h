@@ -1,9 +1,13 @@
 // Lit surfaces in the memory of the graphics card.
 #pragma once
 
+#include "scenegraph/Bounds.h"
 #include "scenegraph/Node.h"
+#include "scenegraph/Rgb.h"
 #include "viewer/DrawList.h"
 #include "viewer/GlObject.h"
+
+#include <glm/glm.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -20,26 +24,44 @@ struct MaterialRange {
     std::size_t indexCount = 0;
 };
 
+/// Some triangles of a range that lie together.
+struct TriangleChunk {
+    std::size_t range = 0; ///< index of its MaterialRange
+    std::size_t firstIndex = 0;
+    std::size_t indexCount = 0;
+    Bounds bounds; ///< [m, local frame]
+};
+
 /// One LitGeometry, ready to be drawn.
 class GpuGeometry {
 public:
-    explicit GpuGeometry(const LitGeometry& geometry);
+    /// \param shown its light as it is to be shown; null: its own
+    GpuGeometry(const LitGeometry& geometry, const ShownLight* shown);
 
     /// Copies the light of those blocks again that were edited since; returns how many bytes.
     /// \param now [s]
-    std::size_t refresh(const LitGeometry& geometry, double now);
+    std::size_t refresh(const LitGeometry& geometry, const ShownLight* shown, double now);
 
     /// Whether its triangles are still those of the geometry.
     bool sameTopology(const LitGeometry& geometry) const;
 
     void bind() const;
     const std::vector<MaterialRange>& ranges() const { return ranges_; }
+    /// All triangles in their order, cut into runs of one range that lie together.
+    const std::vector<TriangleChunk>& chunks() const { return chunks_; }
     /// When the light of each block was copied last, by the time given to refresh() [s].
     const std::vector<float>& blockTimes() const { return blockTimes_; }
 
 private:
+    std::size_t copyBlocks(const ShownLight* shown, const LitGeometry& geometry, std::size_t first,
+                           std::size_t count);
+    void requireFactors(const ShownLight& shown);
+
     GlObject vertexArray_, positions_, normals_, direct_, indirect_, indices_;
+    GlObject factors_, behind_; ///< of live lamps, when there first are any
     std::vector<MaterialRange> ranges_;
+    std::vector<TriangleChunk> chunks_;
+    const ShownLight* shown_ = nullptr; ///< what light is in the buffers; only to be compared
     std::uint64_t revision_ = 0, topologyRevision_ = 0;
     std::vector<std::uint64_t> blockRevisions_; ///< of the light that is in the buffers
     std::vector<float> blockTimes_;
@@ -55,6 +77,11 @@ public:
 
     /// The geometry with its present light.
     const GpuGeometry& get(const DrawItem& item);
+    /// The same of one that is not in a list. \param owner of the geometry
+    const GpuGeometry& get(const LitGeometry& geometry, const ShownLight* shown,
+                           const std::weak_ptr<const Node>& owner);
+    /// Its triangles, whatever its light is.
+    const GpuGeometry& peek(const std::shared_ptr<const LitGeometry>& geometry);
 
     std::size_t uploads() const { return uploads_; }           ///< of whole geometries, ever
     std::size_t lightUploads() const { return lightUploads_; } ///< of light alone, ever

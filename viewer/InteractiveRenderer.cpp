@@ -7,6 +7,7 @@
 #include "viewer/DrawList.h"
 #include "viewer/DrawState.h"
 #include "viewer/LitItem.h"
+#include "viewer/LivePass.h"
 #include "viewer/LuminanceMeter.h"
 #include "viewer/PreviewGeometry.h"
 #include "viewer/Shaders.h"
@@ -46,6 +47,8 @@ struct InteractiveRenderer::Impl {
 
     void requireTarget(int width, int height);
     void drawLit(const std::vector<LitItem>& items);
+    void drawLitLive(const std::vector<LitItem>& items);
+    void setMaterial(const LitItem& item, const MaterialRange& range);
     void drawUnlit(const std::vector<UnlitItem>& items, const View& view,
                    const PreviewLighting& lighting);
     void drawUnlitItem(const UnlitItem& item, const View& view);
@@ -54,6 +57,7 @@ struct InteractiveRenderer::Impl {
     bool reversed = canReverseDepth();
     ShaderProgram litProgram{kLitVertexShader, kScreenFragmentShader};
     ShaderProgram previewProgram{kPreviewVertexShader, kPreviewFragmentShader};
+    std::optional<LivePass> livePass; ///< when it is needed first
     GeometryCache litCache;
     PreviewCache previewCache;
     std::optional<HdrTarget> target;
@@ -72,18 +76,44 @@ void InteractiveRenderer::Impl::requireTarget(int width, int height) {
     target.emplace(width, height, options.samples, options.precision);
 }
 
+void InteractiveRenderer::Impl::setMaterial(const LitItem& item, const MaterialRange& range) {
+    const LitMaterial& material = item.geometry->data().materials[range.material];
+    litProgram.set("reflectance", material.reflectance);
+    litProgram.set("emission", material.emission);
+}
+
 void InteractiveRenderer::Impl::drawLit(const std::vector<LitItem>& items) {
     litProgram.use();
     for (const LitItem& item : items) {
         setPlace(litProgram, item.place);
         item.gpu->bind();
         for (const MaterialRange& range : item.gpu->ranges()) {
-            const LitMaterial& material = item.geometry->data().materials[range.material];
-            litProgram.set("reflectance", material.reflectance);
-            litProgram.set("emission", material.emission);
+            setMaterial(item, range);
             drawRange(range);
         }
     }
+}
+
+/// The same, but triangles that a live change of light may reach are drawn by the live pass.
+void InteractiveRenderer::Impl::drawLitLive(const std::vector<LitItem>& items) {
+    std::vector<std::vector<IndexRuns>> live(items.size());
+    litProgram.use();
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        const LitItem& item = items[i];
+        std::vector<IndexRuns> plain(item.gpu->ranges().size());
+        live[i].resize(plain.size());
+        for (const TriangleChunk& chunk : item.gpu->chunks())
+            (livePass->reaches(item, chunk) ? live[i] : plain)[chunk.range].add(chunk.firstIndex,
+                                                                                chunk.indexCount);
+        setPlace(litProgram, item.place);
+        item.gpu->bind();
+        for (std::size_t r = 0; r < plain.size(); ++r) {
+            if (plain[r].empty()) continue;
+            setMaterial(item, item.gpu->ranges()[r]);
+            plain[r].draw();
+        }
+    }
+    livePass->draw(items, live);
 }
 
 void InteractiveRenderer::Impl::drawUnlit(const std::vector<UnlitItem>& items, const View& view,
@@ -116,7 +146,8 @@ InteractiveRenderer::InteractiveRenderer(const InteractiveOptions& options)
 InteractiveRenderer::~InteractiveRenderer() = default;
 
 void InteractiveRenderer::drawScene(const DrawList& list, const View& view,
-                                    const PreviewLighting& preview, int width, int height) {
+                                    const PreviewLighting& preview, int width, int height,
+                                    const LiveLight& live) {
     assert(width > 0 && height > 0);
     Impl& impl = *impl_;
     impl.requireTarget(width, height);
@@ -127,10 +158,17 @@ void InteractiveRenderer::drawScene(const DrawList& list, const View& view,
     const std::size_t uploads = impl.litCache.uploads();
     const std::size_t lightUploads = impl.litCache.lightUploads();
     const std::vector<LitItem> lit = prepareLit(list, view, impl.reversed, impl.litCache);
+    if (live.active()) {
+        if (!impl.livePass) impl.livePass.emplace(impl.options.live);
+        impl.livePass->prepare(live, impl.litCache);
+    }
     {
         const DrawState state(impl.reversed);
         impl.target->begin(state.clearDepth());
-        impl.drawLit(lit);
+        if (live.active())
+            impl.drawLitLive(lit);
+        else
+            impl.drawLit(lit);
         impl.drawUnlit(list.unlit, view, preview);
         impl.overlayPass.draw(impl.overlay, lit, impl.overlayGrey, impl.now, impl.reversed);
     }
@@ -141,7 +179,8 @@ void InteractiveRenderer::drawScene(const DrawList& list, const View& view,
                        list.culled,
                        impl.litCache.uploads() - uploads,
                        impl.litCache.lightUploads() - lightUploads,
-                       impl.litCache.lightBytes() - lightBytes};
+                       impl.litCache.lightBytes() - lightBytes,
+                       live.active() ? impl.livePass->statistics().maps : 0};
 }
 
 void InteractiveRenderer::setOverlay(Overlay overlay, float middleGrey, double now) {

@@ -4,6 +4,8 @@
 #include "scenegraph/Camera.h"
 #include "viewer/DrawList.h"
 #include "viewer/HdrTarget.h"
+#include "viewer/LiveLight.h"
+#include "viewer/LiveShaders.h"
 #include "viewer/OverlayPass.h"
 #include "viewer/PreviewLighting.h"
 #include "viewer/ToneCurve.h"
@@ -18,6 +20,7 @@ namespace penumbra {
 struct InteractiveOptions {
     int samples = 4; ///< a pixel
     HdrTarget::Precision precision = HdrTarget::Precision::half;
+    LiveSampling live = LiveSampling::pixels;
 };
 
 /// What the last drawScene() did.
@@ -28,6 +31,7 @@ struct InteractiveStatistics {
     std::size_t uploads = 0;      ///< lit geometries copied to the graphics card
     std::size_t lightUploads = 0; ///< of which the light alone was copied
     std::size_t lightBytes = 0;   ///< of that light: changed blocks only
+    std::size_t shadowMaps = 0;   ///< drawn for lamps that are drawn live
 };
 
 /// Draws a scene graph many times a second. A frame is
@@ -48,8 +52,9 @@ public:
 
     /// \param list         what is in view, see listVisible()
     /// \param width,height [pixel], at least 1 \throws Error if the driver can't
+    /// \param live         lamps whose light is brought up to date by the shader
     void drawScene(const DrawList& list, const View& view, const PreviewLighting& preview,
-                   int width, int height);
+                   int width, int height, const LiveLight& live = {});
 
     /// What drawScene() draws over the lit surfaces. \param middleGrey as for show()
     /// \param now time that only grows [s]: what the age of light counts by

@@ -34,7 +34,7 @@ std::vector<LitItem> prepareLit(const DrawList& list, const View& view, bool rev
     items.reserve(list.items.size());
     for (const DrawItem& item : list.items) // an unordered_map never moves its elements
         items.push_back({item.geometry, &cache.get(item), ownerOf(*item.parent, *item.geometry),
-                         DrawPlace(item.toWorld, view, reversed)});
+                         DrawPlace(item.toWorld, view, reversed), item.toWorld});
     return items;
 }
 

@@ -35,6 +35,7 @@ struct LitItem {
     const GpuGeometry* gpu = nullptr; ///< in the cache
     std::weak_ptr<const Node> owner;  ///< of the geometry
     DrawPlace place;
+    glm::dmat4 toWorld{1.0};
 };
 
 /// Readies the lit surfaces of a list; what is not in the cache yet is uploaded.

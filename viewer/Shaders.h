@@ -4,7 +4,14 @@
 namespace penumbra {
 
 /// Vertex attributes of a lit surface.
-enum LitAttribute : unsigned { kPosition = 0, kNormal = 1, kDirect = 2, kIndirect = 3 };
+enum LitAttribute : unsigned {
+    kPosition = 0,
+    kNormal = 1,
+    kDirect = 2,
+    kIndirect = 3,
+    kFactors = 4, ///< of live lamps, see ShownLight
+    kBehind = 5
+};
 
 /// Places a lit vertex; for both fragment shaders below.
 extern const char* const kLitVertexShader;

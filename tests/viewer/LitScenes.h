@@ -5,6 +5,7 @@
 #include "scenegraph/Group.h"
 #include "scenegraph/LitGeometry.h"
 #include "scenegraph/Transform.h"
+#include "tests/scenegraph/SceneParts.h"
 #include "viewer/OffscreenContext.h"
 #include "viewer/Renderer.h"
 
@@ -41,10 +42,6 @@ inline std::shared_ptr<Transform> placed(const glm::dmat4& matrix, NodePtr child
     transform->setMatrix(matrix);
     transform->add(std::move(child));
     return transform;
-}
-
-inline glm::dmat4 moved(double x, double y, double z) {
-    return glm::translate(glm::dmat4(1.0), glm::dvec3(x, y, z));
 }
 
 /// From (0, 0, distance) towards the origin; at distance 1 a unit of length is the half width.

@@ -1,0 +1,141 @@
+// Lamps drawn live: LivePass, LiveMaps and their shaders against radiosity.
+#include "LiveScenes.h"
+
+#include "io/PngWriter.h"
+
+#include <cstdlib>
+
+namespace penumbra {
+
+namespace {
+
+constexpr int kSize = 256;
+
+class LiveLightTest : public WithContext, public testing::WithParamInterface<LiveSampling> {
+protected:
+    InteractiveOptions options() const {
+        return {.samples = 1, .precision = HdrTarget::Precision::single, .live = GetParam()};
+    }
+    /// A picture for people, if they ask for it.
+    static void keep(const std::string& name, const std::vector<Rgb>& picture, float white) {
+        const char* const folder = std::getenv("PENUMBRA_KEEP_PICTURES");
+        if (!folder) return;
+        std::vector<Rgb> flipped;
+        for (int y = kSize - 1; y >= 0; --y)
+            for (int x = 0; x < kSize; ++x)
+                flipped.push_back(picture[std::size_t(y * kSize + x)] * (1 / white));
+        writePngBytes(std::string(folder) + "/" + name + ".png", kSize, kSize,
+                      displayBytes(flipped, kSize));
+    }
+};
+
+glm::dmat4 lifted() {
+    return glm::translate(glm::dmat4(1.0), glm::dvec3(0.3, 0.2, 0.5));
+}
+
+TEST_P(LiveLightTest, WhatLiesInNoShadowHasTheValueOfItsRadiosity) {
+    // All light drawn live, from a lamp that was not there before, against the solution.
+    LiveRoom room;
+    room.room.box->setMatrix(lifted());
+    ASSERT_TRUE(room.settle());
+    const ArrangementPtr now = room.arrangement();
+    Arrangement dark = *now;
+    dark.lamps[0].reset();
+
+    InteractiveRenderer renderer(options());
+    room.show(ownLight);
+    const std::vector<Rgb> exact = room.draw(renderer, {}, kSize);
+    room.show([](const LitMeshData&, std::size_t) { return Rgb(); });
+    const std::vector<Rgb> fast =
+        room.draw(renderer, room.live(now, std::make_shared<Arrangement>(dark)), kSize);
+    // Where shadows are: any vertex of the triangle sees less than all of the lamp, or is not in
+    // front of it: there the mesh cuts off light more coarsely than the lamp does.
+    room.show([](const LitMeshData&, std::size_t) { return Rgb(); });
+    const Rgb exitance = room.room.light->luminance() * 3.14159265f;
+    for (const LitObject& object : room.room.node->objects()) {
+        const LitMeshData& data = object.geometry->data();
+        for (std::size_t v = 0; v < data.positions.size(); ++v) {
+            const float whole = room.unoccluded(object, now, v);
+            const bool shadow = data.direct[v].r <= (whole - 2e-3f * whole) * exitance.r;
+            room.shown[object.geometry.get()].direct[v] = Rgb(shadow ? 1.0f : 0.0f);
+        }
+    }
+    const std::vector<Rgb> shadows = room.draw(renderer, {}, kSize);
+    keep("exact", exact, 30), keep("live", fast, 30), keep("shadows", shadows, 1);
+
+    std::vector<float> differences;
+    for (std::size_t i = 0; i < exact.size(); ++i)
+        if (shadows[i].r == 0 && exact[i].r > 0)
+            differences.push_back(std::abs(fast[i].r - exact[i].r) / exact[i].r);
+    ASSERT_GT(differences.size(), exact.size() / 4);
+    EXPECT_LE(mean(differences), 3e-3f);
+    EXPECT_LE(percentile(differences, 0.99), 1e-2f);
+}
+
+TEST_P(LiveLightTest, TakingHoldOfSomethingChangesNothing) {
+    LiveRoom room;
+    ASSERT_TRUE(room.settle());
+    const ArrangementPtr now = room.arrangement();
+    InteractiveRenderer renderer(options());
+    room.show(ownLight);
+    const std::vector<Rgb> before = room.draw(renderer, {}, kSize);
+    LiveLight held = room.live(now, room.arrangement());
+    for (std::size_t o = 0; o < held.objects.size(); ++o)
+        held.objects[o].moves = room.room.node->objects()[o].path == "/box";
+    const std::vector<Rgb> after = room.draw(renderer, held, kSize);
+    EXPECT_GT(renderer.statistics().shadowMaps, 0u);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        ASSERT_NEAR(after[i].r, before[i].r, 1e-6f * before[i].r);
+        ASSERT_NEAR(after[i].b, before[i].b, 1e-6f * before[i].b);
+    }
+}
+
+TEST_P(LiveLightTest, AMovedThingTakesItsShadowAlong) {
+    LiveRoom room;
+    room.room.box->setMatrix(lifted());
+    ASSERT_TRUE(room.settle());
+    const ArrangementPtr then = room.arrangement();
+    room.show(ownLight);
+    std::map<const LitGeometry*, ShownLight> old = room.shown;
+    for (const LitObject& object : room.room.node->objects()) {
+        const LitMeshData& data = object.geometry->data();
+        for (std::size_t v = 0; v < data.positions.size(); ++v)
+            old[object.geometry.get()].factors[v] =
+                glm::vec4(data.direct[v].r / (room.room.light->luminance().r * 3.14159265f));
+    }
+    InteractiveRenderer renderer(options());
+    const std::vector<Rgb> before = room.draw(renderer, {}, kSize);
+
+    room.room.box->setMatrix(glm::translate(glm::dmat4(1.0), glm::dvec3(-0.4, 0.6, 0.3)));
+    ASSERT_TRUE(room.settle());
+    room.show(ownLight);
+    const std::vector<Rgb> exact = room.draw(renderer, {}, kSize);
+    room.shown = old;
+    for (auto& [geometry, light] : room.shown)
+        light.blockRevisions.assign(light.blockRevisions.size(), ++room.revision),
+            light.revision = room.revision;
+    const std::vector<Rgb> fast = room.draw(renderer, room.live(room.arrangement(), then), kSize);
+    const std::vector<Rgb> stale = room.draw(renderer, {}, kSize);
+    keep("moved-before", before, 30), keep("moved-exact", exact, 30), keep("moved-live", fast, 30);
+
+    std::vector<float> errors, staleErrors;
+    float whole = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+        errors.push_back(std::abs(fast[i].r - exact[i].r));
+        staleErrors.push_back(std::abs(stale[i].r - exact[i].r));
+        whole += exact[i].r / float(exact.size());
+    }
+    EXPECT_LT(mean(errors), 0.01f * whole);
+    EXPECT_LT(mean(errors), 0.15f * mean(staleErrors));
+    EXPECT_LT(percentile(errors, 0.99), 0.2f * whole);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sampling, LiveLightTest,
+                         testing::Values(LiveSampling::pixels, LiveSampling::vertices),
+                         [](const auto& info) {
+                             return info.param == LiveSampling::pixels ? "Pixels" : "Vertices";
+                         });
+
+} // namespace
+
+} // namespace penumbra

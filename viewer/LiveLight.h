@@ -1,0 +1,64 @@
+// Lamps whose light is drawn live, while something in it moves: what the renderer is told.
+#pragma once
+
+#include "radiosity/PatchSet.h"
+#include "scenegraph/LitGeometry.h"
+#include "scenegraph/Rgb.h"
+
+#include <glm/glm.hpp>
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace penumbra {
+
+constexpr std::size_t kMostLampsDrawnLive = 4; ///< their factors are one attribute of a vertex
+
+/// How lit objects and live lamps stand at one time.
+struct Arrangement {
+    struct Place {
+        glm::dmat4 toWorld{1.0}; ///< of the geometry's frame
+        bool visible = true;
+        friend bool operator==(const Place&, const Place&) = default;
+    };
+    std::vector<Place> objects;                ///< as LiveLight::objects
+    std::vector<std::optional<Emitter>> lamps; ///< none: hidden
+};
+using ArrangementPtr = std::shared_ptr<const Arrangement>;
+
+/// Vertices carry light of an earlier time, when things stood otherwise. The shader brings it up to
+/// date: with F_u a lamp's form factor in closed form and V the share of it that is seen, by shadow
+/// maps, a vertex of which the lamp's factor was f is shown with
+///
+///     f + F_u(now) V(now) - F_u(then) V(then)     clamped to [0, F_u(now) + max(0, f - F_u(then))]
+///
+/// in place of f, for each anchor, an arrangement of an earlier time, by its share in the vertex.
+/// Where nothing has changed that is f, exactly: nothing jumps when a thing is taken hold of, and
+/// what lies in no shadow keeps its radiosity. (The second term of the upper bound is what the
+/// triangle, on which f is linear, has too much.)
+struct LiveLight {
+    struct Object {
+        std::shared_ptr<const LitGeometry> geometry;
+        bool moves = false; ///< does not stand alike in all arrangements
+    };
+    struct Lamp {
+        Rgb exitance;       ///< pi L, now [lm/m^2]
+        bool moves = false; ///< its shadows are looked for everywhere, not behind what moves alone
+    };
+    struct Anchor {
+        ArrangementPtr arrangement;
+        float rest = 0, behind = 0; ///< share: mix(rest, behind, ShownLight::behind)
+    };
+
+    std::vector<Object> objects; ///< by LitGeometry::object()
+    std::vector<Lamp> lamps;     ///< at most kMostLampsDrawnLive
+    ArrangementPtr now;
+    std::vector<Anchor> anchors; ///< at most 3, none of them now
+    int points = 16;             ///< of a lamp, from which shadows are drawn; at most 16
+
+    bool active() const { return !lamps.empty() && !anchors.empty(); }
+};
+
+} // namespace penumbra

@@ -1,0 +1,120 @@
+#include "viewer/LivePass.h"
+
+#include "radiosity/Shaft.h"
+#include "viewer/LiveMaps.h"
+#include "viewer/Shaders.h"
+
+#include <epoxy/gl.h>
+
+#include <glm/gtc/matrix_inverse.hpp>
+
+#include <array>
+
+namespace penumbra {
+
+namespace {
+
+constexpr std::array<const char*, kLiveSlots> kPlaceNames{"livePlaces[0]", "livePlaces[1]",
+                                                          "livePlaces[2]", "livePlaces[3]"};
+constexpr std::array<const char*, kLiveSlots> kNormalNames{"liveNormals[0]", "liveNormals[1]",
+                                                           "liveNormals[2]", "liveNormals[3]"};
+
+} // namespace
+
+struct LivePass::Impl {
+    explicit Impl(LiveSampling sampling)
+        : program(liveVertexShader(sampling).c_str(), liveFragmentShader(sampling).c_str()) {}
+
+    void setPlaces(const LitItem& item);
+    bool moves(const LitItem& item) const {
+        const std::uint32_t object = item.geometry->object().value;
+        return object < light.objects.size() && light.objects[object].moves &&
+               light.objects[object].geometry.get() == item.geometry;
+    }
+
+    ShaderProgram program;
+    LiveMaps maps;
+    LiveLight light;
+    LiveStatistics statistics;
+};
+
+/// The item's places now and in the anchors, in the frame of the maps.
+void LivePass::Impl::setPlaces(const LitItem& item) {
+    const bool own = moves(item);
+    program.set("ownMoves", int(own));
+    for (std::size_t s = 0; s <= light.anchors.size(); ++s) {
+        glm::dmat4 place = item.toWorld;
+        if (s > 0 && own)
+            place =
+                light.anchors[s - 1].arrangement->objects[item.geometry->object().value].toWorld;
+        place[3] -= glm::dvec4(maps.origin(), 0);
+        program.set(kPlaceNames[s], glm::mat4(place));
+        program.set(kNormalNames[s], glm::mat3(glm::inverseTranspose(glm::dmat3(place))));
+    }
+}
+
+LivePass::LivePass(LiveSampling sampling) : impl_(std::make_unique<Impl>(sampling)) {}
+
+LivePass::~LivePass() = default;
+
+void LivePass::prepare(const LiveLight& light, GeometryCache& cache) {
+    impl_->light = light;
+    impl_->statistics = {};
+    impl_->statistics.maps = impl_->maps.prepare(light, cache);
+}
+
+bool LivePass::reaches(const LitItem& item, const TriangleChunk& chunk) const {
+    if (impl_->moves(item)) return true;
+    glm::dmat4 place = item.toWorld;
+    place[3] -= glm::dvec4(impl_->maps.origin(), 0);
+    const Bounds box = transformed(chunk.bounds, place);
+    for (const LiveMaps::Reach& reach : impl_->maps.reaches())
+        if (reach.everywhere || shaftMeets(reach.lamp, box, reach.thing)) return true;
+    return false;
+}
+
+void LivePass::draw(const std::vector<LitItem>& items,
+                    const std::vector<std::vector<IndexRuns>>& runs) {
+    const ShaderProgram& program = impl_->program;
+    const LiveLight& light = impl_->light;
+    program.use();
+    impl_->maps.bind(program);
+    program.set("liveLamps", int(light.lamps.size()));
+    program.set("liveAnchors", int(light.anchors.size()));
+    std::vector<glm::vec4> exitances, shares(1);
+    for (const auto& lamp : light.lamps)
+        exitances.emplace_back(lamp.exitance.r, lamp.exitance.g, lamp.exitance.b, 0);
+    for (const auto& anchor : light.anchors) shares.emplace_back(anchor.rest, anchor.behind, 0, 0);
+    program.set("liveExitances", exitances);
+    program.set("anchorShares", shares);
+    glVertexAttrib4f(kFactors, -1, -1, -1, -1); // of surfaces that have none
+    glVertexAttrib1f(kBehind, 0);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        bool any = false;
+        for (const IndexRuns& run : runs[i]) any |= !run.empty();
+        if (!any) continue;
+        const LitItem& item = items[i];
+        setPlace(program, item.place);
+        impl_->setPlaces(item);
+        item.gpu->bind();
+        for (std::size_t r = 0; r < runs[i].size(); ++r) {
+            const LitMaterial& material =
+                item.geometry->data().materials[item.gpu->ranges()[r].material];
+            program.set("reflectance", material.reflectance);
+            program.set("emission", material.emission);
+            runs[i][r].draw();
+        }
+    }
+    for (const GLenum unit : {GL_TEXTURE2, GL_TEXTURE1}) {
+        glActiveTexture(unit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
+    }
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, 0);
+}
+
+const LiveStatistics& LivePass::statistics() const {
+    return impl_->statistics;
+}
+
+} // namespace penumbra

@@ -1,0 +1,32 @@
+// The text of the shaders that draw lamps live, GLSL 3.30; see LiveLight.
+#pragma once
+
+#include <string>
+
+namespace penumbra {
+
+/// Where the live change of the light is worked out.
+enum class LiveSampling {
+    pixels,  ///< shadows as fine as their maps
+    vertices ///< like the radiosity that they turn into; much cheaper where the processor draws
+};
+
+std::string liveVertexShader(LiveSampling sampling);
+std::string liveFragmentShader(LiveSampling sampling);
+
+/// The table of uniforms that the shaders read: a row of texels a lamp and arrangement; row
+/// kLiveRows * slot + lamp with slot 0 for now, 1 ... 3 for the anchors.
+///
+///     0            kind (LiveKind), cube views or not, -, -
+///     1 ... 4      corners; or centre and radius, axis
+///     5, 6         spheres around the lamp, and around what moves: centre, radius
+///     7, 8, 9      right and up axis of the maps; axis and texel's width at distance 1
+///     10           unit normal of the lamp, or zero; layer of the maps
+///     11           depth of the maps of what moves: a, b; of what does not: a, b
+///     12 + 2 k     point k, scale x;  13 + 2 k: scale y, offset x, offset y
+enum class LiveKind { none, quad, disk, sphere };
+constexpr int kLiveRows = 4;
+constexpr int kLiveColumns = 12 + 2 * 16;
+constexpr int kLiveSlots = 4;
+
+} // namespace penumbra
