@@ -3,12 +3,14 @@
 
 #include "comparison/ErrorCurve.h"
 #include "importance/Pyramid.h"
+#include "importance/WorkValue.h"
 #include "radiosity/BuildPatches.h"
 #include "radiosity/Solver.h"
 #include "scenegraph/Camera.h"
 #include "scenegraph/Objects.h"
 #include "scenegraph/Rgb.h"
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -23,12 +25,20 @@ struct Picture {
 
 /// One way of ordering the work.
 struct OrderUnderTest {
+    enum class Kind { plain, bound, random, importance, oracle };
+    Kind kind = Kind::plain;
     std::string name;
-    SolverOptions options;
+    std::uint32_t seed = 1; ///< of a random order
+    ValueFactors factors{}; ///< of importance: which of them count
 };
+/// The orders that are compared unless others are asked for.
+std::vector<OrderUnderTest> usualOrders();
+/// All there are names for: the usual ones, and importance without each of its factors.
+std::vector<OrderUnderTest> allOrders();
 
 struct ComparisonOptions {
     MeshingOptions meshing;
+    SolverOptions solving;           ///< but for the order
     int width = 480, height = 270;   ///< of the pictures that are compared [pixels]
     double firstLook = 1000;         ///< work until the picture is looked at first, about [rays]
     double growth = 1.25;            ///< of the work until the next look; > 1

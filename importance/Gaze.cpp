@@ -19,7 +19,7 @@ double Gaze::eccentricity(glm::dvec3 direction) const {
 
 double peripheralSensitivity(double eccentricity) {
     assert(eccentricity >= 0);
-    return std::pow(10.0, -0.0331 * std::max(0.0, eccentricity - 10));
+    return std::pow(10.0, -0.0331 * std::clamp(eccentricity - 10, 0.0, 50.0));
 }
 
 } // namespace penumbra

@@ -34,11 +34,12 @@ private:
 ///
 ///     10^(-0.0331 (e - 10))
 ///
+/// and beyond 60 degrees no further: what is there is seen when the head turns.
 /// Acuity for what stands still falls off several times as fast; but light that changes is noticed
 /// from the corner of the eye.
 /// \param eccentricity e [degrees], >= 0;  \return in (0, 1]
 ///
-/// Cai, Bozorgian, Ashraf, Wanat & Mantiuk, "elaTCSF", SIGGRAPH Asia 2024. The 10 degrees are ours.
+/// Cai, Bozorgian, Ashraf, Wanat & Mantiuk, "elaTCSF", SIGGRAPH Asia 2024. The limits are ours.
 double peripheralSensitivity(double eccentricity);
 
 } // namespace penumbra

@@ -42,8 +42,9 @@ glm::dmat4 widened(const View& view) {
 } // namespace
 
 Viewpoint::Viewpoint(const View& view, int width, int height)
-    : eye_(eyeOf(view)), clipToWorld_(glm::inverse(view.worldToClip())),
-      picture_(view.worldToClip()), margin_(widened(view)),
+    : inScene_(isPerspective(view) ? std::optional(view.eye) : std::nullopt), eye_(eyeOf(view)),
+      clipToWorld_(glm::inverse(view.worldToClip())), picture_(view.worldToClip()),
+      margin_(widened(view)),
       pixelsPerRadian_(isPerspective(view) ? 0.5 * width * view.projection[0][0]
                                            : 0.5 * width / std::tan(kOrthographicWidth / 2)),
       pixels_(double(width) * height) {}

@@ -7,6 +7,8 @@
 
 #include <glm/glm.hpp>
 
+#include <optional>
+
 namespace penumbra {
 
 /// The viewing conditions of a camera: the viewer's eye is where the camera's is, so the picture
@@ -17,6 +19,8 @@ public:
     /// \param width, height of the picture [pixels]
     Viewpoint(const View& view, int width, int height);
 
+    /// Where the eye is [m, world]; an orthographic picture has no such place in the scene.
+    const std::optional<glm::dvec3>& eye() const { return inScene_; }
     /// In the middle of the picture.
     double pixelsPerDegree() const;
     double pixels() const { return pixels_; } ///< of the whole picture
@@ -43,6 +47,7 @@ public:
     double pixelsOf(const Bounds& box, glm::vec3 normal, float area) const;
 
 private:
+    std::optional<glm::dvec3> inScene_;
     glm::dvec3 eye_;
     glm::dmat4 clipToWorld_;
     Frustum picture_, margin_;

@@ -23,7 +23,6 @@ double WorkQueue::boundOf(const Place& at) {
 
 void WorkQueue::add(const Task& task) {
     assert(task.cost > 0 && task.change >= 0);
-    if (task.place >= places_.size()) places_.resize(task.place + 1);
     if (free_.empty()) {
         free_.push_back(std::uint32_t(slots_.size()));
         slots_.emplace_back();
@@ -34,7 +33,7 @@ void WorkQueue::add(const Task& task) {
     ages_.push_back({serial_, slot});
     ++size_;
 
-    Place& at = places_[task.place];
+    Place& at = placeAt(task.place);
     at.mostChange = std::max(at.mostChange, task.change);
     at.leastCost = std::min(at.leastCost, task.cost);
     at.tasks.push_back({workValue(at.value, task.change, task.cost), serial_, slot});
@@ -46,23 +45,32 @@ void WorkQueue::add(const Task& task) {
     settle(task.place);
 }
 
-void WorkQueue::rekey(const std::function<PlaceValue(std::uint32_t)>& value) {
-    for (std::uint32_t index : heap_) {
-        Place& at = places_[index];
-        at.value = value(index);
-        at.ordered = false;
-        at.key = boundOf(at);
-    }
+/// A place whose value is that of the last rekey().
+WorkQueue::Place& WorkQueue::placeAt(std::uint32_t index) {
+    if (index >= places_.size()) places_.resize(index + 1);
+    Place& at = places_[index];
+    if (at.keyed == rekeys_) return at;
+    at.keyed = rekeys_;
+    at.value = value_(index);
+    at.ordered = false;
+    at.key = boundOf(at);
+    return at;
+}
+
+void WorkQueue::rekey(Value value) {
+    value_ = std::move(value);
+    ++rekeys_;
+    for (std::uint32_t index : heap_) placeAt(index);
     const auto after = [&](std::uint32_t a, std::uint32_t b) { return before(b, a); };
     std::make_heap(heap_.begin(), heap_.end(), after);
     for (std::size_t i = 0; i < heap_.size(); ++i) places_[heap_[i]].position = i;
 }
 
 void WorkQueue::rekey(std::uint32_t index, const PlaceValue& value) {
-    if (index >= places_.size()) places_.resize(index + 1);
-    places_[index].value = value;
-    places_[index].ordered = false;
-    if (places_[index].position != kOut) settle(index);
+    Place& at = placeAt(index);
+    at.value = value;
+    at.ordered = false;
+    if (at.position != kOut) settle(index);
 }
 
 /// Ranks all tasks of a place, and finds its exact key and bounds.

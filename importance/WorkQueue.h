@@ -33,22 +33,25 @@ public:
     explicit WorkQueue(Fairness fairness) : fairness_(fairness) {}
     WorkQueue() : WorkQueue(Fairness()) {}
 
-    /// A piece of open work; `id` is the caller's.
+    /// A piece of open work; `id` and `ticket` are the caller's.
     struct Task {
         std::uint32_t place = 0;
         std::uint64_t id = 0;
+        std::uint32_t ticket = 0;
         float change = 0; ///< of luminance, see workValue() [nit]
         float cost = 1;   ///< > 0
         double since = 0; ///< when it was added
     };
-    /// Adds a task. Its place has the value of when it was last keyed; nothing if it never was.
-    /// \param task its `since` may not be before that of tasks added earlier
-    void add(const Task& task);
-
-    /// Asks anew what work at each place is worth, for places with open work.
-    void rekey(const std::function<PlaceValue(std::uint32_t place)>& value);
+    /// What work at a place is worth as the viewer sees it now.
+    using Value = std::function<PlaceValue(std::uint32_t place)>;
+    /// Asks anew for all places, those with open work at once, others when work comes there.
+    void rekey(Value value);
     /// The same for one place, as when its light was found to change less than was thought.
     void rekey(std::uint32_t place, const PlaceValue& value);
+
+    /// Adds a task. Before the first rekey() all are worth nothing.
+    /// \param task its `since` may not be before that of tasks added earlier
+    void add(const Task& task);
 
     /// Takes the most valuable task, or the oldest if that is overdue and has its share.
     /// \param now in any unit that rises; nothing if there is no work
@@ -71,6 +74,7 @@ private:
     };
     struct Place {
         PlaceValue value;
+        std::uint32_t keyed = 0;   ///< at which rekey() it was asked for
         std::vector<Ranked> tasks; ///< a heap once it is `ordered`
         bool ordered = false;
         float mostChange = 0; ///< of any task here
@@ -88,6 +92,7 @@ private:
     };
     static constexpr std::size_t kOut = ~std::size_t(0);
 
+    Place& placeAt(std::uint32_t index);
     bool before(std::uint32_t a, std::uint32_t b) const;
     static double boundOf(const Place& place);
     bool taken(const Ranked& ranked) const { return slots_[ranked.slot].serial != ranked.serial; }
@@ -102,6 +107,8 @@ private:
     void settle(std::uint32_t index);
 
     Fairness fairness_;
+    Value value_;
+    std::uint32_t rekeys_ = 0;
     std::vector<Place> places_;
     std::vector<std::uint32_t> heap_; ///< places with open work, the one with the largest key first
     std::vector<Slot> slots_;

@@ -32,6 +32,11 @@ public:
     bool work(std::size_t effort, double enough);
     /// Bound of what is still open in the mean light of patches [lux].
     std::vector<double> openLight() const;
+    /// See OpenWork.
+    void setOrder(std::shared_ptr<const OrderOfWork> order) {
+        updates_.open().setOrder(std::move(order));
+    }
+    void rekey() { updates_.open().rekey(); }
     /// Sums what the rows, as they are now, give to the vertices.
     void sumUp();
 

@@ -54,6 +54,14 @@ Plane DrawnView::luminances(const Lighting& light) const {
     return plane;
 }
 
+std::vector<float> DrawnView::vertexPixels() const {
+    std::vector<float> pixels(patches_.vertices.size());
+    for (const Pixel& pixel : pixels_)
+        for (std::size_t k = 0; k < 3 && pixel.element != Element::kNone; ++k)
+            pixels[pixel.vertices[k]] += pixel.weights[k];
+    return pixels;
+}
+
 std::vector<std::uint32_t> DrawnView::blocks() const {
     std::vector<std::uint32_t> blocks;
     blocks.reserve(pixels_.size());

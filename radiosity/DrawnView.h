@@ -28,6 +28,8 @@ public:
     std::vector<Rgb> colours(const Lighting& light) const;
     /// Its luminance [nit].
     Plane luminances(const Lighting& light) const;
+    /// How many pixels each vertex has a part in, all parts of a pixel being 1.
+    std::vector<float> vertexPixels() const;
     /// An item buffer of the blocks of vertices, see importance/SeenItems.h.
     std::vector<std::uint32_t> blocks() const;
 

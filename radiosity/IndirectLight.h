@@ -55,6 +55,11 @@ public:
     /// What a patch sends if nothing is owed any more: rho * H [lm/m^2].
     glm::dvec3 reflected(std::uint32_t patch) const;
 
+    /// See OpenWork.
+    void setOrder(std::shared_ptr<const OrderOfWork> order) {
+        updates_.open().setOrder(std::move(order));
+    }
+
     double residual() const { return most_; } ///< max |R| [lm/m^2]
     /// Bound of |B_exact - B|, with what open work may change [lm/m^2].
     double certificate() const { return certificate_; }

@@ -8,45 +8,38 @@ namespace penumbra {
 
 namespace {
 
-/// Quarters of octaves, 2^-40 the lowest: exponent and first two bits of the fraction.
-std::size_t stepOf(double worth, std::size_t steps) {
-    constexpr std::uint32_t kLowest = (127 - 40) << 2;
-    const std::uint32_t step = std::bit_cast<std::uint32_t>(float(worth)) >> 21;
-    return std::min<std::size_t>(step > kLowest ? step - kLowest : 0, steps - 1);
-}
+/// What waits for longer than this gets a share of the work, whatever else is worth more [rays]:
+/// about a second of one thread.
+constexpr WorkQueue::Fairness kFairness{.patience = 4e6, .reserve = 0.25};
 
 } // namespace
 
-void OpenWork::Queue::push(std::size_t step, const Place& place) {
-    steps[step].push_back(place);
-    ++size;
-    top = std::max(top, step);
-}
-
-std::size_t OpenWork::Queue::pop(Place& place) {
-    while (next[top] == steps[top].size()) --top;
-    const std::size_t step = top;
-    place = steps[step][next[step]++];
-    --size;
-    if (next[step] == steps[step].size()) steps[step].clear(), next[step] = 0;
-    return step;
-}
-
 OpenWork::OpenWork(std::size_t rows, std::size_t visitCost)
-    : rows_(rows), visitCost_(visitCost),
-      worth_([](const OpenBlock&, double bound, double cost) { return bound / cost; }) {}
+    : rows_(rows), visitCost_(visitCost), urgent_(kFairness), later_(kFairness) {
+    setOrder(std::make_shared<const BoundOrder>());
+}
 
 std::size_t OpenWork::cost(const OpenBlock& block) const {
     constexpr std::size_t kSamples = 20; // of an entry that is evaluated anew
     return visitCost_ + kSamples * std::size_t(std::popcount(block.anew));
 }
 
-void OpenWork::setWorth(Worth worth) {
-    worth_ = std::move(worth);
-    urgent_ = {}, later_ = {};
+void OpenWork::setOrder(std::shared_ptr<const OrderOfWork> order) {
+    order_ = std::move(order);
+    clearQueues();
     for (std::uint32_t row = 0; row < rows_.size(); ++row)
         for (Entry& entry : rows_[row].entries)
             if (entry.ticket != 0) enqueue(row, entry);
+}
+
+void OpenWork::clearQueues() {
+    urgent_ = later_ = WorkQueue(kFairness);
+    rekey();
+}
+
+void OpenWork::rekey() {
+    for (WorkQueue* queue : {&urgent_, &later_})
+        queue->rekey([order = order_](std::uint32_t place) { return order->value(place); });
 }
 
 void OpenWork::setReceivers(std::vector<Receivers> blocks) {
@@ -78,9 +71,12 @@ void OpenWork::enqueue(std::uint32_t row, Entry& entry) {
     const double bound =
         double(r.reflectance) * double(entry.factor) * (rows_[row].power + double(r.light));
     const OpenBlock block{row, entry.block, entry.anew, entry.since, entry.factor};
+    WorkQueue::Task task = order_->rank({row, entry.block, bound, double(cost(block))});
     entry.ticket = ++tickets_ == 0 ? ++tickets_ : tickets_;
-    urgent_.push(stepOf(worth_(block, bound, double(cost(block))), kSteps),
-                 {row, entry.block, entry.ticket});
+    task.id = std::uint64_t(row) << 32 | entry.block;
+    task.ticket = entry.ticket;
+    task.since = taken_;
+    urgent_.add(task);
 }
 
 void OpenWork::open(std::uint32_t row, std::span<const OpenBlock> blocks) {
@@ -122,33 +118,37 @@ void OpenWork::drop(std::uint32_t row) {
     list.open = 0;
 }
 
-OpenWork::Entry* OpenWork::find(const Place& place) {
-    std::vector<Entry>& entries = rows_[place.row].entries;
-    const auto found = std::lower_bound(
-        entries.begin(), entries.end(), place.block,
-        [](const Entry& entry, std::uint32_t block) { return entry.block < block; });
+OpenWork::Entry* OpenWork::find(const WorkQueue::Task& task) {
+    std::vector<Entry>& entries = rows_[task.id >> 32].entries;
+    const auto block = std::uint32_t(task.id);
+    const auto found =
+        std::lower_bound(entries.begin(), entries.end(), block,
+                         [](const Entry& entry, std::uint32_t at) { return entry.block < at; });
     const bool same =
-        found != entries.end() && found->block == place.block && found->ticket == place.ticket;
+        found != entries.end() && found->block == block && found->ticket == task.ticket;
     return same ? &*found : nullptr;
 }
 
 std::optional<OpenBlock> OpenWork::take(double enough, std::size_t& steps) {
     for (; steps > 0 && pending(enough); --steps) {
-        if (urgent_.size == 0) std::swap(urgent_, later_);
-        Place place{};
-        const std::size_t step = urgent_.pop(place);
-        Entry* const entry = find(place);
+        if (urgent_.empty()) std::swap(urgent_, later_);
+        const std::optional<WorkQueue::Task> task = urgent_.take(taken_);
+        Entry* const entry = find(*task);
         if (!entry) continue;
         if (enough > 0 && bound(entry->block) <= enough) {
-            later_.push(step, place);
+            WorkQueue::Task putOff = *task;
+            putOff.since = taken_;
+            later_.add(putOff);
             continue;
         }
-        RowList& list = rows_[place.row];
-        const OpenBlock taken{place.row, entry->block, entry->anew, entry->since, entry->factor};
+        const auto row = std::uint32_t(task->id >> 32);
+        RowList& list = rows_[row];
+        const OpenBlock taken{row, entry->block, entry->anew, entry->since, entry->factor};
         add(entry->block, -double(entry->factor), list.power, -1);
         entry->ticket = 0;
         if (--list.open == 0) list.entries.clear();
-        if (count_ == 0) urgent_ = {}, later_ = {}; // places that count for nothing
+        if (count_ == 0) clearQueues(); // tasks that count for nothing
+        taken_ += double(cost(taken));
         return taken;
     }
     return {};

@@ -2,9 +2,10 @@
 // may change at most.
 #pragma once
 
-#include <array>
+#include "importance/OrderOfWork.h"
+
 #include <cstdint>
-#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -30,16 +31,13 @@ struct OpenBlock {
 /// of the work is put off: it stays open, and its bound is part of what is reported.
 class OpenWork {
 public:
-    /// What makes a block worth being worked on, any number >= 0: the greatest come first, in steps
-    /// of a quarter of an octave; in a step those that were opened first.
-    /// \param bound of what it may change [lm/m^2]
-    /// \param cost  about [rays]
-    using Worth = std::function<double(const OpenBlock& block, double bound, double cost)>;
-
-    /// In the order of bound / cost. \param visitCost of a block of which nothing is evaluated anew
+    /// In the order of bound / cost, until another is set. \param visitCost of a block of which
+    /// nothing is evaluated anew
     OpenWork(std::size_t rows, std::size_t visitCost);
     /// Another order for all that is open, and for what comes.
-    void setWorth(Worth worth);
+    void setOrder(std::shared_ptr<const OrderOfWork> order);
+    /// The viewer has moved: what work is worth is asked for again.
+    void rekey();
     /// What working on a block costs, about [rays].
     std::size_t cost(const OpenBlock& block) const;
 
@@ -58,12 +56,12 @@ public:
     void drop(std::uint32_t row);
     /// Closes the next block, to be worked on now.
     /// \param enough what may stay open on each block of receivers [lm/m^2]; 0: nothing
-    /// \param steps places in the queue to go through at most; those that were are taken off
+    /// \param steps tasks of the queue to go through at most; those that were are taken off
     /// \return nothing: none is left, or no step
     std::optional<OpenBlock> take(double enough, std::size_t& steps);
 
     /// Whether take() may give anything.
-    bool pending(double enough) const { return count_ > 0 && (enough <= 0 || urgent_.size > 0); }
+    bool pending(double enough) const { return count_ > 0 && (enough <= 0 || !urgent_.empty()); }
     std::size_t count() const { return count_; } ///< blocks that are open
     /// Sums over the open blocks of all senders: of factor * power [lux], and of factor.
     double light(std::size_t block) const { return sums_[block].light; }
@@ -80,41 +78,31 @@ private:
         std::uint64_t anew;
         std::uint32_t block, since;
         float factor;
-        std::uint32_t ticket; ///< its place in a queue has the same; 0: closed
+        std::uint32_t ticket; ///< its task in a queue has the same; 0: closed
     };
     struct RowList {
         std::vector<Entry> entries; ///< by block
         std::size_t open = 0;       ///< of those
         double power = 0;
     };
-    struct Place {
-        std::uint32_t row, block, ticket;
-    };
-    static constexpr std::size_t kSteps = 256;
-    struct Queue {
-        std::array<std::vector<Place>, kSteps> steps;
-        std::array<std::size_t, kSteps> next{};
-        std::size_t size = 0, top = 0; ///< places; the highest step that may have any
-
-        void push(std::size_t step, const Place& place);
-        std::size_t pop(Place& place); ///< \return its step \pre size > 0
-    };
     struct Sum {
         double light = 0, factor = 0;
         std::uint32_t count = 0;
     };
     void enqueue(std::uint32_t row, Entry& entry);
+    void clearQueues();
     void add(std::uint32_t block, double factor, double power, int count);
-    Entry* find(const Place& place);
+    Entry* find(const WorkQueue::Task& task);
 
     std::vector<RowList> rows_;
     std::vector<Sum> sums_;            ///< a block of receivers each
     std::vector<Receivers> receivers_; ///< likewise
     std::size_t visitCost_;
-    Worth worth_;
-    Queue urgent_, later_; ///< later_: those that were put off
+    std::shared_ptr<const OrderOfWork> order_;
+    WorkQueue urgent_, later_; ///< later_: those that were put off
     std::size_t count_ = 0;
     std::uint32_t tickets_ = 0;
+    double taken_ = 0; ///< cost of all work so far: the queues' clock
 };
 
 } // namespace penumbra

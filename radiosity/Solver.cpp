@@ -2,6 +2,7 @@
 
 #include "radiosity/Interpolation.h"
 #include "radiosity/Parallel.h"
+#include "radiosity/SeenWork.h"
 
 #include <algorithm>
 #include <chrono>
@@ -31,16 +32,40 @@ Rgb toRgb(glm::dvec3 v) {
 } // namespace
 
 Solver::Solver(const PatchSet& patches, const RayScene& rays, const SolverOptions& options)
-    : set_(patches), options_(options), direct_(patches, rays, options.samples) {
+    : set_(patches), rays_(rays), options_(options), direct_(patches, rays, options.samples) {
     if (!options.directOnly && !patches.patches.empty())
         indirect_ = std::make_unique<IndirectLight>(patches, rays, direct_, options.rowMemory,
                                                     options.flatPatches);
     if (indirect_ && options.detail) detail_ = std::make_unique<DetailGather>(patches);
+    if (options.order != UpdateOrder::plain) return;
+    setOrder(std::make_shared<PlainOrder>());
+    if (indirect_) indirect_->setOrder(std::make_shared<PlainOrder>());
+}
+
+Solver::~Solver() = default;
+
+void Solver::attend(const Attention& attention) {
+    if (options_.order == UpdateOrder::plain) return;
+    if (seen_) {
+        seen_->attend(attention);
+        direct_.rekey();
+    } else {
+        seen_ = std::make_unique<SeenWork>(set_, rays_, direct_, attention);
+        direct_.setOrder(seen_->order());
+    }
+}
+
+void Solver::setOrder(std::shared_ptr<const OrderOfWork> order) {
+    direct_.setOrder(std::move(order));
 }
 
 void Solver::apply(const SceneChange& change) {
     if (change.empty()) return;
     direct_.apply(change);
+    if (seen_) {
+        seen_->follow(change.objects);
+        direct_.rekey();
+    }
     if (indirect_) indirect_->apply(change);
     if (detail_) detail_->apply(change);
     begin();
@@ -228,6 +253,7 @@ WorkDone Solver::done() const {
     done.rays = direct_.updates().rays().total();
     done.blocks = direct_.updates().blocksVisited();
     done.nodes = set_.nodes.size();
+    if (seen_) done.rays += seen_->rays();
     if (!indirect_) return done;
     done.rays += indirect_->updates().rays().total() + indirect_->buildRays().total();
     done.blocks += indirect_->updates().blocksVisited();

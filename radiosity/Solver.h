@@ -20,6 +20,14 @@
 
 namespace penumbra {
 
+class SeenWork;
+
+/// Which of the open work comes first; never what comes out.
+enum class UpdateOrder {
+    bound, ///< what may change most; what a viewer sees of it first, if one is known
+    plain, ///< sender by sender: the original method, and the yardstick
+};
+
 struct SolverOptions {
     int samples = 16; ///< visibility samples of an emitter and a receiver that agree
     /// Relax until the certificate is below this share of the brightest emitter's exitance; 0:
@@ -27,6 +35,7 @@ struct SolverOptions {
     /// with.
     double residual = 0;
     bool directOnly = false;
+    UpdateOrder order = UpdateOrder::bound;
     bool detail = true; ///< shadows of indirect light finer than patches, see DetailGather
     /// 0: no limit if `residual` is given, else what keeps a scene of very many patches to minutes.
     std::uint64_t mostShots = 0;
@@ -88,11 +97,18 @@ class Solver {
 public:
     /// Both must outlive the solver, and change only just before apply() says so.
     Solver(const PatchSet& patches, const RayScene& rays, const SolverOptions& options);
+    ~Solver();
 
     /// Takes note of an edit that has been made to the patch set and the ray scene. Traces nothing.
     void apply(const SceneChange& change);
     /// Takes note that light which ends in a box or crosses it [m, world] is to be evaluated anew.
     void invalidate(const Bounds& region);
+
+    /// What the viewer sees now, and the object being moved: open work on direct light is done in
+    /// the order of what the viewer gains from it, from now on. Nothing in the plain order.
+    void attend(const Attention& attention);
+    /// Another order for the work on direct light, as for measurements.
+    void setOrder(std::shared_ptr<const OrderOfWork> order);
 
     /// Works for `budget` seconds, or until everything is settled, and returns whether it is. What
     /// it leaves undone it goes on with at the next call.
@@ -151,8 +167,10 @@ private:
     double target() const;
 
     const PatchSet& set_;
+    const RayScene& rays_;
     SolverOptions options_;
     DirectLight direct_;
+    std::unique_ptr<SeenWork> seen_;          ///< once a viewer is known
     std::unique_ptr<IndirectLight> indirect_; ///< null: direct light only
     std::unique_ptr<DetailGather> detail_;
     bool handedOver_ = false; ///< whether the indirect light knows of the direct light as it is

@@ -12,9 +12,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -24,7 +26,7 @@ namespace {
 
 struct CompareCommand {
     SolveSettings solve;
-    std::string output, json, camera;
+    std::string output, json, camera, orders;
     int width = 480, height = 0;
     double looks = 1.25;
     int filmFrame = 0;
@@ -52,6 +54,7 @@ Playback playbackOf(const CompareCommand& command, LoadedScene& loaded) {
 ComparisonOptions optionsOf(const CompareCommand& command, const LoadedScene& loaded) {
     ComparisonOptions options;
     options.meshing = command.solve.meshing;
+    options.solving = command.solve.solver;
     if (options.meshing.patchSize == 0) options.meshing.patchSize = float(loaded.scene->patchSize);
     options.width = command.width;
     options.height = command.height;
@@ -65,6 +68,26 @@ ComparisonOptions optionsOf(const CompareCommand& command, const LoadedScene& lo
     options.filmSeconds = {0};
     for (double ms = 1; ms < 70'000; ms *= 2) options.filmSeconds.push_back(1e-3 * ms);
     return options;
+}
+
+/// \param names separated by commas; empty: the usual ones
+std::vector<OrderUnderTest> chosenOrders(const std::string& names) {
+    std::vector<OrderUnderTest> known = allOrders();
+    if (names.empty()) return usualOrders();
+    std::vector<OrderUnderTest> chosen;
+    std::istringstream list(names);
+    for (std::string name; std::getline(list, name, ',');) {
+        const auto found = std::find_if(known.begin(), known.end(),
+                                        [&](const auto& order) { return order.name == name; });
+        if (found == known.end()) {
+            std::string all;
+            for (const auto& order : known) all += (all.empty() ? "" : ", ") + order.name;
+            throw CLI::ValidationError("--orders",
+                                       fmt::format("no order '{}' (there are {})", name, all));
+        }
+        chosen.push_back(*found);
+    }
+    return chosen;
 }
 
 ReportOptions reportOptions(const CompareCommand& command, const ComparisonResult& result) {
@@ -112,7 +135,7 @@ void run(CompareCommand command) {
     if (command.height == 0)
         command.height = heightFor(placed, command.camera, command.solve.scene, command.width);
     const Playback playback = playbackOf(command, loaded);
-    const std::vector<OrderUnderTest> orders{{"bound", command.solve.solver}};
+    const std::vector<OrderUnderTest> orders = chosenOrders(command.orders);
     const ComparisonResult result =
         compareOrders(playback, orders, optionsOf(command, loaded),
                       [&](const char* phase, double done) { progress.show(phase, done); });
@@ -151,6 +174,11 @@ void addCompareCommand(CLI::App& app) {
                      "The picture is looked at each time the work has grown by this factor")
         ->capture_default_str()
         ->check(CLI::Range(1.01, 10.0));
+    compare->add_option(
+        "--orders", command->orders,
+        "Orders to compare, with commas: plain, importance, random, bound, oracle,\n"
+        "or importance without one of its factors, as 'no-occlusion'\n"
+        "(default: plain,importance,random,bound,oracle)");
     compare->add_option("--film", command->filmFrame,
                         "Frame of the film strip (default: the second one)");
     compare->callback([command] { run(*command); });

@@ -56,6 +56,7 @@ private:
 ComparisonOptions coarse() {
     ComparisonOptions options;
     options.meshing = {.patchSize = 0.5f, .elementSize = 0.125f};
+    options.solving.residual = 1e-5;
     options.width = 64;
     options.height = 48;
     options.firstLook = 600;
@@ -64,9 +65,9 @@ ComparisonOptions coarse() {
     return options;
 }
 
-ComparisonResult compared() {
+ComparisonResult compared(const std::vector<OrderUnderTest>& orders = {{.name = "plain"}}) {
     PushedBox box;
-    return compareOrders(box.playback(3), {{"plain", {.residual = 1e-5}}}, coarse());
+    return compareOrders(box.playback(3), orders, coarse());
 }
 
 TEST(CompareOrders, StartsWithAVisibleErrorAndEndsAtTheTruth) {
@@ -109,6 +110,35 @@ TEST(CompareOrders, CountsTheSameWorkEachTime) {
         EXPECT_EQ(a[i].rays, b[i].rays);
         EXPECT_EQ(a[i].error.mean, b[i].error.mean);
     }
+}
+
+TEST(CompareOrders, AllOrdersComeToTheSameEnd) {
+    const ComparisonResult result = compared(usualOrders());
+    ASSERT_EQ(result.orders.size(), 5u);
+    for (const OrderResult& order : result.orders) {
+        EXPECT_LT(order.differsFromTruth, 0.05) << order.name;
+        EXPECT_EQ(order.frames[0][0].error.mean, result.orders[0].frames[0][0].error.mean)
+            << order.name;
+    }
+}
+
+TEST(CompareOrders, KnowingWhatComesOutIsBetterThanChance) {
+    // Of direct light alone, for that is what this order knows; fine enough for a choice.
+    using Kind = OrderUnderTest::Kind;
+    ComparisonOptions options = coarse();
+    options.solving.directOnly = true;
+    options.meshing.elementSize = 0.0625f;
+    options.filmFrame = 0;
+    PushedBox box;
+    const ComparisonResult result =
+        compareOrders(box.playback(2),
+                      {{.kind = Kind::random, .name = "random"},
+                       {.kind = Kind::random, .name = "another", .seed = 2},
+                       {.kind = Kind::oracle, .name = "oracle"}},
+                      options);
+    const std::vector<OrderFigures> figures = figuresOf(result);
+    EXPECT_LT(figures[2].area, 0.8 * figures[0].area);
+    EXPECT_LT(figures[2].area, 0.8 * figures[1].area);
 }
 
 TEST(CompareOrders, FilmsTheFrameThatIsAskedFor) {

@@ -47,7 +47,8 @@ TEST(PeripheralSensitivity, IsWholeNearTheGazeAndFallsAsFlickerDetectionDoes) {
     EXPECT_EQ(peripheralSensitivity(10), 1);
     // elaTCSF: 10^(-0.0331 e), that is half after 9.09 degrees.
     EXPECT_NEAR(peripheralSensitivity(10 + 9.0945), 0.5, 1e-4);
-    EXPECT_GT(peripheralSensitivity(180), 0);
+    EXPECT_EQ(peripheralSensitivity(180), peripheralSensitivity(60));
+    EXPECT_NEAR(peripheralSensitivity(60), 0.0221, 1e-4);
 }
 
 } // namespace

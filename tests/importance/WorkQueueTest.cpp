@@ -63,6 +63,18 @@ TEST(WorkQueue, OnePlaceCanBeKeyedByItself) {
     EXPECT_THAT(takeAll(queue), ElementsAre(1, 2, 0));
 }
 
+TEST(WorkQueue, WorkThatComesAfterTheViewerMovedIsWorthWhatItIsNow) {
+    WorkQueue queue;
+    queue.add({.place = 0, .id = 0, .change = 1});
+    queue.add({.place = 1, .id = 1, .change = 1});
+    queue.rekey([](std::uint32_t place) { return weight(place == 1 ? 9 : 1); });
+    EXPECT_EQ(queue.take(0)->id, 1u); // nothing is open at place 1 now
+    queue.rekey([](std::uint32_t place) { return weight(place == 1 ? 0.5 : 1); });
+    queue.add({.place = 1, .id = 2, .change = 1});
+    queue.add({.place = 7, .id = 3, .change = 1.5});
+    EXPECT_THAT(takeAll(queue), ElementsAre(3, 0, 2));
+}
+
 TEST(WorkQueue, WorkAddedLaterTakesItsRank) {
     WorkQueue queue;
     queue.add({.place = 0, .id = 0, .change = 1});
@@ -150,9 +162,7 @@ RC_GTEST_PROP(WorkQueue, TakesWhatASortedListWouldHaveFirst, ()) {
             list.push_back({task, age++});
         } else if (what == 4) {
             for (std::uint32_t p = 0; p < 6; ++p) values[p] = weight(draw(4));
-            queue.rekey([&](std::uint32_t place) { return values[place]; });
-            // Places without work keep the value they had; here all are told.
-            for (std::uint32_t p = 0; p < 6; ++p) queue.rekey(p, values[p]);
+            queue.rekey([now = values](std::uint32_t place) { return now.at(place); });
         } else if (what == 5) {
             const auto place = std::uint32_t(draw(6));
             values[place] = weight(draw(4));

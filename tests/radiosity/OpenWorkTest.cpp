@@ -119,14 +119,40 @@ TEST_F(OpenWorkOfTwoRows, ForgetsARowThatIsDropped) {
 }
 
 TEST_F(OpenWorkOfTwoRows, CanBePutInAnotherOrderAtAnyTime) {
-    open(0, {block(0, 0.1f), block(1, 0.4f)});
     open(1, {block(2, 0.1f)});
-    work.setWorth([](const OpenBlock& block, double, double) { return double(block.block); });
-    EXPECT_THAT(takeAll(0), ElementsAre(12, 1, 0));
     open(0, {block(0, 0.1f), block(1, 0.4f)});
-    work.setWorth([](const OpenBlock&, double, double) { return 1; }); // all the same: as they came
-    open(1, {block(2, 0.1f)});
-    EXPECT_THAT(takeAll(0), ElementsAre(0, 1, 12));
+    work.setOrder(std::make_shared<PlainOrder>());
+    std::size_t steps = 1;
+    EXPECT_EQ(work.take(0, steps)->row, 0u); // sender by sender
+    open(0, {block(3, 0.1f)});
+    work.setOrder(std::make_shared<BoundOrder>());
+    EXPECT_THAT(takeAll(0), ElementsAre(12, 1, 3));
+}
+
+/// Blocks are places, and the last one is the one that counts.
+class LastFirst : public BoundOrder {
+public:
+    WorkQueue::Task rank(const BlockOfWork& work) const override {
+        WorkQueue::Task task = BoundOrder::rank(work);
+        task.place = work.block;
+        return task;
+    }
+    PlaceValue value(std::uint32_t place) const override {
+        return {turned ? 10.0 - place : 1.0 + place, 1, true};
+    }
+    bool turned = false;
+};
+
+TEST_F(OpenWorkOfTwoRows, FollowsAnOrderThatChangesItsMind) {
+    const auto order = std::make_shared<LastFirst>();
+    work.setOrder(order);
+    open(0, {block(0, 0.1f), block(1, 0.1f), block(2, 0.1f)});
+    std::size_t steps = 1;
+    EXPECT_EQ(work.take(0, steps)->block, 2u);
+    order->turned = true;
+    work.rekey();
+    open(1, {block(3, 0.1f)});
+    EXPECT_THAT(takeAll(0), ElementsAre(0, 1, 13));
 }
 
 } // namespace

@@ -38,7 +38,7 @@ TEST(Compare, WritesAReportAndItsFigures) {
     EXPECT_THAT(work.files(), ElementsAre("report.html", "report.json"));
     const auto json = nlohmann::json::parse(readFile(work.path("report.json")));
     ASSERT_FALSE(json["orders"].empty());
-    EXPECT_EQ(json["orders"][0]["order"], "bound");
+    EXPECT_EQ(json["orders"][0]["order"], "plain");
     ASSERT_EQ(json["orders"][0]["edits"].size(), 2u);
     const auto& samples = json["orders"][0]["edits"][0]["samples"];
     ASSERT_GT(samples.size(), 3u);

@@ -1,0 +1,57 @@
+#include "comparison/OracleOrder.h"
+
+#include "importance/ContrastSensitivity.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace penumbra {
+
+VertexFactors factorsOf(std::span<const Row> rows, std::size_t vertices) {
+    VertexFactors factors;
+    for (const Row& row : rows) {
+        std::vector<float>& one = factors.emplace_back(vertices);
+        for (std::size_t b = 0; b < row.size(); ++b)
+            row[b].forEach(
+                [&](int r, float factor) { one[b * PatchSet::kBlock + std::size_t(r)] = factor; });
+    }
+    return factors;
+}
+
+OracleOrder::OracleOrder(const PatchSet& patches, std::span<const Row> now,
+                         const VertexFactors& settled, const DrawnView& drawn, double adaptation)
+    : patches_(patches), now_(now), settled_(settled), pixels_(drawn.vertexPixels()),
+      reflectance_(patches.vertices.size()),
+      perThreshold_(peakContrastSensitivity(adaptation) / adaptation) {
+    for (const Element& element : patches.elements)
+        for (std::uint32_t v : element.vertices)
+            reflectance_[v] = luminance(patches.materials[element.material].reflectance);
+}
+
+WorkQueue::Task OracleOrder::rank(const BlockOfWork& work) const {
+    const std::size_t first = std::size_t(work.block) * PatchSet::kBlock;
+    const std::vector<float>& settled = settled_[work.row];
+    std::array<float, PatchSet::kBlock> change{}; // of F V
+    for (std::size_t r = 0; r < change.size() && first + r < settled.size(); ++r)
+        change[r] = settled[first + r];
+    now_[work.row][work.block].forEach(
+        [&](int r, float factor) { change[std::size_t(r)] -= factor; });
+    const double power = luminance(patches_.emitters[work.row].exitance);
+    double gain = 0;
+    for (std::size_t r = 0; r < change.size(); ++r) {
+        const std::size_t v = first + r;
+        const double nits = std::abs(change[r]) * power * reflectance_[v] * std::numbers::inv_pi;
+        gain += workValue({pixels_[v], perThreshold_, false}, nits, 1);
+    }
+    WorkQueue::Task task;
+    task.change = float(gain);
+    task.cost = float(work.cost);
+    return task;
+}
+
+PlaceValue OracleOrder::value(std::uint32_t) const {
+    return {1e-9, 1e9, false}; // the gain as it is
+}
+
+} // namespace penumbra

@@ -1,0 +1,107 @@
+#include "radiosity/VertexPlaces.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace penumbra {
+
+namespace {
+
+constexpr std::uint32_t kBlock = PatchSet::kBlock;
+constexpr std::size_t kLightSamples = 16, kSightSamples = 8; ///< vertices of a place
+
+} // namespace
+
+VertexPlaces::VertexPlaces(const PatchSet& patches, std::size_t most) : patches_(patches) {
+    // Blocks of objects that are hidden now have a place as well: they may be shown later.
+    std::vector<WorkPlace> blocks(patches.vertexBlockObject.size());
+    std::vector<std::uint32_t> objects;
+    for (std::uint32_t b = 0; b < blocks.size(); ++b) {
+        objects.push_back(patches.vertexBlockObject[b].value);
+        blocks[b].box.add(patches.vertices[b * kBlock].position);
+    }
+    clusters_ = clusterBlocks(blocks, objects, most);
+    firstBlock_.assign(size(), 0);
+    for (auto b = std::uint32_t(blocks.size()); b-- > 0;)
+        if (clusters_.placeOf[b] != PlaceClusters::kNowhere) firstBlock_[clusters_.placeOf[b]] = b;
+    measure();
+    for (std::uint32_t place = 0; place < size(); ++place) locate(place);
+}
+
+/// How large places are, and what they reflect. Each corner has its share of an element.
+void VertexPlaces::measure() {
+    for (std::size_t e = 0; e < patches_.uncoveredElements.size(); ++e) {
+        const Element& element = patches_.uncoveredElements[e];
+        if (element.patch == Element::kNone) continue;
+        const std::uint32_t block = element.vertices[0] / kBlock; // its corners are mostly in one
+        if (block >= clusters_.placeOf.size()) continue;
+        WorkPlace& place = clusters_.places[clusters_.placeOf[block]];
+        const float area = elementArea(patches_, element);
+        place.area += area;
+        place.reflectance += area * luminance(patches_.materials[element.material].reflectance);
+    }
+    for (std::uint32_t p = 0; p < size(); ++p) {
+        WorkPlace& place = clusters_.places[p];
+        if (place.area > 0) place.reflectance /= place.area;
+        place.area /= float(clusters_.blocks[p]);
+    }
+}
+
+/// Calls visit(vertex index) for some of a place's vertices, spread evenly.
+template <class Visit>
+void VertexPlaces::forSome(std::uint32_t place, std::size_t most, Visit visit) const {
+    const std::size_t first = std::size_t(firstBlock_[place]) * kBlock;
+    const std::size_t count = std::size_t(clusters_.blocks[place]) * kBlock;
+    const std::size_t step = std::max<std::size_t>(1, count / most);
+    for (std::size_t v = first; v < first + count; v += step)
+        if (!isPadding(patches_.vertices[v].receiver)) visit(v);
+}
+
+void VertexPlaces::locate(std::uint32_t index) {
+    WorkPlace& place = clusters_.places[index];
+    place.box = {};
+    place.normal = glm::vec3(0);
+    float count = 0;
+    forSome(index, std::size_t(clusters_.blocks[index]) * kBlock, [&](std::size_t v) {
+        place.box.add(patches_.vertices[v].receiver.position);
+        place.normal += patches_.vertices[v].receiver.normal;
+        count += 1;
+    });
+    if (count > 0) place.normal /= count;
+}
+
+void VertexPlaces::follow(std::span<const ObjectId> objects) {
+    for (std::uint32_t place = 0; place < size(); ++place)
+        if (std::find(objects.begin(), objects.end(),
+                      patches_.vertexBlockObject[firstBlock_[place]]) != objects.end())
+            locate(place);
+}
+
+WorkPlace VertexPlaces::at(std::uint32_t index, std::span<const Rgb> light) const {
+    WorkPlace place = clusters_.places[index];
+    float sum = 0, count = 0;
+    forSome(index, kLightSamples, [&](std::size_t v) {
+        sum += luminance(light[v]);
+        count += 1;
+    });
+    if (count > 0)
+        place.luminance = place.reflectance * sum / count * std::numbers::inv_pi_v<float>;
+    return place;
+}
+
+VertexPlaces::Sight VertexPlaces::sight(std::uint32_t place, const RayScene& rays,
+                                        glm::vec3 eye) const {
+    Sight sight;
+    int seen = 0, count = 0;
+    forSome(place, kSightSamples, [&](std::size_t v) {
+        const Receiver& receiver = patches_.vertices[v].receiver;
+        ++count;
+        if (glm::dot(eye - receiver.position, receiver.normal) <= 0) return;
+        seen += !rays.occluded(receiver.position, eye);
+        ++sight.rays;
+    });
+    if (count > 0) sight.share = float(seen) / float(count);
+    return sight;
+}
+
+} // namespace penumbra

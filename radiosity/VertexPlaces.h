@@ -1,0 +1,53 @@
+// The blocks of vertices, as places that a viewer may look at.
+#pragma once
+
+#include "importance/PlaceClusters.h"
+#include "radiosity/PatchSet.h"
+#include "radiosity/RayScene.h"
+#include "scenegraph/Rgb.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace penumbra {
+
+/// Neighbouring blocks of vertices of one object make a place. How large places are and what they
+/// reflect is found once; where they are follows the objects.
+class VertexPlaces {
+public:
+    /// \param most about how many places there are to be. `patches` must outlive this.
+    explicit VertexPlaces(const PatchSet& patches, std::size_t most = 2000);
+
+    /// Objects were placed anew, hidden or shown.
+    void follow(std::span<const ObjectId> objects);
+
+    std::size_t size() const { return clusters_.places.size(); }
+    /// The place of each block; PlaceClusters::kNowhere for blocks without a surface, and for those
+    /// that came later.
+    const std::vector<std::uint32_t>& placeOf() const { return clusters_.placeOf; }
+
+    /// A place as it is now. \param light illuminance of the vertices [lux]
+    WorkPlace at(std::uint32_t place, std::span<const Rgb> light) const;
+    /// How much of a place can be seen from somewhere.
+    struct Sight {
+        float share = 0; ///< in [0, 1]
+        int rays = 0;    ///< that this cost
+    };
+    /// By a ray to each of up to eight vertices spread over it; what is turned away is not seen.
+    Sight sight(std::uint32_t place, const RayScene& rays, glm::vec3 eye) const;
+
+private:
+    void measure();
+    void locate(std::uint32_t place);
+    template <class Visit>
+    void forSome(std::uint32_t place, std::size_t most, Visit visit) const;
+
+    const PatchSet& patches_;
+    PlaceClusters clusters_;
+    std::vector<std::uint32_t> firstBlock_; ///< one a place; its blocks are consecutive
+};
+
+} // namespace penumbra

@@ -1,0 +1,113 @@
+// Ways of ordering open work.
+#include "importance/OrderOfWork.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace penumbra {
+
+namespace {
+
+using testing::ElementsAre;
+using testing::UnorderedElementsAre;
+using Ids = std::vector<std::uint64_t>;
+
+/// Indices of pieces of work, in the order that comes of it.
+Ids sorted(const OrderOfWork& order, const std::vector<BlockOfWork>& work) {
+    WorkQueue queue;
+    for (std::size_t i = 0; i < work.size(); ++i) {
+        WorkQueue::Task task = order.rank(work[i]);
+        task.id = i;
+        queue.add(task);
+    }
+    queue.rekey([&](std::uint32_t place) { return order.value(place); });
+    Ids ids;
+    while (const auto task = queue.take(0)) ids.push_back(task->id);
+    return ids;
+}
+
+/// Two senders and two blocks; the second sender's light on the second block may change most.
+const std::vector<BlockOfWork> kWork{{.row = 1, .block = 0, .bound = 5, .cost = 10},
+                                     {.row = 1, .block = 1, .bound = 40, .cost = 20},
+                                     {.row = 0, .block = 0, .bound = 3, .cost = 10},
+                                     {.row = 0, .block = 1, .bound = 1, .cost = 1}};
+
+TEST(PlainOrder, GoesSenderBySender) {
+    EXPECT_THAT(sorted(PlainOrder(), kWork), ElementsAre(2, 3, 0, 1));
+}
+
+TEST(BoundOrder, TakesWhatMayChangeMostPerCost) {
+    EXPECT_THAT(sorted(BoundOrder(), kWork), ElementsAre(1, 3, 0, 2)); // 2, 1, 0.5, 0.3
+}
+
+TEST(RandomOrder, IsAnyOrderButTheSameForTheSameSeed) {
+    const Ids first = sorted(RandomOrder(1), kWork);
+    EXPECT_THAT(first, UnorderedElementsAre(0, 1, 2, 3));
+    EXPECT_EQ(first, sorted(RandomOrder(1), kWork));
+    bool other = false;
+    for (std::uint32_t seed = 2; seed < 8; ++seed)
+        other |= sorted(RandomOrder(seed), kWork) != first;
+    EXPECT_TRUE(other);
+}
+
+TEST(RandomOrder, PrefersNoRowAndNoBlock) {
+    std::vector<BlockOfWork> work;
+    for (std::uint32_t row = 0; row < 20; ++row)
+        for (std::uint32_t block = 0; block < 50; ++block)
+            work.push_back({.row = row, .block = block, .bound = 1, .cost = 1});
+    const Ids ids = sorted(RandomOrder(3), work);
+    double rows = 0, blocks = 0; // means over the first half
+    for (std::size_t i = 0; i < 500; ++i) {
+        rows += work[ids[i]].row / 500.0;
+        blocks += work[ids[i]].block / 500.0;
+    }
+    EXPECT_NEAR(rows, 9.5, 1.0); // standard deviation of the mean: 0.26, 0.65
+    EXPECT_NEAR(blocks, 24.5, 2.5);
+}
+
+/// Two places in front of a camera that looks along -Z: block 0 at its left, block 1 behind it.
+class TwoPlaces : public testing::Test {
+protected:
+    static Attention looking(double turn) { // about the vertical [degrees]
+        glm::dmat4 camera(1.0);
+        const double c = std::cos(glm::radians(turn)), s = std::sin(glm::radians(turn));
+        camera[0] = {c, 0, -s, 0}, camera[2] = {s, 0, c, 0};
+        Lens lens;
+        lens.focalLength = 1;
+        lens.horizontalAperture = 2;
+        const Viewpoint viewpoint(makeView(lens, camera, 100, 100), 100, 100);
+        return {viewpoint, Gaze(viewpoint), 50, {}, {}};
+    }
+    static ImportanceOrder::Sight sight(std::uint32_t place) {
+        const glm::vec3 at = place == 0 ? glm::vec3(0, 0, -5) : glm::vec3(0, 0, 5);
+        WorkPlace known;
+        known.box.add(at - 0.1f), known.box.add(at + 0.1f);
+        known.normal = glm::vec3(0, 0, place == 0 ? 1 : -1);
+        known.area = 0.04f;
+        known.luminance = 50;
+        return {known, {}};
+    }
+};
+
+TEST_F(TwoPlaces, ImportanceTakesWhatTheViewerSees) {
+    ImportanceOrder order({0, 1}, sight, looking(0));
+    // Sender 1 may change 8 times as much on what is behind the viewer; it comes last all the same.
+    EXPECT_THAT(sorted(order, kWork), ElementsAre(0, 2, 1, 3));
+    order.attend(looking(180));
+    EXPECT_THAT(sorted(order, kWork), ElementsAre(1, 3, 0, 2));
+}
+
+TEST_F(TwoPlaces, ImportanceLeavesWhatHasNoPlaceForLast) {
+    const ImportanceOrder order({PlaceClusters::kNowhere, 1}, sight, looking(0));
+    EXPECT_THAT(sorted(order, {{.row = 0, .block = 0, .bound = 99, .cost = 1},
+                               {.row = 0, .block = 7, .bound = 9, .cost = 1},
+                               {.row = 0, .block = 1, .bound = 1, .cost = 1}}),
+                ElementsAre(2, 0, 1));
+}
+
+} // namespace
+
+} // namespace penumbra
