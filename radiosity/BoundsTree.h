@@ -3,6 +3,7 @@
 
 #include "scenegraph/Bounds.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -46,7 +47,12 @@ public:
     /// accept every node above one that it accepts.
     template <class Meets, class Visit>
     void query(const Meets& meets, const Visit& visit) const {
-        if (count_ > 0) descend(1, meets, visit);
+        query(0, count_, meets, visit);
+    }
+    /// The same of boxes first ... end - 1.
+    template <class Meets, class Visit>
+    void query(std::size_t first, std::size_t end, const Meets& meets, const Visit& visit) const {
+        if (first < std::min(end, count_)) descend(1, 0, leaves_, first, end, meets, visit);
     }
 
 private:
@@ -54,12 +60,15 @@ private:
         nodes_[n] = nodes_[2 * n];
         nodes_[n].add(nodes_[2 * n + 1]);
     }
+    /// \param leaf, leaves the first below n, and how many there are
     template <class Meets, class Visit>
-    void descend(std::size_t n, const Meets& meets, const Visit& visit) const {
+    void descend(std::size_t n, std::size_t leaf, std::size_t leaves, std::size_t first,
+                 std::size_t end, const Meets& meets, const Visit& visit) const {
+        if (leaf >= end || leaf + leaves <= first) return;
         if (nodes_[n].empty() || !meets(n)) return;
-        if (n >= leaves_) return visit(n - leaves_);
-        descend(2 * n, meets, visit);
-        descend(2 * n + 1, meets, visit);
+        if (leaves == 1) return visit(leaf);
+        descend(2 * n, leaf, leaves / 2, first, end, meets, visit);
+        descend(2 * n + 1, leaf + leaves / 2, leaves / 2, first, end, meets, visit);
     }
 
     std::size_t count_ = 0, leaves_ = 1;

@@ -99,7 +99,7 @@ void IndirectLight::apply(const SceneChange& change) {
         masks.push_back({n / kBlock, std::uint64_t(1) << n % kBlock});
     unite(masks);
     placeNodes(masks);
-    residualsStale_ = true;
+    residualsChanged();
     if (change.colours) coloursChanged();
     if (change.objects.empty() && masks.empty()) return;
     for (ObjectId object : change.objects) link(object);
@@ -109,14 +109,14 @@ void IndirectLight::apply(const SceneChange& change) {
 
 void IndirectLight::invalidate(const Bounds& region) {
     described_ = false;
-    residualsStale_ = true;
+    residualsChanged();
     if (rowsMissing_) restart();
     updates_.add({}, {}, {region});
 }
 
 void IndirectLight::directChanged(bool litChanged) {
     reachStale_ |= litChanged;
-    residualsStale_ = true;
+    residualsChanged();
 }
 
 /// What rows that were not kept have sent can't be corrected: everything is sent again.
@@ -146,7 +146,7 @@ void IndirectLight::updateReach() {
     reached_ = now;
     updateSendersReached();
     if (masks.empty() || shots_ == 0) return;
-    residualsStale_ = true;
+    residualsChanged();
     if (rowsMissing_) restart();
     updates_.add({}, std::move(masks));
 }
@@ -212,7 +212,7 @@ bool IndirectLight::update(std::size_t effort, double enough) {
             nodes_[n] += light;
             if (deltas[i].known) rowSums_[n] += factor;
         }
-    if (!items.empty()) residualsStale_ = true;
+    if (!items.empty()) residualsChanged();
     return true;
 }
 
@@ -279,6 +279,12 @@ double IndirectLight::openAt(std::uint32_t index) const {
     if (f == 0 || !(reached_[index / 64] >> index % 64 & 1)) return 0;
     const double above = std::max(0.0, rowSums_[index] + f - 1);
     return open.light(index / kBlock) + std::min(f, above) * largest(node(index));
+}
+
+/// Batches that have not begun are chosen again.
+void IndirectLight::residualsChanged() {
+    residualsStale_ = true;
+    listing_.reset();
 }
 
 void IndirectLight::updateResiduals() {

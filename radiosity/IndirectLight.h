@@ -47,7 +47,7 @@ public:
     /// Builds rows of patches that light reaches but that have nothing to send: row sums are to be
     /// those of the scene and not of its history. \return false: there is none left
     bool complete(std::size_t effort);
-    bool relaxing() const { return shot_ != nullptr; } ///< a batch of shots is on its way
+    bool relaxing() const { return shot_ || listing_; } ///< a batch of shots is on its way
     bool residualsStale() const { return residualsStale_; }
 
     /// Indirect illuminance at the nodes, the ambient term included [lux].
@@ -88,6 +88,14 @@ private:
         std::size_t next = 0; ///< place in `work`
         std::size_t bytes = 0;
     };
+    /// A batch of senders of which it is being found out, a piece at a time, whom they serve.
+    struct Listing {
+        std::vector<std::uint32_t> senders;
+        bool dark = false;
+        std::size_t next = 0;                              ///< place in `senders`
+        std::vector<std::vector<std::uint32_t>> linked;    ///< to senders without a row, one each
+        std::vector<std::vector<std::uint32_t>> receivers; ///< places in `senders`, a block each
+    };
     /// What a block has received from a sender [lm/m^2], and whether its row sums know of it.
     struct Arrived {
         SenderLight light;
@@ -106,11 +114,14 @@ private:
 
     std::vector<std::uint32_t> chooseSenders(double enough) const;
     std::size_t batch() const; ///< senders shot at a time
-    void load(const std::vector<std::uint32_t>& senders, bool dark);
+    void choose(std::vector<std::uint32_t> senders, bool dark);
+    void list(std::size_t effort);
+    void load(const Listing& listing);
     void serve(std::size_t effort);
     void servePair(std::uint64_t work, RowBuilder& builder, std::size_t& bytes,
                    std::vector<RowTable::BlockerNote>& notes);
     void finishShot();
+    void residualsChanged();
     void updateResiduals();
     void coloursChanged();
     glm::dvec3 node(std::uint32_t node) const;
@@ -145,6 +156,7 @@ private:
     std::vector<std::uint8_t> kept_;     ///< rows that are in the table
     bool rowsMissing_ = false;           ///< some of those were not kept
     std::size_t rowBytes_ = 0;
+    std::unique_ptr<Listing> listing_; ///< never at the same time as shot_
     std::unique_ptr<Shot> shot_;
     std::vector<RowBuilder> builders_;
     RayCount buildRays_;

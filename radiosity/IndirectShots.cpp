@@ -43,63 +43,88 @@ bool IndirectLight::relax(std::size_t effort, double target) {
         return true;
     }
     constexpr double kBelow = 0.3; // what a patch may owe, of what the certificate allows
-    if (!shot_) load(chooseSenders(kBelow * target / gain_), false);
-    if (!shot_) return false;
-    serve(effort);
+    if (!relaxing()) choose(chooseSenders(kBelow * target / gain_), false);
+    if (!relaxing()) return false;
+    shot_ ? serve(effort) : list(effort);
     return true;
 }
 
 bool IndirectLight::complete(std::size_t effort) {
-    if (!shot_) {
+    if (!relaxing()) {
         std::vector<std::uint32_t> unknown;
         for (std::uint32_t p = 0; p < known_.size() && unknown.size() < batch(); ++p)
             if (!known_[p] && sendersReached_[p] && senders_.present(p)) unknown.push_back(p);
-        load(unknown, true);
+        choose(std::move(unknown), true);
     }
-    if (!shot_) return false;
-    serve(effort);
+    if (!relaxing()) return false;
+    shot_ ? serve(effort) : list(effort);
     return true;
 }
 
-/// Begins a batch. \param dark the senders send nothing, only their rows are wanted
-void IndirectLight::load(const std::vector<std::uint32_t>& senders, bool dark) {
+/// \param dark the senders send nothing, only their rows are wanted
+void IndirectLight::choose(std::vector<std::uint32_t> senders, bool dark) {
     if (senders.empty()) return;
+    listing_ = std::make_unique<Listing>();
+    listing_->linked.resize(senders.size());
+    listing_->receivers.resize(blockCount());
+    listing_->senders = std::move(senders);
+    listing_->dark = dark;
+}
+
+/// Lists the receivers of some more senders. Nothing else knows of a batch until that is done.
+void IndirectLight::list(std::size_t effort) {
+    constexpr std::size_t kBlocksARay = 64, kFind = 64; // of a row that is there; without one
+    Listing& listing = *listing_;
+    for (std::size_t cost = 0; cost < effort && listing.next < listing.senders.size();) {
+        const auto i = std::uint32_t(listing.next++);
+        const std::uint32_t s = listing.senders[i];
+        const auto toServe = [&](std::uint32_t block) { listing.receivers[block].push_back(i); };
+        if (kept_[s]) {
+            const Row& row = table_[s];
+            for (std::size_t b = 0; b < row.size(); ++b) toServe(row.blockAt(b));
+            cost += 1 + row.size() / kBlocksARay;
+            continue;
+        }
+        listing.linked[i] = senders_.linkedBlocks(s, linkBoxes_);
+        for (std::uint32_t b : listing.linked[i]) toServe(b);
+        cost += kFind;
+    }
+    if (listing.next < listing.senders.size()) return;
+    load(listing);
+    listing_.reset();
+}
+
+/// Begins a batch.
+void IndirectLight::load(const Listing& listing) {
     shot_ = std::make_unique<Shot>();
-    shot_->senders = senders;
+    shot_->senders = listing.senders;
+    shot_->dark = listing.dark;
     const glm::dvec3 expected = ambient();
     const bool keep = rowBytes_ < rowMemory_;
-    for (std::uint32_t i = 0; i < senders.size(); ++i) {
-        const std::uint32_t s = senders[i];
+    for (std::uint32_t i = 0; i < listing.senders.size(); ++i) {
+        const std::uint32_t s = listing.senders[i];
         // The first time send at once what is sure to come later; too much is taken back in its
         // turn.
         const bool fresh = !known_[s];
         SenderLight light{};
-        for (std::size_t q = 0; q < 4 && !dark; ++q) {
+        for (std::size_t q = 0; q < 4 && !listing.dark; ++q) {
             light[q] = residuals_[s][q];
             if (fresh) light[q] += colours_[s][q] * expected;
         }
         shot_->fresh.push_back(fresh);
         shot_->light.push_back(light);
         shot_->build.push_back(!kept_[s]);
-        Row& row = table_[s];
-        const auto toServe = [&](std::uint32_t block) {
-            shot_->work.push_back(std::uint64_t(block) << 32 | i);
-        };
-        if (kept_[s]) {
-            for (std::size_t b = 0; b < row.size(); ++b) toServe(row.blockAt(b));
-            continue;
-        }
-        const std::vector<std::uint32_t> blocks = senders_.linkedBlocks(s, linkBoxes_);
-        for (std::uint32_t b : blocks) toServe(b);
+        if (kept_[s]) continue;
         if (keep) {
-            row.open(blocks);
+            table_[s].open(listing.linked[i]);
             updates_.setCurrent(s);
         }
         kept_[s] = keep;
         rowsMissing_ |= !keep;
     }
-    std::sort(shot_->work.begin(), shot_->work.end());
-    shot_->dark = dark;
+    for (std::uint32_t b = 0; b < listing.receivers.size(); ++b)
+        for (std::uint32_t i : listing.receivers[b])
+            shot_->work.push_back(std::uint64_t(b) << 32 | i);
 }
 
 /// Serves some more blocks of the batch: each receives from all of its senders before the next one
@@ -169,7 +194,7 @@ void IndirectLight::finishShot() {
     rowBytes_ += shot_->bytes;
     if (!shot_->dark) shots_ += shot_->senders.size();
     shot_.reset();
-    residualsStale_ = true;
+    residualsChanged();
 }
 
 } // namespace penumbra

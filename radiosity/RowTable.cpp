@@ -41,45 +41,53 @@ void RowTable::note(std::span<const BlockerNote> notes) {
 }
 
 std::vector<BlockMask> RowTable::concerned(std::size_t row, const Bounds& sender, ObjectId object,
-                                           const PendingChange& change) const {
+                                           const PendingChange& change, Blocks blocks) const {
     std::vector<BlockMask> masks;
     const Row& entries = rows_[row];
+    const auto isOne = [&](std::uint32_t b) { return b >= blocks.first && b < blocks.end; };
     if (change.moves(object.value)) {
         for (std::size_t i = 0; i < entries.size(); ++i)
-            masks.push_back({entries.blockAt(i), ~std::uint64_t(0)});
+            if (const std::uint32_t b = entries.blockAt(i); isOne(b))
+                masks.push_back({b, ~std::uint64_t(0)});
         return masks;
     }
-    for (const BlockMask& mask : change.receivers)
-        if (entries.has(mask.block)) masks.push_back(mask);
+    const auto anew = std::lower_bound(
+        change.receivers.begin(), change.receivers.end(), blocks.first,
+        [](const BlockMask& mask, std::uint32_t first) { return mask.block < first; });
+    for (auto mask = anew; mask != change.receivers.end() && mask->block < blocks.end; ++mask)
+        if (entries.has(mask->block)) masks.push_back(*mask);
     const std::vector<std::uint64_t>& list = blockers_[row];
     for (const MovedObject& m : change.moved) {
-        const std::uint64_t first = std::uint64_t(m.object) << 32;
+        const std::uint64_t first = std::uint64_t(m.object) << 32 | blocks.first;
         for (auto key = std::lower_bound(list.begin(), list.end(), first);
-             key != list.end() && *key >> 32 == m.object; ++key)
+             key != list.end() && *key >> 32 == m.object && isOne(std::uint32_t(*key)); ++key)
             masks.push_back({std::uint32_t(*key), 0});
-        if (m.present) crossed(entries, sender, m.box, 0, masks);
+        if (m.present) crossed(entries, blocks, sender, m.box, 0, masks);
     }
     for (const Bounds& region : change.regions)
-        crossed(entries, sender, region, ~std::uint64_t(0), masks);
+        crossed(entries, blocks, sender, region, ~std::uint64_t(0), masks);
     unite(masks);
     return masks;
 }
 
-/// Adds the blocks of a row whose shafts meet a box.
-void RowTable::crossed(const Row& row, const Bounds& sender, const Bounds& box,
+/// Adds those of some blocks whose shafts meet a box.
+void RowTable::crossed(const Row& row, Blocks blocks, const Bounds& sender, const Bounds& box,
                        std::uint64_t receivers, std::vector<BlockMask>& masks) const {
     constexpr std::size_t kFew = 32; // are looked at one by one
     const auto meets = [&](const Bounds& block) { return shaftMeets(sender, block, box); };
     if (row.size() <= kFew) {
-        for (std::size_t i = 0; i < row.size(); ++i)
-            if (const std::uint32_t b = row.blockAt(i); !blocks_[b].empty() && meets(blocks_[b]))
-                masks.push_back({b, receivers});
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            const std::uint32_t b = row.blockAt(i);
+            if (b < blocks.first || b >= blocks.end || blocks_[b].empty()) continue;
+            if (meets(blocks_[b])) masks.push_back({b, receivers});
+        }
         return;
     }
-    blocks_.query([&](std::size_t n) { return meets(blocks_.node(n)); },
-                  [&](std::size_t b) {
-                      if (row.has(std::uint32_t(b))) masks.push_back({std::uint32_t(b), receivers});
-                  });
+    blocks_.query(
+        blocks.first, blocks.end, [&](std::size_t n) { return meets(blocks_.node(n)); },
+        [&](std::size_t b) {
+            if (row.has(std::uint32_t(b))) masks.push_back({std::uint32_t(b), receivers});
+        });
 }
 
 } // namespace penumbra

@@ -61,15 +61,19 @@ public:
     /// Remembers them. Notes may repeat themselves.
     void note(std::span<const BlockerNote> notes);
 
-    /// Blocks of a row that a change concerns, in order, with the entries to be evaluated anew.
+    /// Some blocks of a row, first ... end - 1.
+    struct Blocks {
+        std::uint32_t first = 0, end = 0xffffffffu;
+    };
+    /// Those of them that a change concerns, in order, with the entries to be evaluated anew.
     /// \param sender box around the sender's samples [m, world]
     /// \param object the sender's
     std::vector<BlockMask> concerned(std::size_t row, const Bounds& sender, ObjectId object,
-                                     const PendingChange& change) const;
+                                     const PendingChange& change, Blocks blocks) const;
 
 private:
-    void crossed(const Row& row, const Bounds& sender, const Bounds& box, std::uint64_t receivers,
-                 std::vector<BlockMask>& masks) const;
+    void crossed(const Row& row, Blocks blocks, const Bounds& sender, const Bounds& box,
+                 std::uint64_t receivers, std::vector<BlockMask>& masks) const;
 
     std::vector<Row> rows_;
     std::vector<std::uint32_t> known_;

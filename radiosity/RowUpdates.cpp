@@ -117,25 +117,24 @@ bool RowUpdates::nextLook(Look& look, const Facts& facts) {
     }
     if (row_ == table_.size()) return false;
     look.change = &changeSince(table_.edits(row_));
-    const auto blocks = std::uint32_t(table_.blocks().size());
     const std::size_t own = table_[row_].size();
     look.expected = look.change->moves(look.facts.object.value)
                         ? own
                         : std::min(own, look.change->receivers.size());
-    if (look.expected > kRun) {
-        look.expected = kRun;
-        look.first = block_;
-        look.end = block_ = std::min(block_ + kRun, blocks);
-        look.last = look.end == blocks;
+    if (own > kRun) {
+        const auto blocks = std::uint32_t(table_.blocks().size());
+        look.expected = look.expected * kRun / own;
+        look.blocks = {block_, std::min(block_ + kRun, blocks)};
+        block_ = look.blocks.end;
+        look.last = block_ == blocks;
     }
     if (look.last) ++row_, block_ = 0;
     return true;
 }
 
 void RowUpdates::find(Look& look) const {
-    const auto masks = table_.concerned(look.row, look.facts.box, look.facts.object, *look.change);
-    for (const BlockMask& mask : masks) {
-        if (mask.block < look.first || mask.block >= look.end) continue;
+    for (const BlockMask& mask : table_.concerned(look.row, look.facts.box, look.facts.object,
+                                                  *look.change, look.blocks)) {
         look.found.push_back({look.row, mask.block, mask.receivers, table_.edits(look.row), 0});
         look.found.back().factor = factorBound(look.found.back(), look.facts);
     }

@@ -78,14 +78,14 @@ private:
     bool found() const { return row_ == table_.size(); }
     void find(std::size_t effort, const Facts& facts);
     void allFound();
-    /// What is looked for at a time: all of a row, or some blocks of one with very many.
+    /// What is looked through at a time: all of a row, or some blocks of one with very many.
     struct Look {
         std::uint32_t row = 0;
         bool last = true; ///< of its row
         RowFacts facts;
         const PendingChange* change = nullptr;
-        std::uint32_t first = 0, end = 0xffffffffu; ///< blocks
-        std::size_t expected = 0;                   ///< blocks that will be found, at least
+        RowTable::Blocks blocks;
+        std::size_t expected = 0; ///< blocks that will be found, at least
         std::vector<OpenBlock> found;
     };
     bool nextLook(Look& look, const Facts& facts);

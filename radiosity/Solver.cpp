@@ -14,7 +14,7 @@ namespace penumbra {
 
 namespace {
 
-constexpr std::size_t kLeastEffort = 512, kMostEffort = std::size_t(1) << 20; ///< [rays]
+constexpr std::size_t kMostEffort = std::size_t(1) << 20; ///< [rays]
 constexpr std::size_t kMostPromptEffort = 1536; ///< of a piece within a short budget [rays]
 /// What work that is put off may change, of what the certificate allows.
 constexpr double kDirectMayStayOpen = 0.15, kIndirectMayStayOpen = 0.35;
@@ -94,17 +94,11 @@ bool Solver::step(double budget, const Progress& progress) {
 /// \return whether there is nothing left to do
 bool Solver::run(double budget, bool untilConverged, const Progress& progress) {
     const double start = seconds();
-    const double most = double(budget > 1 ? kMostEffort : kMostPromptEffort);
-    effort_ = std::min(effort_, most);
-    for (double now = start; now - start < budget && !(untilConverged && converged_);) {
-        if (!work(std::size_t(effort_), progress)) return true;
-        const double after = seconds();
-        // Pieces follow the speed of the machine; what is computed does not depend on their size.
-        const double left = std::max(0.0, budget - (after - start));
-        const double aim = std::min(budget > 1 ? 0.05 : kPause, std::max(left, 0.5 * kPause));
-        effort_ = std::clamp(effort_ * std::clamp(aim / std::max(after - now, 1e-7), 0.25, 2.0),
-                             double(kLeastEffort), most);
-        now = after;
+    const std::size_t most = budget > 1 ? kMostEffort : kMostPromptEffort;
+    for (double left = budget; left > 0 && !(untilConverged && converged_);
+         left = budget - (seconds() - start)) {
+        pace_.aim(std::min(budget > 1 ? 0.05 : kPause, std::max(left, 0.5 * kPause)), most);
+        if (!work(pace_, progress)) return true;
     }
     return false;
 }
@@ -120,9 +114,14 @@ void Solver::settle(const Progress& progress) {
 }
 
 bool Solver::work(std::size_t effort, const Progress& progress) {
-    if (workOnce(effort, progress)) return true;
+    Pace pace(effort);
+    return work(pace, progress);
+}
+
+bool Solver::work(Pace& pace, const Progress& progress) {
+    if (workOnce(pace, progress)) return true;
     converged_ = converged_ || !indirect_ || settled();
-    if (detail_ && workOnDetail(effort, progress)) return true;
+    if (detail_ && workOnDetail(pace, progress)) return true;
     const std::size_t open =
         direct_.updates().open().count() + (indirect_ ? indirect_->updates().open().count() : 0);
     if (idle_ || open == 0) return false;
@@ -132,9 +131,11 @@ bool Solver::work(std::size_t effort, const Progress& progress) {
 }
 
 /// The same, but for what may be put off.
-bool Solver::workOnce(std::size_t effort, const Progress& progress) {
+bool Solver::workOnce(Pace& pace, const Progress& progress) {
     const double start = seconds();
-    if (direct_.work(effort, mayStayOpen(kDirectMayStayOpen))) {
+    if (pace.work(Pace::direct, [&](std::size_t effort) {
+            return direct_.work(effort, mayStayOpen(kDirectMayStayOpen));
+        })) {
         handedOver_ = false;
         directSeconds_ += seconds() - start;
         if (progress) progress("direct light", direct_.updates().share());
@@ -147,7 +148,9 @@ bool Solver::workOnce(std::size_t effort, const Progress& progress) {
         if (litChanged) completed_ = false; // light may reach more patches
         handedOver_ = true;
     }
-    bool more = indirect_->update(effort, mayStayOpen(kIndirectMayStayOpen));
+    bool more = pace.work(Pace::rows, [&](std::size_t effort) {
+        return indirect_->update(effort, mayStayOpen(kIndirectMayStayOpen));
+    });
     if (more && progress) progress("shadows of indirect light", indirect_->updates().share());
     // Rows that are missing come all at once, for each changes a little of what is owed, and
     // early, so that this is sent along with the rest.
@@ -155,10 +158,13 @@ bool Solver::workOnce(std::size_t effort, const Progress& progress) {
     if (!more && !completed_ && !spent() && !indirect_->relaxing() &&
         !indirect_->residualsStale() && indirect_->certificate() <= kEarly * target())
         completing_ = completed_ = true;
-    if (!more && completing_) completing_ = more = indirect_->complete(effort);
+    if (!more && completing_)
+        completing_ = more = pace.work(
+            Pace::completion, [&](std::size_t effort) { return indirect_->complete(effort); });
     const bool done = settled() || spent();
     if (!more && (!done || indirect_->relaxing() || indirect_->residualsStale())) {
-        more = indirect_->relax(effort, target());
+        more = pace.work(Pace::relaxation,
+                         [&](std::size_t effort) { return indirect_->relax(effort, target()); });
         const double now = indirect_->certificate();
         firstCertificate_ = std::max(firstCertificate_, now);
         if (progress && now > 0) {
@@ -170,12 +176,12 @@ bool Solver::workOnce(std::size_t effort, const Progress& progress) {
     return more;
 }
 
-bool Solver::workOnDetail(std::size_t effort, const Progress& progress) {
+bool Solver::workOnDetail(Pace& pace, const Progress& progress) {
     if (detail_->swept()) return false;
     const double start = seconds();
-    if (!detail_->trace(effort)) {
+    if (!pace.work(Pace::detail, [&](std::size_t effort) { return detail_->trace(effort); })) {
         if (!detail_->sweeping()) detail_->beginSweeps(direct_.vertices(), nodeIlluminance());
-        detail_->sweep(effort);
+        pace.work(Pace::sweeps, [&](std::size_t effort) { return detail_->sweep(effort), true; });
     }
     detailSeconds_ += seconds() - start;
     if (progress) progress("fine shadows", detail_->hits().share());

@@ -5,6 +5,7 @@
 #include "radiosity/DirectLight.h"
 #include "radiosity/IndirectLight.h"
 #include "radiosity/Lighting.h"
+#include "radiosity/Pace.h"
 #include "radiosity/PatchSet.h"
 #include "radiosity/RayScene.h"
 #include "radiosity/SceneChange.h"
@@ -158,10 +159,11 @@ public:
 
 private:
     void begin();
-    bool workOnce(std::size_t effort, const Progress& progress);
+    bool work(Pace& pace, const Progress& progress);
+    bool workOnce(Pace& pace, const Progress& progress);
     bool run(double budget, bool untilConverged, const Progress& progress);
     double mayStayOpen(double share) const;
-    bool workOnDetail(std::size_t effort, const Progress& progress);
+    bool workOnDetail(Pace& pace, const Progress& progress);
     bool settled() const;
     bool spent() const;
     double target() const;
@@ -178,7 +180,8 @@ private:
     bool converged_ = false;
     bool idle_ = false;                                ///< nothing is put off any more
     std::uint64_t shotsBefore_ = 0, servedBefore_ = 0; ///< before the last edit
-    double firstCertificate_ = 0, effort_ = 4096;
+    double firstCertificate_ = 0;
+    Pace pace_; ///< of pieces within a time
     double directSeconds_ = 0, indirectSeconds_ = 0, detailSeconds_ = 0;
 };
 

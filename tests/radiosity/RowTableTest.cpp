@@ -22,8 +22,9 @@ protected:
         for (int b = 0; b < 10; ++b) table.blocks().append({{b, 0, 0}, {b + 1, 1, 0}});
         for (std::size_t row = 0; row < 2; ++row) table[row].resize(10);
     }
-    std::vector<BlockMask> concerned(const PendingChange& change, std::size_t row = 0) const {
-        return table.concerned(row, kSender, kSenderObject, change);
+    std::vector<BlockMask> concerned(const PendingChange& change, std::size_t row = 0,
+                                     RowTable::Blocks blocks = {}) const {
+        return table.concerned(row, kSender, kSenderObject, change, blocks);
     }
     RowTable table;
 };
@@ -54,6 +55,18 @@ TEST_F(RowTableOfTenBlocks, NewShadowsAreFoundByTheShaft) {
     EXPECT_THAT(concerned(here), ElementsAre(is(0, 0), is(1, 0)));
     const PendingChange aside{{{3, true, {{20, 0, 2}, {21, 1, 3}}}}, {}};
     EXPECT_THAT(concerned(aside), IsEmpty());
+}
+
+TEST_F(RowTableOfTenBlocks, ARunOfBlocksFindsWhatAllOfThemFindThere) {
+    table.note(std::vector<RowTable::BlockerNote>{{0, 8, 3}, {0, 2, 3}});
+    const PendingChange change{{{3, true, {{0.2f, 0.2f, 2.5f}, {0.8f, 0.8f, 2.6f}}}},
+                               {{1, 0b101}, {9, kAll}}};
+    EXPECT_THAT(concerned(change),
+                ElementsAre(is(0, 0), is(1, 0b101), is(2, 0), is(8, 0), is(9, kAll)));
+    EXPECT_THAT(concerned(change, 0, {1, 8}), ElementsAre(is(1, 0b101), is(2, 0)));
+    EXPECT_THAT(concerned(change, 0, {8, 9}), ElementsAre(is(8, 0)));
+    const PendingChange sender{{{kSenderObject.value, true, {}}}, {}};
+    EXPECT_THAT(concerned(sender, 0, {3, 5}), ElementsAre(is(3, kAll), is(4, kAll)));
 }
 
 TEST_F(RowTableOfTenBlocks, WhatIsNowHiddenThrowsNoNewShadow) {

@@ -1,0 +1,59 @@
+// How large pieces of work are to be.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstddef>
+
+namespace penumbra {
+
+/// Sizes pieces of work so that each takes about as long as is wanted, by how long pieces of its
+/// kind took before. Efforts are in rays, but a ray's worth of one kind of work takes longer than
+/// that of another, and on another day.
+class Pace {
+public:
+    enum Kind { direct, rows, completion, relaxation, detail, sweeps, kKinds };
+
+    /// Pieces of one size. \param effort [rays]
+    explicit Pace(std::size_t effort) : most_(effort), least_(effort) {}
+    /// Pieces that follow the time. \param most effort at most [rays]
+    Pace() { perRay_.fill(kFirstGuess); }
+
+    /// How long pieces should take from now on [s], and how large they may be at most [rays].
+    void aim(double seconds, std::size_t most) {
+        aim_ = seconds;
+        most_ = most;
+    }
+
+    /// Does a piece of work of a kind; `piece(effort)` returns whether there was anything to do,
+    /// and so does this.
+    template <class Piece>
+    bool work(Kind kind, const Piece& piece) {
+        const std::size_t effort = effortOf(kind);
+        const auto start = std::chrono::steady_clock::now();
+        if (!piece(effort)) return false;
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+        learn(kind, took.count() / double(effort));
+        return true;
+    }
+
+private:
+    static constexpr double kFirstGuess = 1e-6; ///< [s/ray]
+
+    std::size_t effortOf(Kind kind) const {
+        const double wanted = perRay_[kind] > 0 ? aim_ / perRay_[kind] : 0;
+        return std::size_t(std::clamp(wanted, double(least_), double(most_)));
+    }
+    /// Slower pieces count at once, unless one was held up for once; faster ones little by little.
+    void learn(Kind kind, double perRay) {
+        double& known = perRay_[kind];
+        known = perRay > known ? std::min(perRay, 2 * known) : 0.75 * known + 0.25 * perRay;
+    }
+
+    std::array<double, kKinds> perRay_{}; ///< [s]
+    double aim_ = 0;
+    std::size_t most_ = 0, least_ = 128;
+};
+
+} // namespace penumbra
