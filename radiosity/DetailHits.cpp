@@ -19,6 +19,7 @@ constexpr float kFar = std::numeric_limits<float>::infinity();
 constexpr float kInward = 0.5f;
 constexpr std::size_t kNodeRays = 64, kVertexRays = 32; ///< that a fresh receiver takes, about
 constexpr std::size_t kGroupsATask = 2;
+constexpr std::size_t kVisit = 16; ///< what looking at a group costs [rays]
 
 double smoothstep(double low, double high, double x) {
     const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
@@ -123,40 +124,41 @@ bool DetailHits::work(std::size_t effort) {
 }
 
 bool DetailHits::workOnNodes(std::size_t effort) {
-    const auto groups = openNodes_.next(effort, kNodeRays);
-    if (groups.empty()) return false;
-    std::vector<Outcome> outcomes(groups.size());
-    parallelFor(groups.size(), kGroupsATask, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) outcomes[i] = traceNodes(groups[i]);
-    });
-    std::vector<Bounds> ways;
-    for (std::size_t i = 0; i < outcomes.size(); ++i) {
-        rayCount_ += outcomes[i].rays;
-        ways.push_back(outcomes[i].ways);
-        for (std::uint32_t left = outcomes[i].changed; left != 0; left &= left - 1) {
-            const std::uint32_t n = groups[i] * kGroup + std::uint32_t(std::countr_zero(left));
-            for (const std::uint32_t p : nodePatches_.of(n)) lookAgain(p, false);
-        }
-    }
-    groupsVisited_ += ways.size();
-    openNodes_.close(ways);
-    return true;
+    return workOn(openNodes_, kNodeRays, effort,
+                  [&](std::uint32_t group) { return traceNodes(group); });
 }
 
 bool DetailHits::workOnVertices(std::size_t effort) {
-    const auto groups = openVertices_.next(effort, kVertexRays);
-    if (groups.empty()) return false;
-    std::vector<Outcome> outcomes(groups.size());
-    parallelFor(groups.size(), kGroupsATask, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) outcomes[i] = traceVertices(groups[i]);
-    });
-    std::vector<Bounds> ways;
-    for (const Outcome& outcome : outcomes) {
-        rayCount_ += outcome.rays;
-        ways.push_back(outcome.ways);
+    return workOn(openVertices_, kVertexRays, effort,
+                  [&](std::uint32_t group) { return traceVertices(group); });
+}
+
+/// How many rays an edit concerns can't be told before: a few groups at a time.
+/// \param rays that a receiver takes of which nothing is known, about
+template <class Trace>
+bool DetailHits::workOn(OpenGroups& open, std::size_t rays, std::size_t effort,
+                        const Trace& trace) {
+    const std::size_t few = std::max<std::size_t>(effort / 16, 256);
+    if (open.done()) return false;
+    for (std::size_t spent = 0; spent < effort && !open.done();) {
+        const auto groups = open.next(few, rays);
+        std::vector<Outcome> outcomes(groups.size());
+        parallelFor(groups.size(), kGroupsATask, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) outcomes[i] = trace(groups[i]);
+        });
+        std::vector<Bounds> ways;
+        for (std::size_t i = 0; i < outcomes.size(); ++i) {
+            rayCount_ += outcomes[i].rays;
+            spent += kVisit + outcomes[i].rays;
+            ways.push_back(outcomes[i].ways);
+            for (std::uint32_t left = outcomes[i].changed; left != 0; left &= left - 1)
+                for (const std::uint32_t p :
+                     nodePatches_.of(groups[i] * kGroup + std::uint32_t(std::countr_zero(left))))
+                    lookAgain(p, false);
+        }
+        groupsVisited_ += ways.size();
+        open.close(ways);
     }
-    groupsVisited_ += ways.size();
-    openVertices_.close(ways);
     return true;
 }
 

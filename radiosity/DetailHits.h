@@ -100,6 +100,8 @@ private:
     void lookAgain(std::uint32_t patch, bool slitsOnly);
     bool workOnNodes(std::size_t effort);
     bool workOnVertices(std::size_t effort);
+    template <class Trace>
+    bool workOn(OpenGroups& open, std::size_t rays, std::size_t effort, const Trace& trace);
     Outcome traceNodes(std::uint32_t group);
     Outcome traceVertices(std::uint32_t group);
     bool anyAffected(std::uint32_t group, const DetailRays::Moved& moved) const;

@@ -237,10 +237,9 @@ IndirectLight::Arrived IndirectLight::arrivedAt(std::uint32_t row, std::uint32_t
     if (!shot_) return arrived;
     const auto found = std::find(shot_->senders.begin(), shot_->senders.end(), row);
     if (found == shot_->senders.end()) return arrived;
-    const auto i = std::size_t(found - shot_->senders.begin());
-    const auto toDo = std::span(shot_->work).subspan(shot_->next);
-    if (std::binary_search(toDo.begin(), toDo.end(), std::uint64_t(block) << 32 | i))
-        return arrived;
+    const auto i = std::uint32_t(found - shot_->senders.begin());
+    const std::vector<std::uint32_t>& from = shot_->receivers[block];
+    if (block >= shot_->next && std::binary_search(from.begin(), from.end(), i)) return arrived;
     for (std::size_t q = 0; q < 4; ++q) arrived.light[q] += shot_->light[i][q];
     arrived.known = true;
     return arrived;

@@ -80,12 +80,11 @@ private:
     /// A batch of senders on its way: receivers are served block by block.
     struct Shot {
         std::vector<std::uint32_t> senders;
-        std::vector<SenderLight> light;         ///< what each sends [lm/m^2]
-        std::vector<std::uint8_t> fresh, build; ///< first time; row is not there
-        bool dark = false;                      ///< nothing is sent, only rows are built
-        /// What is to be served, block by block: block << 32 | place in `senders`.
-        std::vector<std::uint64_t> work;
-        std::size_t next = 0; ///< place in `work`
+        std::vector<SenderLight> light;                    ///< what each sends [lm/m^2]
+        std::vector<std::uint8_t> fresh, build;            ///< first time; row is not there
+        bool dark = false;                                 ///< nothing is sent, only rows are built
+        std::vector<std::vector<std::uint32_t>> receivers; ///< places in `senders`, a block each
+        std::size_t next = 0;                              ///< block: those before it are served
         std::size_t bytes = 0;
     };
     /// A batch of senders of which it is being found out, a piece at a time, whom they serve.
@@ -94,7 +93,7 @@ private:
         bool dark = false;
         std::size_t next = 0;                              ///< place in `senders`
         std::vector<std::vector<std::uint32_t>> linked;    ///< to senders without a row, one each
-        std::vector<std::vector<std::uint32_t>> receivers; ///< places in `senders`, a block each
+        std::vector<std::vector<std::uint32_t>> receivers; ///< as of Shot
     };
     /// What a block has received from a sender [lm/m^2], and whether its row sums know of it.
     struct Arrived {
@@ -116,10 +115,10 @@ private:
     std::size_t batch() const; ///< senders shot at a time
     void choose(std::vector<std::uint32_t> senders, bool dark);
     void list(std::size_t effort);
-    void load(const Listing& listing);
+    void load(Listing& listing);
     void serve(std::size_t effort);
-    void servePair(std::uint64_t work, RowBuilder& builder, std::size_t& bytes,
-                   std::vector<RowTable::BlockerNote>& notes);
+    void serveBlock(std::uint32_t block, RowBuilder& builder, std::size_t& bytes,
+                    std::vector<RowTable::BlockerNote>& notes);
     void finishShot();
     void residualsChanged();
     void updateResiduals();
@@ -158,6 +157,7 @@ private:
     std::size_t rowBytes_ = 0;
     std::unique_ptr<Listing> listing_; ///< never at the same time as shot_
     std::unique_ptr<Shot> shot_;
+    std::vector<std::vector<std::uint32_t>> lists_; ///< empty: a shot's, kept for their memory
     std::vector<RowBuilder> builders_;
     RayCount buildRays_;
     std::uint64_t shots_ = 0, served_ = 0;

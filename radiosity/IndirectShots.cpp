@@ -10,6 +10,7 @@
 #include "radiosity/Parallel.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace penumbra {
 
@@ -66,6 +67,7 @@ void IndirectLight::choose(std::vector<std::uint32_t> senders, bool dark) {
     if (senders.empty()) return;
     listing_ = std::make_unique<Listing>();
     listing_->linked.resize(senders.size());
+    listing_->receivers = std::exchange(lists_, {});
     listing_->receivers.resize(blockCount());
     listing_->senders = std::move(senders);
     listing_->dark = dark;
@@ -95,7 +97,7 @@ void IndirectLight::list(std::size_t effort) {
 }
 
 /// Begins a batch.
-void IndirectLight::load(const Listing& listing) {
+void IndirectLight::load(Listing& listing) {
     shot_ = std::make_unique<Shot>();
     shot_->senders = listing.senders;
     shot_->dark = listing.dark;
@@ -122,9 +124,7 @@ void IndirectLight::load(const Listing& listing) {
         kept_[s] = keep;
         rowsMissing_ |= !keep;
     }
-    for (std::uint32_t b = 0; b < listing.receivers.size(); ++b)
-        for (std::uint32_t i : listing.receivers[b])
-            shot_->work.push_back(std::uint64_t(b) << 32 | i);
+    shot_->receivers = std::move(listing.receivers);
 }
 
 /// Serves some more blocks of the batch: each receives from all of its senders before the next one
@@ -132,15 +132,14 @@ void IndirectLight::load(const Listing& listing) {
 void IndirectLight::serve(std::size_t effort) {
     constexpr std::size_t kGrain = 64; // pairs of a sender and a block
     Shot& shot = *shot_;
-    std::vector<std::size_t> cuts{shot.next}; // of tasks: between two blocks
+    std::vector<std::size_t> cuts{shot.next}; // of tasks: blocks
     std::size_t last = shot.next;
-    for (std::size_t sum = 0; last < shot.work.size() && sum < effort;) {
-        const std::uint64_t block = shot.work[last] >> 32;
-        for (; last < shot.work.size() && shot.work[last] >> 32 == block; ++last)
-            sum += shot.build[std::uint32_t(shot.work[last])] ? kBuild : kServe;
-        if (last - cuts.back() >= kGrain) cuts.push_back(last);
+    for (std::size_t sum = 0, pairs = 0; last < shot.receivers.size() && sum < effort; ++last) {
+        if (pairs >= kGrain) cuts.push_back(last), pairs = 0;
+        pairs += shot.receivers[last].size();
+        for (std::uint32_t i : shot.receivers[last]) sum += shot.build[i] ? kBuild : kServe;
     }
-    if (cuts.back() != last) cuts.push_back(last);
+    cuts.push_back(last);
     const std::size_t tasks = cuts.size() - 1;
     struct Task {
         std::size_t bytes = 0;
@@ -150,38 +149,38 @@ void IndirectLight::serve(std::size_t effort) {
     while (builders_.size() < tasks) builders_.emplace_back(rays_);
     parallelFor(tasks, 1, [&](std::size_t first, std::size_t end) {
         for (std::size_t t = first; t < end; ++t)
-            for (std::size_t w = cuts[t]; w < cuts[t + 1]; ++w)
-                servePair(shot.work[w], builders_[t], done[t].bytes, done[t].notes);
+            for (auto b = std::uint32_t(cuts[t]); b < cuts[t + 1]; ++b)
+                serveBlock(b, builders_[t], done[t].bytes, done[t].notes);
     });
     for (const Task& task : done) {
         shot.bytes += task.bytes;
         table_.note(task.notes);
     }
     for (RowBuilder& builder : builders_) buildRays_ += builder.takeRayCount();
-    served_ += last - shot.next;
-    shot.next = last;
-    if (last == shot.work.size()) finishShot();
+    for (; shot.next < last; ++shot.next) served_ += shot.receivers[shot.next].size();
+    if (last == shot.receivers.size()) finishShot();
 }
 
-void IndirectLight::servePair(std::uint64_t work, RowBuilder& builder, std::size_t& bytes,
-                              std::vector<RowTable::BlockerNote>& notes) {
+void IndirectLight::serveBlock(std::uint32_t b, RowBuilder& builder, std::size_t& bytes,
+                               std::vector<RowTable::BlockerNote>& notes) {
     const Shot& shot = *shot_;
-    const auto b = std::uint32_t(work >> 32), i = std::uint32_t(work);
-    const std::uint32_t s = shot.senders[i];
-    RowBlock passing;
-    RowBlock& block = kept_[s] ? table_[s][b] : passing;
-    if (shot.build[i]) {
-        builder.patchBlock(senders_.sender(s), receiversOf(s, b), block);
-        if (kept_[s]) {
-            bytes += block.bytes();
-            RowTable::listBlockers(set_, s, b, block, notes);
+    for (const std::uint32_t i : shot.receivers[b]) {
+        const std::uint32_t s = shot.senders[i];
+        RowBlock passing;
+        RowBlock& block = kept_[s] ? table_[s][b] : passing;
+        if (shot.build[i]) {
+            builder.patchBlock(senders_.sender(s), receiversOf(s, b), block);
+            if (kept_[s]) {
+                bytes += block.bytes();
+                RowTable::listBlockers(set_, s, b, block, notes);
+            }
         }
+        const bool fresh = shot.fresh[i];
+        forEachReceived(block, shot.light[i], [&](int r, float factor, glm::dvec3 light) {
+            nodes_[b * kBlock + std::size_t(r)] += light;
+            if (fresh) rowSums_[b * kBlock + std::size_t(r)] += factor;
+        });
     }
-    const bool fresh = shot.fresh[i];
-    forEachReceived(block, shot.light[i], [&](int r, float factor, glm::dvec3 light) {
-        nodes_[b * kBlock + std::size_t(r)] += light;
-        if (fresh) rowSums_[b * kBlock + std::size_t(r)] += factor;
-    });
 }
 
 void IndirectLight::finishShot() {
@@ -193,6 +192,8 @@ void IndirectLight::finishShot() {
     }
     rowBytes_ += shot_->bytes;
     if (!shot_->dark) shots_ += shot_->senders.size();
+    lists_ = std::move(shot_->receivers);
+    for (std::vector<std::uint32_t>& list : lists_) list.clear();
     shot_.reset();
     residualsChanged();
 }

@@ -117,13 +117,8 @@ bool RowUpdates::nextLook(Look& look, const Facts& facts) {
     }
     if (row_ == table_.size()) return false;
     look.change = &changeSince(table_.edits(row_));
-    const std::size_t own = table_[row_].size();
-    look.expected = look.change->moves(look.facts.object.value)
-                        ? own
-                        : std::min(own, look.change->receivers.size());
-    if (own > kRun) {
+    if (table_[row_].size() > kRun) {
         const auto blocks = std::uint32_t(table_.blocks().size());
-        look.expected = look.expected * kRun / own;
         look.blocks = {block_, std::min(block_ + kRun, blocks)};
         block_ = look.blocks.end;
         look.last = block_ == blocks;
@@ -133,26 +128,30 @@ bool RowUpdates::nextLook(Look& look, const Facts& facts) {
 }
 
 void RowUpdates::find(Look& look) const {
-    for (const BlockMask& mask : table_.concerned(look.row, look.facts.box, look.facts.object,
-                                                  *look.change, look.blocks)) {
+    for (const BlockMask& mask :
+         table_.concerned(look.row, look.facts.box, look.facts.object, *look.change, look.blocks)) {
         look.found.push_back({look.row, mask.block, mask.receivers, table_.edits(look.row), 0});
         look.found.back().factor = factorBound(look.found.back(), look.facts);
     }
 }
 
 void RowUpdates::find(std::size_t effort, const Facts& facts) {
-    std::vector<Look> looks;
-    Look look;
-    for (std::size_t cost = 0; cost < effort && nextLook(look, facts);) {
-        cost += kLook + kOpen * look.expected;
-        looks.push_back(std::move(look));
-    }
-    parallelFor(looks.size(), 4, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) find(looks[i]);
-    });
-    for (const Look& one : looks) {
-        open_.open(one.row, one.found);
-        if (one.last) table_.edits(one.row) = edits_;
+    // What is found can't be told before: a few looks at a time.
+    const std::size_t few = std::clamp<std::size_t>(effort / kLook / 16, 8, 1024);
+    bool more = true;
+    for (std::size_t cost = 0; more && cost < effort;) {
+        std::vector<Look> looks;
+        Look look;
+        while (looks.size() < few && (more = nextLook(look, facts)))
+            looks.push_back(std::move(look));
+        parallelFor(looks.size(), 4, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) find(looks[i]);
+        });
+        for (const Look& one : looks) {
+            open_.open(one.row, one.found);
+            if (one.last) table_.edits(one.row) = edits_;
+            cost += kLook + kOpen * one.found.size();
+        }
     }
     if (found()) allFound();
 }

@@ -85,7 +85,6 @@ private:
         RowFacts facts;
         const PendingChange* change = nullptr;
         RowTable::Blocks blocks;
-        std::size_t expected = 0; ///< blocks that will be found, at least
         std::vector<OpenBlock> found;
     };
     bool nextLook(Look& look, const Facts& facts);
