@@ -3,6 +3,7 @@
 #include "radiosity/Parallel.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace penumbra {
@@ -168,16 +169,39 @@ bool DirectLight::updateRows(std::size_t effort, double enough) {
                             std::span<const MovedObject> moved, std::size_t) {
         const bool present = set_.objects[set_.emitters[item.row].object.value].present &&
                              set_.objects[set_.vertexBlockObject[item.block].value].present;
-        ReceiverBlock receivers{receiversOf(item.block), present ? ~std::uint64_t(0) : 0, 0, {}};
-        if (item.anew != 0)
-            receivers.behind =
-                walls_.between(emitters_[item.row].box(), table_.blocks()[item.block]);
+        ReceiverBlock receivers{receiversOf(item.block), 0, 0};
+        if (present && item.anew != 0) receivers.wanted = ~hidden(item.row, item.block, item.anew);
         return builder.updateEmitterBlock(emitters_[item.row], receivers, item.anew, moved,
                                           table_[item.row][item.block]);
     };
     for (const OpenBlock& item : updates_.work(effort, enough, facts, update))
         touchBlock(item.block);
     return true;
+}
+
+/// Private corners come and go: what is true of one of them is not to depend on the others.
+ObjectId DirectLight::wallBefore(std::uint32_t emitter, std::uint32_t vertex) const {
+    Bounds receiver = table_.blocks()[vertex / kBlock];
+    if (vertex >= set_.firstPrivate) {
+        receiver = {};
+        receiver.add(receivers_[vertex].position);
+    }
+    return walls_.between(emitters_[emitter].box(), receiver);
+}
+
+/// Which of some receivers of a block a wall hides from an emitter. Nothing that moves brings its
+/// light back, so that there need not be an entry.
+std::uint64_t DirectLight::hidden(std::uint32_t emitter, std::uint32_t block,
+                                  std::uint64_t which) const {
+    const std::uint32_t first = block * kBlock;
+    if (first < set_.firstPrivate) return wallBefore(emitter, first).valid() ? which : 0;
+    std::uint64_t found = 0;
+    for (; which != 0; which &= which - 1) {
+        const auto r = std::uint32_t(std::countr_zero(which));
+        if (!isPadding(receivers_[first + r]) && wallBefore(emitter, first + r).valid())
+            found |= std::uint64_t(1) << r;
+    }
+    return found;
 }
 
 bool DirectLight::sumBlocks(std::size_t effort) {

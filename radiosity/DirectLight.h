@@ -50,6 +50,9 @@ public:
     /// Whether patchLit() is not what it was when this was called last.
     bool takeLitChanged() { return std::exchange(litChanged_, false); }
 
+    /// A wall that hides an emitter from a vertex altogether, see Walls; the row has no entry then.
+    ObjectId wallBefore(std::uint32_t emitter, std::uint32_t vertex) const;
+
     /// The emitters with their visibility samples, one a row.
     std::span<const EmitterSender> senders() const { return emitters_; }
     const RowTable& rows() const { return table_; }
@@ -65,6 +68,7 @@ private:
     void forEachPatch(std::uint32_t block, Visit visit) const;
     void describeReceivers();
     bool updateRows(std::size_t effort, double enough);
+    std::uint64_t hidden(std::uint32_t emitter, std::uint32_t block, std::uint64_t which) const;
     bool sumBlocks(std::size_t effort);
     bool averagePatches(std::size_t effort);
     void sum(std::uint32_t block);

@@ -49,10 +49,8 @@ ReceiverBlock IndirectLight::receiversOf(std::uint32_t sender, std::uint32_t blo
     const ObjectPart& part = set_.objects[set_.nodeBlockObject[block].value];
     const bool lit =
         part.present && senders_.present(sender) && senders_.linked(sender, linkBoxes_[block]);
-    return {std::span(set_.nodes).subspan(block * kBlock, kBlock),
-            lit ? reached_[block] : 0,
-            pieceKey(part, block * kBlock - part.nodes.first),
-            {}};
+    return {std::span(set_.nodes).subspan(block * kBlock, kBlock), lit ? reached_[block] : 0,
+            pieceKey(part, block * kBlock - part.nodes.first)};
 }
 
 void IndirectLight::placeNodes(std::span<const BlockMask> masks) {

@@ -43,12 +43,21 @@ Factors factorsOf(const PatchSet& patches, const DirectLight& light, std::size_t
         const std::uint32_t v = at.vertices[k];
         const RowBlock& block = light.rows()[emitter][v / PatchSet::kBlock];
         const RowBlock::Entry entry = block.entry(int(v % PatchSet::kBlock));
-        if (!entry.present) continue;
+        const Receiver& receiver = patches.vertices[v].receiver;
+        if (!entry.present) {
+            const ObjectId wall = light.wallBefore(std::uint32_t(emitter), v);
+            if (!patches.objects[patches.emitters[emitter].object.value].present || !wall.valid())
+                continue;
+            const double factor =
+                double(at.weights[k]) * double(light.senders()[emitter].formFactor(receiver));
+            sum.unoccluded += factor;
+            sum.losses[wall.value] += factor;
+            continue;
+        }
         const double factor = double(at.weights[k]) * double(entry.formFactor);
         sum.unoccluded += factor;
         sum.arrives += factor * double(entry.visibility);
-        const std::vector<double> shares =
-            sharesOf(entry, light.senders()[emitter], patches.vertices[v].receiver);
+        const std::vector<double> shares = sharesOf(entry, light.senders()[emitter], receiver);
         for (std::size_t b = 0; b < shares.size(); ++b)
             sum.losses[entry.blockers[b].object] += factor * shares[b];
     }

@@ -38,7 +38,8 @@ struct LampAccount {
 ///
 /// where Wo is the share of the visibility samples, by their weights, that o was found to block:
 /// the sum of all Wo is 1 - V. A sample that several objects stand before is charged to one of
-/// them, so that taking this one away alone need not bring its light back.
+/// them, so that taking this one away alone need not bring its light back. Where a wall hides the
+/// whole lamp there is no entry, and the wall is charged with all of it.
 ///
 /// \param light worked off: its rows are those of `patches` as it is now
 /// \param at    a place that was met

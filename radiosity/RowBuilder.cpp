@@ -92,11 +92,6 @@ struct EmitterPair {
         }
         draft.visibility = draft.blockerCount == 0 ? 1.0f : total > 0 ? seen / total : 0.0f;
     }
-    void hide(const SampleGroup& group, int first, ObjectId behind) {
-        used |= std::uint64_t(group.rays.used) << first;
-        std::copy_n(group.weight, 16, weight + first);
-        std::fill_n(blocker + first, 16, behind.value);
-    }
     void take(const RayScene& rays, const SampleGroup& group, int first, RayCount& count) {
         std::copy_n(group.weight, 16, weight + first);
         used |= std::uint64_t(group.rays.used) << first;
@@ -116,16 +111,13 @@ int firstSamples(const EmitterSender& sender, float formFactor) {
 } // namespace
 
 void RowBuilder::emitterEntry(const EmitterSender& sender, const Receiver& receiver,
-                              ObjectId behind, RowBlock::Draft& draft) {
+                              RowBlock::Draft& draft) {
     EmitterPair pair;
     SampleGroup group;
     int count = firstSamples(sender, draft.formFactor);
     for (int first = 0; first < count; first += 16) {
         sender.sampleGroup(receiver, first, group);
-        if (behind.valid())
-            pair.hide(group, first, behind);
-        else
-            pair.take(rays_, group, first, rayCount_);
+        pair.take(rays_, group, first, rayCount_);
         // More where the first ones disagree.
         if (first + 16 == count && pair.states(count) == 3) count = sender.allSamples();
     }
@@ -204,8 +196,7 @@ int RowBuilder::updateEmitterBlock(const EmitterSender& sender, const ReceiverBl
         if (anew >> r & 1) {
             const bool before = draft.formFactor > 0, wanted = receivers.wanted >> r & 1;
             draft.begin(wanted ? sender.formFactor(receivers.receivers[r]) : 0.0f);
-            if (draft.formFactor > 0)
-                emitterEntry(sender, receivers.receivers[r], receivers.behind, draft);
+            if (draft.formFactor > 0) emitterEntry(sender, receivers.receivers[r], draft);
             changed += before || draft.formFactor > 0;
         } else if (draft.formFactor > 0) {
             changed += retestEmitterEntry(sender, receivers.receivers[r], moved, draft);

@@ -36,7 +36,6 @@ struct ReceiverBlock {
     std::span<const Receiver> receivers;
     std::uint64_t wanted = ~std::uint64_t(0); ///< bits: receivers that need an entry
     std::uint32_t key = 0;                    ///< of the first; names it in every scene that has it
-    ObjectId behind; ///< valid: an object that hides the sender from all of them
 };
 
 /// An object that is not where it was.
@@ -94,7 +93,7 @@ private:
         float weight;          ///< share of the pair's samples
         std::uint32_t blocker; ///< ObjectId::kNone: visible
     };
-    void emitterEntry(const EmitterSender& sender, const Receiver& receiver, ObjectId behind,
+    void emitterEntry(const EmitterSender& sender, const Receiver& receiver,
                       RowBlock::Draft& draft);
     bool retestEmitterEntry(const EmitterSender& sender, const Receiver& receiver,
                             std::span<const MovedObject> moved, RowBlock::Draft& draft);

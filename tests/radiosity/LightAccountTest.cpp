@@ -87,6 +87,26 @@ TEST(LightAccount, OfAnUmbraChargesAllToTheOneObjectInTheWay) {
     expectNear(lamps[0].losses[0].lux, lamps[0].unoccluded, 1e-5f, "the board's");
 }
 
+TEST(LightAccount, ChargesAWallWithALampBehindItThatHasNoEntries) {
+    // A ceiling over the floor, and the lamp above that.
+    const Solution s(
+        sceneOf({object("floor", floorData(-2, 2, -2, 2, 0)), lampAt("lamp", 0, 0, 3, 100),
+                 object("ceiling", boxData({-6, -6, 1.5f}, {6, 6, 1.6f}, false))}),
+        kFine, {.directOnly = true});
+    const auto lamps = accountAt(s, {0, 0, 0});
+    ASSERT_EQ(lamps.size(), 1u);
+    EXPECT_EQ(lamps[0].arrives, Rgb());
+    EXPECT_NEAR(lamps[0].unoccluded.g, 16.0 / 9.0, 0.02); // as without the ceiling, see above
+    ASSERT_EQ(lamps[0].losses.size(), 1u);
+    EXPECT_EQ(nameOf(s, lamps[0].losses[0]), "/ceiling");
+    const DrawnHit at = nearestDrawn(s.patches(), {0, 0, 0}, 0.01f);
+    for (const std::uint32_t v : at.vertices)
+        EXPECT_FALSE(s.solver.direct()
+                         .rows()[0][v / PatchSet::kBlock]
+                         .entry(int(v % PatchSet::kBlock))
+                         .present);
+}
+
 TEST(LightAccount, AddsUpInPenumbraeOfSeveralObjects) {
     const Solution s = boardsOverFloor();
     int mixed = 0, shared = 0;
