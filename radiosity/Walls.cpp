@@ -2,56 +2,65 @@
 
 #include "radiosity/Shaft.h"
 
+#include <algorithm>
 #include <array>
 
 namespace penumbra {
 
 namespace {
 
-std::array<glm::vec3, 8> cornersOf(const Bounds& box) {
-    std::array<glm::vec3, 8> corners;
-    for (int i = 0; i < 8; ++i)
-        corners[std::size_t(i)] = {i & 1 ? box.upper.x : box.lower.x,
-                                   i & 2 ? box.upper.y : box.lower.y,
-                                   i & 4 ? box.upper.z : box.lower.z};
-    return corners;
+using Heights = std::array<float, 8>;
+
+/// Of a box's corners above a plane [m].
+Heights heightsOf(const Bounds& box, const Walls::Plane& plane) {
+    Heights heights;
+    for (std::size_t i = 0; i < 8; ++i) {
+        const glm::vec3 corner{i & 1 ? box.upper.x : box.lower.x, i & 2 ? box.upper.y : box.lower.y,
+                               i & 4 ? box.upper.z : box.lower.z};
+        heights[i] = glm::dot(plane.normal, corner) - plane.offset;
+    }
+    return heights;
 }
 
-bool isInside(const Wall& wall, glm::vec3 point, float margin) {
-    for (std::size_t i = 0; i < wall.outline.size(); ++i) {
-        const glm::vec3 from = wall.outline[i];
-        const glm::vec3 along = wall.outline[(i + 1) % wall.outline.size()] - from;
-        const glm::vec3 inwards = glm::cross(wall.normal, along);
-        if (glm::dot(inwards, point - from) < margin * glm::length(inwards)) return false;
-    }
-    return true;
+float lowest(const Heights& heights) {
+    return *std::min_element(heights.begin(), heights.end());
 }
 
 } // namespace
 
-Walls::Walls(const PatchSet& set) : walls_(set.walls), margin_(2e-5f * set.extent) {
+Walls::Walls(const PatchSet& set) : margin_(2e-5f * set.extent) {
     std::vector<Bounds> boxes;
-    for (const Wall& wall : walls_) {
+    for (const Wall& wall : set.walls) {
+        Sides sides{wall.object, {wall.normal, glm::dot(wall.normal, wall.outline[0])}, {}};
         Bounds box;
-        for (glm::vec3 point : wall.outline) box.add(point);
+        for (std::size_t i = 0; i < wall.outline.size(); ++i) {
+            const glm::vec3 from = wall.outline[i];
+            const glm::vec3 along = wall.outline[(i + 1) % wall.outline.size()] - from;
+            if (along == glm::vec3(0)) continue;
+            const glm::vec3 inwards = glm::normalize(glm::cross(wall.normal, along));
+            sides.edges.push_back({inwards, glm::dot(inwards, from) + margin_});
+            box.add(from);
+        }
+        walls_.push_back(std::move(sides));
         boxes.push_back(box);
     }
     boxes_.assign(std::move(boxes));
 }
 
-bool Walls::hides(const Wall& wall, const Bounds& a, const Bounds& b) const {
-    const auto ca = cornersOf(a), cb = cornersOf(b);
-    std::array<float, 8> da, db; // heights over the wall's plane, both positive in the end
-    const float sign = glm::dot(wall.normal, ca[0] - wall.outline[0]) > 0 ? 1.0f : -1.0f;
-    for (std::size_t i = 0; i < 8; ++i) {
-        da[i] = sign * glm::dot(wall.normal, ca[i] - wall.outline[0]);
-        db[i] = -sign * glm::dot(wall.normal, cb[i] - wall.outline[0]);
-        if (da[i] < margin_ || db[i] < margin_) return false;
+bool Walls::hides(const Sides& wall, const Bounds& a, const Bounds& b) const {
+    Heights ha = heightsOf(a, wall.plane), hb = heightsOf(b, wall.plane);
+    const float sign = ha[0] > 0 ? 1.0f : -1.0f;
+    for (std::size_t i = 0; i < 8; ++i) ha[i] *= sign, hb[i] *= -sign;
+    if (lowest(ha) < margin_ || lowest(hb) < margin_) return false;
+    // The segment between corners i and j meets the plane at (hb_j a_i + ha_i b_j) / (ha_i + hb_j).
+    for (const Plane& edge : wall.edges) {
+        const Heights ea = heightsOf(a, edge), eb = heightsOf(b, edge);
+        float least = 0;
+        for (std::size_t i = 0; i < 8; ++i)
+            for (std::size_t j = 0; j < 8; ++j)
+                least = std::min(least, hb[j] * ea[i] + ha[i] * eb[j]);
+        if (least < 0) return false;
     }
-    for (std::size_t i = 0; i < 8; ++i)
-        for (std::size_t j = 0; j < 8; ++j)
-            if (!isInside(wall, glm::mix(ca[i], cb[j], da[i] / (da[i] + db[j])), margin_))
-                return false;
     return true;
 }
 

@@ -13,6 +13,11 @@ namespace penumbra {
 /// the light of a building's other rooms costs nothing here.
 class Walls {
 public:
+    /// Points p with normal . p = offset.
+    struct Plane {
+        glm::vec3 normal; ///< unit
+        float offset;     ///< [m]
+    };
     explicit Walls(const PatchSet& set);
 
     /// An object with a face that every segment between the two boxes crosses, if there is one.
@@ -21,9 +26,14 @@ public:
     ObjectId between(const Bounds& a, const Bounds& b) const;
 
 private:
-    bool hides(const Wall& wall, const Bounds& a, const Bounds& b) const;
+    struct Sides {
+        ObjectId object;
+        Plane plane;
+        std::vector<Plane> edges; ///< a little inside of them; normals point inwards
+    };
+    bool hides(const Sides& wall, const Bounds& a, const Bounds& b) const;
 
-    std::vector<Wall> walls_;
+    std::vector<Sides> walls_;
     BoundsTree boxes_;
     float margin_ = 0; ///< [m]
 };
