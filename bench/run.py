@@ -37,6 +37,12 @@ DETAIL = ["elements", "nodes", "gatherers", "scratch_s", "update_s", "apply_s", 
           "update_rays", "ray_ratio", "groups_visited", "groups"]
 PLAY = ["patches", "elements", "scratch_s", "updates", "updates_per_s", "update_s", "longest_s"]
 STEPS = ["elements", "steps", "over_ms", "over_first_ms", "over_99_ms", "over_thread_ms"]
+LATENCY = ["alone_first_ms", "thread_first_ms", "process_first_ms", "thread_first_more_ms",
+           "process_first_more_ms", "alone_settle_ms", "thread_settle_ms", "process_settle_ms",
+           "thread_settle_ratio", "process_settle_ratio"]
+FRAMES = ["idle_ms", "busy_ms", "median_ratio", "idle_99_ms", "busy_99_ms", "ratio_99",
+          "update_busy_99_ms", "update_busy_longest_ms", "update_stopped_longest_ms",
+          "update_waits"]
 BUILDING = ["elements", "lamps", "mesh_s", "scratch_s", "scratch_rays", "update_s",
             "update_cpu_s", "follow_s", "update_rays", "update_rays_full", "update_rays_single",
             "entries_changed", "blocks_visited", "entries", "rows_MB", "peak_MB"]
@@ -106,6 +112,8 @@ def main():
     table(merged["benchmarks"], "edit/detail/", DETAIL)
     table(merged["benchmarks"], "edit/play/", PLAY)
     table(merged["benchmarks"], "edit/steps/", STEPS)
+    table(merged["benchmarks"], "latency/", LATENCY)
+    table(merged["benchmarks"], "frames/", FRAMES)
     table(merged["benchmarks"], "edit/building/",
           BUILDING + [name + "_over_first" for name in GROWTH])
     print()

@@ -268,19 +268,43 @@ void readStageMetadata(const UsdLayer& layer, Scene& scene, Diagnostics& warning
     scene.timeCodesPerSecond = timeCodesPerSecond(layer);
 }
 
+/// A positive number; 0: the prim says none.
+double positive(const UsdPrim& prim, std::string_view name, const char* what,
+                Diagnostics& warnings) {
+    const UsdAttributes attributes(prim, std::nullopt);
+    const double number = attributes.number(name, 0);
+    if (number > 0 && std::isfinite(number)) return number;
+    if (UsdStage::property(prim, name))
+        warnings.warn(attributes.location(name), std::string(what) + " ignored: not positive");
+    return 0;
+}
+
+/// One of some words; empty: the prim says none of them.
+std::string word(const UsdPrim& prim, std::string_view name,
+                 std::initializer_list<std::string_view> words, Diagnostics& warnings) {
+    const UsdAttributes attributes(prim, std::nullopt);
+    const std::string text = attributes.text(name, "");
+    if (std::find(words.begin(), words.end(), text) != words.end()) return text;
+    if (!UsdStage::property(prim, name)) return {};
+    std::string known;
+    for (std::string_view one : words) known += (known.empty() ? "" : ", ") + std::string(one);
+    warnings.warn(attributes.location(name), "'" + text + "' is none of " + known);
+    return {};
+}
+
 // What the default prim says about the scene as a whole; unlike metadata of a layer this reaches
 // the layers above it.
 void readDefaultPrim(const UsdStage& stage, Scene& scene, Diagnostics& warnings) {
     const UsdValue* name = find(stage.rootLayer().metadata, "defaultPrim");
     const UsdPrim* prim = name && name->text() ? stage.find("/" + *name->text()) : nullptr;
     if (!prim) return;
-    constexpr std::string_view kPatchSize = "penumbra:patchSize";
-    const UsdAttributes attributes(*prim, std::nullopt);
-    const double size = attributes.number(kPatchSize, 0);
-    if (size > 0 && std::isfinite(size))
-        scene.patchSize = size * scene.metersPerUnit;
-    else if (UsdStage::property(*prim, kPatchSize))
-        warnings.warn(attributes.location(kPatchSize), "patch size ignored: not positive");
+    const double unit = scene.metersPerUnit;
+    scene.patchSize = unit * positive(*prim, "penumbra:patchSize", "patch size", warnings);
+    scene.elementSize = unit * positive(*prim, "penumbra:elementSize", "element size", warnings);
+    scene.residual = positive(*prim, "penumbra:residual", "residual", warnings);
+    scene.trigger =
+        word(*prim, "penumbra:trigger", {"implicit", "onDemand", "continuous"}, warnings);
+    scene.order = word(*prim, "penumbra:order", {"importance", "plain"}, warnings);
 }
 
 } // namespace

@@ -46,7 +46,9 @@ struct LoadedScene {
 /// with xformOps of its own becomes a Transform that holds the node under the same name. What is
 /// inactive, invisible, abstract, only `over`, or of purpose proxy or guide is left out. A
 /// Transform is movable if its ops change with time or `bool penumbra:movable` says so. The default
-/// prim's `double penumbra:patchSize`, in units of the file, becomes Scene::patchSize.
+/// prim's `double penumbra:patchSize` and `penumbra:elementSize`, in units of the file, `double
+/// penumbra:residual`, and the tokens `penumbra:trigger` and `penumbra:order` become members of
+/// Scene.
 ///
 /// Throws SceneFileError if the file can't be read at all.
 LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& options = {});

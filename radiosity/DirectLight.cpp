@@ -151,9 +151,9 @@ bool DirectLight::work(std::size_t effort, double enough) {
     return updateRows(effort, enough) || sumBlocks(effort) || averagePatches(effort);
 }
 
-void DirectLight::sumUp() {
-    while (sumBlocks(std::size_t(1) << 20)) {
-    }
+void DirectLight::sumUp(std::size_t effort) {
+    constexpr std::size_t kPiece = std::size_t(1) << 20;
+    for (; effort > 0 && sumBlocks(std::min(effort, kPiece));) effort -= std::min(effort, kPiece);
 }
 
 bool DirectLight::updateRows(std::size_t effort, double enough) {

@@ -37,13 +37,23 @@ public:
         updates_.open().setOrder(std::move(order));
     }
     void rekey() { updates_.open().rekey(); }
-    /// Sums what the rows, as they are now, give to the vertices.
-    void sumUp();
+    /// Sums what the rows, as they are now, give to the vertices: all of it, or about `effort`
+    /// rays' worth.
+    void sumUp(std::size_t effort = ~std::size_t(0));
+    /// Whether the rows give to a block what its vertices have.
+    bool summed(std::uint32_t block) const { return blockTouched_[block] == 0; }
 
     std::span<const Rgb> vertices() const { return vertices_; }      ///< [lux]
     std::span<const glm::dvec3> patches() const { return patches_; } ///< means [lux]
     /// Blocks of vertices that were summed anew since this was called last, each once.
     std::vector<std::uint32_t> takeSummedBlocks();
+    /// Whether all that edits concern is among the open work.
+    bool openKnown() const { return updates_.found(); }
+    /// Blocks, in order, of which an emitter's row is not known to be what it should be. Work that
+    /// may be put off does not count, see work().
+    std::vector<std::uint32_t> openBlocks(std::uint32_t emitter, double enough) const {
+        return updates_.open().urgent(emitter, enough);
+    }
     std::span<const std::uint8_t> patchLit() const {
         return patchLit_;
     } ///< sees any emitter at all

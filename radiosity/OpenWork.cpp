@@ -118,6 +118,13 @@ void OpenWork::drop(std::uint32_t row) {
     list.open = 0;
 }
 
+std::vector<std::uint32_t> OpenWork::urgent(std::uint32_t row, double enough) const {
+    std::vector<std::uint32_t> blocks;
+    for (const Entry& entry : rows_[row].entries)
+        if (entry.ticket != 0 && bound(entry.block) > enough) blocks.push_back(entry.block);
+    return blocks;
+}
+
 OpenWork::Entry* OpenWork::find(const WorkQueue::Task& task) {
     std::vector<Entry>& entries = rows_[task.id >> 32].entries;
     const auto block = std::uint32_t(task.id);

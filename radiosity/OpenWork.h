@@ -63,6 +63,8 @@ public:
     /// Whether take() may give anything.
     bool pending(double enough) const { return count_ > 0 && (enough <= 0 || !urgent_.empty()); }
     std::size_t count() const { return count_; } ///< blocks that are open
+    /// Blocks of a row that are open and of receivers for which more than `enough` is, in order.
+    std::vector<std::uint32_t> urgent(std::uint32_t row, double enough) const;
     /// Sums over the open blocks of all senders: of factor * power [lux], and of factor.
     double light(std::size_t block) const { return sums_[block].light; }
     double factor(std::size_t block) const { return sums_[block].factor; }

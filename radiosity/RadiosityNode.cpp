@@ -36,6 +36,8 @@ struct RadiosityNode::Impl {
     void takeLight();
     void showObjects(Group& lit, bool moved);
     void rebuildBranch(Group& lit);
+    void takeIn(bool allTaken);
+    LitObjects::Lamps lamps() const { return {lampSet, liveLamps.size()}; }
     LitMaterial colourOf(const LitMeshMaterial& material) const;
 
     RadiosityOptions options;
@@ -55,7 +57,9 @@ struct RadiosityNode::Impl {
     std::vector<Placed<Mesh>> unlit;
 
     std::vector<std::string> liveLamps;
+    std::uint32_t lampSet = 0;
     RadiosityState state;
+    bool marksTaken = false, settledTaken = false; ///< all that was published before is read
     std::uint64_t updates = 0, blocksBefore = 0;
 };
 
@@ -120,7 +124,7 @@ void RadiosityNode::Impl::takeLight() {
     try {
         if (client.store() && client.store() != store) {
             store = client.store();
-            incoming = std::make_unique<LitObjects>(store);
+            incoming = std::make_unique<LitObjects>(store, lamps());
         }
         if (incoming) incoming->take(colour);
         if (incoming && (!shown || incoming->complete())) {
@@ -206,8 +210,17 @@ void RadiosityNode::update() {
     impl_->state.blocksTaken =
         impl_->blocksBefore + (impl_->shown ? impl_->shown->blocksTaken() : 0);
     const bool allTaken = !impl_->incoming && impl_->shown && impl_->shown->current();
-    if (impl_->state.phase == RadiosityState::Phase::settled && !allTaken)
-        impl_->state.phase = RadiosityState::Phase::solving; // its light is still being read
+    impl_->takeIn(allTaken);
+}
+
+/// What the other side says of the light it has published is true here when that has been read.
+void RadiosityNode::Impl::takeIn(bool allTaken) {
+    marksTaken = state.lampsMarked && (marksTaken || allTaken);
+    state.lampsMarked = marksTaken;
+    const bool settled = state.phase == RadiosityState::Phase::settled;
+    settledTaken = settled && (settledTaken || allTaken);
+    if (settled && !settledTaken) state.phase = RadiosityState::Phase::solving;
+    state.complete &= settledTaken && allTaken;
 }
 
 void RadiosityNode::stop() {
@@ -261,7 +274,12 @@ void RadiosityNode::setCamera(const View& view) {
 
 void RadiosityNode::setLiveLamps(std::vector<std::string> paths) {
     if (paths.size() > kMostLiveLamps) paths.resize(kMostLiveLamps);
+    if (paths == impl_->liveLamps) return;
     impl_->liveLamps = std::move(paths);
+    ++impl_->lampSet;
+    impl_->client.setLiveLamps(impl_->liveLamps, impl_->lampSet);
+    if (impl_->shown) impl_->shown->setLamps(impl_->lamps());
+    if (impl_->incoming) impl_->incoming->setLamps(impl_->lamps());
 }
 
 const std::vector<std::string>& RadiosityNode::liveLamps() const {

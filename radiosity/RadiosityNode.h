@@ -88,7 +88,7 @@ public:
     void setCamera(const View& view);
     /// Lamps of which each one's own light is wanted as well, by their paths as Placed<Light> and
     /// Emitter have them, at most kMostLiveLamps: LitMeshData::lamps has one entry each, in this
-    /// order. (Kept, but not delivered yet: LitMeshData has no lamps so far.)
+    /// order.
     void setLiveLamps(std::vector<std::string> paths);
     const std::vector<std::string>& liveLamps() const;
 

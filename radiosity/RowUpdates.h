@@ -58,6 +58,8 @@ public:
     /// Most items that work() returns for an effort.
     std::size_t mostItems(std::size_t effort) const { return effort / visitCost_ + 1; }
 
+    /// Whether all that edits concern is known, and so among the open work.
+    bool found() const { return row_ == table_.size(); }
     /// Whether there is nothing to do but what may stay open.
     bool done(double enough) const { return found() && !open_.pending(enough); }
     /// Share of the work found since the last edit that is done, in [0, 1].
@@ -75,7 +77,6 @@ private:
         std::vector<BlockMask> receivers;
         std::vector<Bounds> regions;
     };
-    bool found() const { return row_ == table_.size(); }
     void find(std::size_t effort, const Facts& facts);
     void allFound();
     /// What is looked through at a time: all of a row, or some blocks of one with very many.

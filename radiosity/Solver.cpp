@@ -80,7 +80,7 @@ void Solver::invalidate(const Bounds& region) {
 
 /// Something is to be done again.
 void Solver::begin() {
-    handedOver_ = completed_ = converged_ = idle_ = false;
+    handedOver_ = completed_ = converged_ = ready_ = idle_ = false;
     firstCertificate_ = 0;
     if (!indirect_) return;
     shotsBefore_ = indirect_->shots();
@@ -88,14 +88,19 @@ void Solver::begin() {
 }
 
 bool Solver::step(double budget, const Progress& progress) {
-    return run(budget, false, progress);
+    return run(budget, nullptr, progress);
 }
 
+bool Solver::stepUntilReady(double budget, const Progress& progress) {
+    return run(budget, &ready_, progress) || ready_;
+}
+
+/// \param until it becomes true, if that is not null
 /// \return whether there is nothing left to do
-bool Solver::run(double budget, bool untilConverged, const Progress& progress) {
+bool Solver::run(double budget, const bool* until, const Progress& progress) {
     const double start = seconds();
     const std::size_t most = budget > 1 ? kMostEffort : kMostPromptEffort;
-    for (double left = budget; left > 0 && !(untilConverged && converged_);
+    for (double left = budget; left > 0 && !(until && *until);
          left = budget - (seconds() - start)) {
         pace_.aim(std::min(budget > 1 ? 0.05 : kPause, std::max(left, 0.5 * kPause)), most);
         if (!work(pace_, progress)) return true;
@@ -104,7 +109,7 @@ bool Solver::run(double budget, bool untilConverged, const Progress& progress) {
 }
 
 void Solver::converge(const Progress& progress) {
-    while (!converged_ && !run(3600, true, progress)) {
+    while (!converged_ && !run(3600, &converged_, progress)) {
     }
 }
 
@@ -124,8 +129,10 @@ bool Solver::work(Pace& pace, const Progress& progress) {
     if (detail_ && workOnDetail(pace, progress)) return true;
     const std::size_t open =
         direct_.updates().open().count() + (indirect_ ? indirect_->updates().open().count() : 0);
+    const bool wasReady = std::exchange(ready_, true);
     if (idle_ || open == 0) return false;
-    idle_ = true; // time for what was put off
+    if (!wasReady) return true; // whoever waits for this gets to see it
+    idle_ = true;               // time for what was put off
     if (detail_) detail_->lightChanged();
     return true;
 }
@@ -188,9 +195,12 @@ bool Solver::workOnDetail(Pace& pace, const Progress& progress) {
     return true;
 }
 
+double Solver::directTolerance() const {
+    return tolerance(kDirectMayStayOpen);
+}
+
 /// How much of what is owed open work may be that is put off [lm/m^2].
-double Solver::mayStayOpen(double share) const {
-    if (idle_) return 0;
+double Solver::tolerance(double share) const {
     if (!indirect_) return share * options_.residual * direct_.brightest();
     return share * target() / indirect_->gain();
 }

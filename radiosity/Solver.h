@@ -114,6 +114,10 @@ public:
     /// Works for `budget` seconds, or until everything is settled, and returns whether it is. What
     /// it leaves undone it goes on with at the next call.
     bool step(double budget, const Progress& progress = {});
+    /// The same, but only until ready().
+    bool stepUntilReady(double budget, const Progress& progress = {});
+    /// Converged, and fine shadows follow: all that may be left is what was put off.
+    bool ready() const { return ready_; }
     /// Works until everything is settled.
     void settle(const Progress& progress = {});
     /// Whether the certificate is as low as was asked for. It may be so long before everything is
@@ -126,7 +130,8 @@ public:
     bool work(std::size_t effort, const Progress& progress = {});
     /// Direct light is summed when all its rows are up to date; this sums what is to be summed now,
     /// so that lighting() shows all that is known.
-    void sumUp() { direct_.sumUp(); }
+    /// \param effort about [rays]
+    void sumUp(std::size_t effort = ~std::size_t(0)) { direct_.sumUp(effort); }
 
     /// What the vertices receive. What is still owed is added as an ambient term (Cohen et al.
     /// 1988); fine shadows are as far as they have been brought.
@@ -145,6 +150,8 @@ public:
 
     /// Blocks of vertices whose direct light may differ from what it was at the last call.
     std::vector<std::uint32_t> takeSummedBlocks() { return direct_.takeSummedBlocks(); }
+    /// Open work on direct light is put off if it changes less [lm/m^2], see OpenWork::take().
+    double directTolerance() const;
     bool directOnly() const { return !indirect_; }
     double certificate() const { return indirect_ ? indirect_->certificate() : 0; }
     double meanRadiosity() const { return indirect_ ? indirect_->meanRadiosity() : 0; }
@@ -161,8 +168,9 @@ private:
     void begin();
     bool work(Pace& pace, const Progress& progress);
     bool workOnce(Pace& pace, const Progress& progress);
-    bool run(double budget, bool untilConverged, const Progress& progress);
-    double mayStayOpen(double share) const;
+    bool run(double budget, const bool* until, const Progress& progress);
+    double tolerance(double share) const;
+    double mayStayOpen(double share) const { return idle_ ? 0 : tolerance(share); }
     bool workOnDetail(Pace& pace, const Progress& progress);
     bool settled() const;
     bool spent() const;
@@ -177,7 +185,7 @@ private:
     std::unique_ptr<DetailGather> detail_;
     bool handedOver_ = false; ///< whether the indirect light knows of the direct light as it is
     bool completing_ = false, completed_ = false; ///< see IndirectLight::complete()
-    bool converged_ = false;
+    bool converged_ = false, ready_ = false;
     bool idle_ = false;                                ///< nothing is put off any more
     std::uint64_t shotsBefore_ = 0, servedBefore_ = 0; ///< before the last edit
     double firstCertificate_ = 0;

@@ -52,7 +52,8 @@ void LitGeometry::setTopology(const std::function<void(LitMeshData&)>& edit) {
 
 void LitGeometry::setLamps(std::size_t count) {
     const LampShare unknown{std::vector<float>(data_.positions.size()),
-                            std::vector<LampShare::Known>(blocksOf(data_), LampShare::Known::no)};
+                            std::vector<LampShare::Known>(blocksOf(data_), LampShare::Known::no),
+                            std::vector<Rgb>(blocksOf(data_))};
     data_.lamps.assign(count, unknown);
     for (std::uint64_t& revision : blockRevisions_) ++revision;
     touch();

@@ -32,6 +32,9 @@ struct LampShare {
     /// Illuminance by this lamp over its exitance pi L: F V, no unit; as long as positions.
     std::vector<float> factor;
     std::vector<Known> known; ///< one a block, see LitGeometry::kBlock
+    /// One a block [lm/m^2]: factor * exitance is what `direct` has of this lamp, however bright it
+    /// may be by now.
+    std::vector<Rgb> exitance;
 };
 
 /// Flat arrays of lit triangles, one-sided: front is counter-clockwise. The luminance of a point is

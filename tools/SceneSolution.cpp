@@ -161,6 +161,7 @@ SceneSolution::SceneSolution(const SolveSettings& settings)
     const double start = now();
     MeshingOptions meshing = settings.meshing;
     if (meshing.patchSize == 0) meshing.patchSize = float(loaded_.scene->patchSize);
+    if (meshing.elementSize == 0) meshing.elementSize = float(loaded_.scene->elementSize);
     mesh(meshing);
     light();
     if (settings.frames.empty()) return;
@@ -173,7 +174,9 @@ void SceneSolution::mesh(const MeshingOptions& meshing) {
     progress_.show("meshing", 0);
     timed("mesh", [&] {
         try {
-            lit_ = std::make_unique<LitScene>(placed_, meshing, settings_.solver);
+            SolverOptions solving = settings_.solver;
+            if (solving.residual == 0) solving.residual = loaded_.scene->residual;
+            lit_ = std::make_unique<LitScene>(placed_, meshing, solving);
         } catch (const Error& error) {
             progress_.clear();
             throw SceneFileError({settings_.scene}, error.what());

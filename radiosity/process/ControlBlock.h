@@ -19,7 +19,7 @@ namespace penumbra {
 // it: the other side may have gone mad.
 
 /// Rises with every change of the layout or of the messages.
-constexpr std::uint32_t kProtocolVersion = 1;
+constexpr std::uint32_t kProtocolVersion = 2;
 constexpr std::uint64_t kControlMagic = 0x314c5254434e5550; // "PUNCTRL1"
 constexpr std::size_t kRingBytes = std::size_t(1) << 20;
 
@@ -58,8 +58,10 @@ enum class MessageKind : std::uint32_t {
 /// How far the worker is.
 struct WorkerStatus {
     enum Phase : std::uint32_t { idle, meshing, solving, settled, failed };
-    std::uint64_t taken = 0; ///< serial of the last message that was taken in
-    std::uint64_t lit = 0;   ///< the published light is that of the scene after this message
+    std::uint64_t taken = 0;    ///< serial of the last message that was taken in
+    std::uint64_t lit = 0;      ///< the published light is that of the scene after this message
+    std::uint64_t complete = 0; ///< likewise, to the last of what may be put off
+    std::uint64_t marked = 0;   ///< what is stale of live lamps is right for this message
     std::uint32_t phase = idle;
     std::uint32_t openBlocks = 0;
     double progress = 0;

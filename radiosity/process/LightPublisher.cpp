@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 namespace penumbra {
@@ -54,7 +55,18 @@ void LightPublisher::setStore(std::unique_ptr<StoreWriter> store) {
 
 void LightPublisher::touch(std::uint32_t block) {
     if (touched_.size() <= block) touched_.resize(std::max(block + 1, blockCount()));
-    if (!std::exchange(touched_[block], 1)) open_.push_back(block);
+    if (touched_[block] != Touched::no) return;
+    touched_[block] = Touched::yes;
+    open_.push_back(block);
+}
+
+void LightPublisher::touchStale(std::uint32_t block) {
+    touch(block);
+    staleToShow_ += std::exchange(touched_[block], Touched::stale) != Touched::stale;
+}
+
+bool LightPublisher::canPublish(std::uint32_t block) const {
+    return block < store_->shape().blocks && scene_.solver().direct().summed(block);
 }
 
 void LightPublisher::follow(const SceneChange& change) {
@@ -66,6 +78,39 @@ void LightPublisher::follow(const SceneChange& change) {
         if (std::find(blocks.begin(), blocks.end(), vertex / kBlock) == blocks.end())
             blocks.push_back(vertex / kBlock);
     }
+}
+
+void LightPublisher::setLiveLamps(std::uint32_t serial, const std::vector<std::string>& paths) {
+    const PatchSet& set = scene_.patches();
+    lampSet_ = serial;
+    lamps_.clear();
+    for (const std::string& path : paths) {
+        LiveLamp& lamp = lamps_.emplace_back();
+        for (std::uint32_t e = 0; e < set.emitters.size(); ++e)
+            if (set.emitters[e].path == path) lamp.emitters.push_back(e);
+    }
+    findStale();
+    for (std::uint32_t b = 0; b < blockCount(); ++b) touch(b);
+}
+
+bool LightPublisher::findStale() {
+    const DirectLight& direct = scene_.solver().direct();
+    if (!direct.openKnown()) return false;
+    const double enough = scene_.solver().directTolerance();
+    for (LiveLamp& lamp : lamps_) {
+        std::vector<std::uint32_t> now;
+        for (std::uint32_t emitter : lamp.emitters)
+            for (std::uint32_t block : direct.openBlocks(emitter, enough)) now.push_back(block);
+        std::sort(now.begin(), now.end());
+        now.erase(std::unique(now.begin(), now.end()), now.end());
+        std::vector<std::uint32_t> begun, ended;
+        std::ranges::set_difference(now, lamp.stale, std::back_inserter(begun));
+        std::ranges::set_difference(lamp.stale, now, std::back_inserter(ended));
+        for (std::uint32_t block : ended) touch(block);
+        for (std::uint32_t block : begun) touchStale(block);
+        lamp.stale = std::move(now);
+    }
+    return true;
 }
 
 void LightPublisher::directWorked() {
@@ -106,15 +151,16 @@ void LightPublisher::nodesChanged(bool exact) {
 bool LightPublisher::publish(std::size_t most) {
     if (!store_ || open_.empty()) return false;
     store_->setUsed(std::min(blockCount(), store_->shape().blocks));
-    const std::size_t count = std::min(most, open_.size());
-    const auto some = std::span(open_).last(count);
-    parallelFor(count, 16, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            if (some[i] < store_->shape().blocks) store_->write(some[i], blockOf(some[i]));
+    std::vector<std::uint32_t> some, later;
+    for (; !open_.empty() && some.size() < most; open_.pop_back())
+        (canPublish(open_.back()) ? some : later).push_back(open_.back());
+    open_.insert(open_.end(), later.rbegin(), later.rend());
+    parallelFor(some.size(), 16, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) store_->write(some[i], blockOf(some[i]));
     });
-    for (std::uint32_t block : some) touched_[block] = 0;
-    open_.resize(open_.size() - count);
-    return true;
+    for (std::uint32_t block : some)
+        staleToShow_ -= std::exchange(touched_[block], Touched::no) == Touched::stale;
+    return !some.empty();
 }
 
 LightBlock LightPublisher::blockOf(std::uint32_t block) const {
@@ -134,6 +180,7 @@ LightBlock LightPublisher::blockOf(std::uint32_t block) const {
     light.directScale = packHalves(direct, light.direct.data());
     light.indirectScale = packHalves(indirect, light.indirect.data());
     if (block * kBlock >= set.firstPrivate) writeCorners(block, light);
+    if (!lamps_.empty()) writeLamps(block, light);
     return light;
 }
 
@@ -149,6 +196,25 @@ Rgb LightPublisher::indirectAt(std::uint32_t vertex) const {
     const bool known = vertex < detail_.size() &&
                        scene_.patches().vertexCoordinates[vertex].patch != Element::kNone;
     return interpolatedAt(vertex) + (known ? detail_[vertex] : Rgb());
+}
+
+void LightPublisher::writeLamps(std::uint32_t block, LightBlock& light) const {
+    light.lampSet = lampSet_;
+    light.lamps = std::uint32_t(lamps_.size());
+    for (std::size_t l = 0; l < lamps_.size(); ++l) {
+        std::array<float, kBlock> factors{};
+        for (std::uint32_t emitter : lamps_[l].emitters) {
+            const Row& row = scene_.solver().emitterRows()[emitter];
+            if (block >= row.size()) continue;
+            row[block].forEach(
+                [&](int receiver, float factor) { factors[std::size_t(receiver)] += factor; });
+        }
+        light.factorScale[l] = packHalves(factors, light.factor[l].data());
+        if (!lamps_[l].emitters.empty())
+            light.exitance[l] = scene_.patches().emitters[lamps_[l].emitters.front()].exitance;
+        if (std::binary_search(lamps_[l].stale.begin(), lamps_[l].stale.end(), block))
+            light.stale |= 1u << l;
+    }
 }
 
 void LightPublisher::writeCorners(std::uint32_t block, LightBlock& light) const {

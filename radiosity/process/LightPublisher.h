@@ -28,23 +28,42 @@ public:
     bool outgrown() const;
     std::uint32_t blockCount() const;
 
+    /// Lamps of which each one's own light is published as well, see RadiosityNode.
+    /// \param serial of this set, not 0
+    void setLiveLamps(std::uint32_t serial, const std::vector<std::string>& paths);
+    /// Finds what of their rows is open work. \return false: there may be more. Work that the
+    /// solver puts off does not count: what it may change is within the tolerance of the whole
+    /// picture, and may take long to come.
+    bool findStale();
+    /// Whether all that was found to be stale has been published as such.
+    bool staleShown() const { return staleToShow_ == 0; }
+
     /// An edit was taken in.
     void follow(const SceneChange& change);
     /// The solver has worked: looks at the direct light, which it has told of what changed.
     void directWorked();
     /// Looks at all light. \param settled all light is as it will stay
     void solverWorked(bool settled);
-    /// Publishes at most so many blocks. \return false: there was none
+    /// Publishes at most so many blocks, the last touched first. Those whose direct light is being
+    /// summed come later, for it has to fit the factors of lamps. \return false: there was none
     bool publish(std::size_t most);
     std::size_t open() const { return open_.size(); }
 
 private:
     void touch(std::uint32_t block);
+    void touchStale(std::uint32_t block);
+    bool canPublish(std::uint32_t block) const;
     void nodesChanged(bool exact);
     LightBlock blockOf(std::uint32_t block) const;
     Rgb interpolatedAt(std::uint32_t vertex) const;
     Rgb indirectAt(std::uint32_t vertex) const;
     void writeCorners(std::uint32_t block, LightBlock& light) const;
+    void writeLamps(std::uint32_t block, LightBlock& light) const;
+
+    struct LiveLamp {
+        std::vector<std::uint32_t> emitters;
+        std::vector<std::uint32_t> stale; ///< blocks, in order
+    };
 
     LitScene& scene_;
     std::unique_ptr<StoreWriter> store_;
@@ -52,8 +71,12 @@ private:
     std::vector<std::vector<std::uint32_t>> patchBlocks_; ///< blocks lit by the nodes of a patch
     std::vector<glm::dvec3> nodes_;                       ///< illuminance that is published [lux]
     std::vector<Rgb> detail_; ///< what fine shadows added when it was settled last [lux]
+    std::uint32_t lampSet_ = 0;
+    std::vector<LiveLamp> lamps_;
+    enum class Touched : std::uint8_t { no, yes, stale };
     std::vector<std::uint32_t> open_;
-    std::vector<std::uint8_t> touched_;
+    std::vector<Touched> touched_;
+    std::size_t staleToShow_ = 0; ///< blocks that are Touched::stale
 };
 
 } // namespace penumbra

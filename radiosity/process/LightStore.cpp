@@ -144,7 +144,8 @@ bool StoreReader::readBlock(std::uint32_t block, LightBlock& light, std::uint32_
 
 void StoreReader::read(std::size_t most, std::vector<Got>& got) {
     const std::uint64_t published = header_.published.load(std::memory_order_acquire);
-    if (published == publishedKnown_) return;
+    current_ = published == publishedKnown_;
+    if (current_) return;
     const std::uint32_t used =
         std::min(header_.used.load(std::memory_order_acquire), shape_.blocks);
     if (next_ >= used) next_ = 0;
@@ -165,11 +166,8 @@ void StoreReader::read(std::size_t most, std::vector<Got>& got) {
         }
         next_ = next_ + 1 == used ? 0 : next_ + 1;
     }
-    if (!missed) publishedKnown_ = published;
-}
-
-bool StoreReader::current() const {
-    return header_.published.load(std::memory_order_acquire) == publishedKnown_;
+    current_ = !missed;
+    if (current_) publishedKnown_ = published;
 }
 
 float packHalves(std::span<const float> values, std::uint16_t* halves) {

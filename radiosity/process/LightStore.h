@@ -30,7 +30,8 @@ struct alignas(8) LightBlock {
     std::array<std::uint32_t, kSize> corners{};
     /// If there are live lamps only.
     std::uint32_t lamps = 0;
-    std::uint32_t stale = 0; ///< bit l: open work on the row of lamp l
+    std::uint32_t stale = 0;                    ///< bit l: open work on the row of lamp l
+    std::array<Rgb, kMostLiveLamps> exitance{}; ///< that `direct` was summed with [lm/m^2]
     std::array<float, kMostLiveLamps> factorScale{};
     std::array<std::array<std::uint16_t, kSize>, kMostLiveLamps> factor{}; ///< see LampShare
 };
@@ -89,8 +90,8 @@ public:
         LightBlock light;
     };
     void read(std::size_t most, std::vector<Got>& got);
-    /// Whether all that was published is read.
-    bool current() const;
+    /// Whether the last read() has brought all that was published before it.
+    bool current() const { return current_; }
 
 private:
     bool readBlock(std::uint32_t block, LightBlock& light, std::uint32_t& sequence) const;
@@ -103,6 +104,7 @@ private:
     const SharedWord* blocks_;
     std::vector<std::uint32_t> known_; ///< sequence numbers of what was read
     std::uint64_t publishedKnown_ = ~std::uint64_t(0);
+    bool current_ = false;
     std::uint32_t next_ = 0;
 };
 

@@ -79,12 +79,13 @@ void LightingClient::launch() {
         granted_ = opened_ = 0;
         grantedRegion_.reset();
         status_ = {};
-        serial_ = 0;
+        serial_ = editSerial_ = 0;
         beat_ = turns_ = 0;
         silence_ = standstill_ = ungranted_ = 0;
         link_->start(control_, {options_.threads, options_.niceness});
         sendScene();
         if (hasCamera_) setCamera(camera_);
+        if (!lamps_.empty()) queue_.push_back({kLampsKey, lamps_, nullptr});
     } catch (const Error& error) {
         failed(error.what());
     } catch (const std::bad_alloc&) {
@@ -160,6 +161,17 @@ void LightingClient::setCamera(const View& view) {
     if (control_) queue(kCameraKey, std::move(body));
 }
 
+void LightingClient::setLiveLamps(const std::vector<std::string>& paths, std::uint32_t serial) {
+    ByteWriter body;
+    body.put(MessageKind::liveLamps);
+    body.put(std::uint64_t(0));
+    body.put(serial);
+    body.put(std::uint64_t(paths.size()));
+    for (const std::string& path : paths) body.text(path);
+    lamps_ = body.bytes();
+    if (control_) queue(kLampsKey, std::move(body));
+}
+
 void LightingClient::send(MessageKind kind, std::uint32_t value) {
     ByteWriter body;
     body.put(kind);
@@ -189,11 +201,19 @@ void LightingClient::flush() {
         std::memcpy(message.body.data() + sizeof(MessageKind), &serial, sizeof serial);
         if (!ring_->send(message.body)) break;
         serial_ = serial;
+        if (message.key != kCameraKey) editSerial_ = serial;
         sent = true;
         if (message.region) sent_.push_back(std::move(message.region));
         queue_.pop_front();
     }
     if (sent) ring(control().doorbell);
+}
+
+/// Whether a worker that knows of so many messages knows of all edits. Cameras come all the time.
+bool LightingClient::knowsEdits(std::uint64_t serial) const {
+    return serial >= editSerial_ && serial <= serial_ &&
+           std::all_of(queue_.begin(), queue_.end(),
+                       [](const Message& m) { return m.key == kCameraKey; });
 }
 
 void LightingClient::turn() {
@@ -239,8 +259,8 @@ void LightingClient::readStatus() {
     if (!control().status.read(status) || control().status.version() == 0) return;
     status_ = status;
     if (status_.taken >= 1 && !sent_.empty()) sent_.clear();
-    const bool lit = status_.phase == WorkerStatus::settled && queue_.empty() &&
-                     status_.lit == serial_ && opened_ == granted_;
+    const bool lit =
+        status_.phase == WorkerStatus::settled && knowsEdits(status_.lit) && opened_ == granted_;
     if (lit) {
         unlitSince_ = 0;
         saidFailure_ = false;
@@ -290,6 +310,8 @@ RadiosityState LightingClient::state() const {
     state.meanRadiosity = status_.meanRadiosity;
     state.queued = queue_.size() + std::size_t(serial_ - std::min(serial_, status_.taken));
     state.openBlocks = status_.openBlocks;
+    state.lampsMarked = control_ && knowsEdits(status_.marked);
+    state.complete = control_ && knowsEdits(status_.complete) && unlitSince_ == 0;
     state.age = unlitSince_ == 0 ? 0 : seconds() - unlitSince_;
     state.restarts = restarts_;
     if (!running_)

@@ -73,6 +73,7 @@ private:
     void grantStore();
     void openStore();
     void readStatus();
+    bool knowsEdits(std::uint64_t serial) const;
 
     std::unique_ptr<LightingLink> link_;
     RadiosityOptions options_;
@@ -85,7 +86,8 @@ private:
     std::optional<RingSender> ring_;
     std::vector<RegionPtr> sent_; ///< scenes on their way
     std::deque<Message> queue_;
-    std::uint64_t serial_ = 0; ///< of the last message in the ring
+    std::uint64_t serial_ = 0;     ///< of the last message in the ring
+    std::uint64_t editSerial_ = 0; ///< of the last one that is no camera
     View camera_;
     bool hasCamera_ = false;
     std::vector<std::byte> lamps_; ///< the last message about live lamps

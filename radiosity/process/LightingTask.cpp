@@ -5,15 +5,21 @@
 namespace penumbra {
 
 void write(ByteWriter& out, const LightingTask& task, const GraphImage& scene) {
-    out.put(task.meshing.patchSize);
-    out.put(task.meshing.elementSize);
-    out.put(task.meshing.extent);
-    out.put(std::int32_t(task.solving.samples));
-    out.put(task.solving.residual);
-    out.put(std::uint8_t(task.solving.directOnly));
-    out.put(std::uint8_t(task.solving.detail));
-    out.put(task.solving.mostShots);
-    out.put(std::uint64_t(task.solving.rowMemory));
+    // Named one by one: an option that is new does not compile before it is sent.
+    const auto& [patchSize, elementSize, extent] = task.meshing;
+    const auto& [samples, residual, directOnly, order, detail, mostShots, rowMemory, flatPatches] =
+        task.solving;
+    out.put(patchSize);
+    out.put(elementSize);
+    out.put(extent);
+    out.put(std::int32_t(samples));
+    out.put(residual);
+    out.put(std::uint8_t(directOnly));
+    out.put(std::uint8_t(order));
+    out.put(std::uint8_t(detail));
+    out.put(mostShots);
+    out.put(std::uint64_t(rowMemory));
+    out.put(std::uint64_t(flatPatches));
     out.put(std::uint8_t(task.order));
     write(out, scene);
 }
@@ -31,14 +37,17 @@ std::optional<LightingTask> readLightingTask(ByteReader& in) {
     task.solving.samples = in.get<std::int32_t>();
     task.solving.residual = in.get<double>();
     task.solving.directOnly = in.get<std::uint8_t>() != 0;
+    const auto solverOrder = in.get<std::uint8_t>();
+    task.solving.order = UpdateOrder(solverOrder);
     task.solving.detail = in.get<std::uint8_t>() != 0;
     task.solving.mostShots = in.get<std::uint64_t>();
     task.solving.rowMemory = in.get<std::uint64_t>();
+    task.solving.flatPatches = in.get<std::uint64_t>();
     const auto order = in.get<std::uint8_t>();
     task.order = WorkPlan(order);
     if (task.solving.samples < 1 || task.solving.samples > 64 ||
         !std::isfinite(task.solving.residual) || task.solving.residual < 0 ||
-        order > std::uint8_t(WorkPlan::plain))
+        order > std::uint8_t(WorkPlan::plain) || solverOrder > std::uint8_t(UpdateOrder::plain))
         return std::nullopt;
     auto scene = readGraphImage(in);
     if (!scene) return std::nullopt;

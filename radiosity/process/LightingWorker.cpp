@@ -13,9 +13,11 @@ namespace penumbra {
 
 namespace {
 
-constexpr double kTurn = 0.008;           ///< [s]
-constexpr double kBetweenLooks = 0.1;     ///< at the indirect light while it is relaxed [s]
-constexpr std::size_t kMostBlocks = 1024; ///< published in one turn
+constexpr double kTurn = 0.008;            ///< [s]
+constexpr double kPromptTurn = 0.001;      ///< until something of an edit is published [s]
+constexpr double kBetweenLooks = 0.1;      ///< at the indirect light while it is relaxed [s]
+constexpr std::size_t kMostBlocks = 1024;  ///< published in one turn
+constexpr std::size_t kMostSums = 1 << 16; ///< of direct light in one turn [rays]
 
 double seconds() {
     using namespace std::chrono;
@@ -105,11 +107,20 @@ void LightingWorker::take(MessageKind kind, ByteReader& message) {
         stopped_ = true;
         break;
     case MessageKind::camera:
+        camera_ = message.get<View>();
+        break;
     case MessageKind::grab:
+        grabbed_.insert(message.get<std::uint32_t>());
+        break;
     case MessageKind::release:
-    case MessageKind::trigger:
+        grabbed_.erase(message.get<std::uint32_t>());
+        break;
+    case MessageKind::trigger: // what is held back is held by the node
     case MessageKind::update:
+        message.get<std::uint32_t>();
+        break;
     case MessageKind::liveLamps:
+        takeLamps(message);
         break;
     default:
         message.fail();
@@ -129,9 +140,17 @@ void LightingWorker::takeScene(const std::string& name) {
     edited_ = true;
 }
 
+void LightingWorker::takeLamps(ByteReader& message) {
+    lampSet_ = message.get<std::uint32_t>();
+    lamps_.resize(std::min(message.count(sizeof(std::uint64_t)), kMostLiveLamps));
+    for (std::string& path : lamps_) path = message.text();
+    if (publisher_) publisher_->setLiveLamps(lampSet_, lamps_);
+    marked_ = false;
+}
+
 void LightingWorker::followScene() {
     edited_ = false;
-    solved_ = false;
+    settled_ = complete_ = marked_ = shown_ = false;
     if (!graph_) return;
     if (!lit_) return build();
     const PlacedScene placed = placeScene(graph_->scene());
@@ -155,6 +174,7 @@ void LightingWorker::build() {
     objectFrames_.clear();
     for (const Object& object : placed.objects) objectFrames_.push_back(object.toWorld);
     publisher_ = std::make_unique<LightPublisher>(*lit_);
+    if (!lamps_.empty()) publisher_->setLiveLamps(lampSet_, lamps_);
     directDone_ = false;
     requestStore();
 }
@@ -187,29 +207,49 @@ void LightingWorker::openStore() {
 bool LightingWorker::work(double budget) {
     if (!mesh_.empty()) openStore();
     bool worked = false;
-    if (!solved_) {
+    if (!complete_) {
         worked = true;
-        const auto progress = [&](const char* phase, double done) {
-            status_.task.set(phase);
-            status_.progress = done;
-            directDone_ |= std::strcmp(phase, "direct light") != 0;
-        };
-        solved_ = lit_->solver().step(budget, progress);
-        directDone_ |= solved_;
-        status_.phase = WorkerStatus::solving;
-        if (solved_ || seconds() >= nextLook_) {
-            publisher_->solverWorked(solved_);
-            nextLook_ = seconds() + kBetweenLooks;
-        } else {
-            publisher_->directWorked();
+        solve(shown_ ? budget : std::min(budget, kPromptTurn));
+    }
+    if (!marked_ || worked) marked_ = publisher_->findStale();
+    if (directDone_ && mesh_.empty()) {
+        const bool published = publisher_->publish(kMostBlocks);
+        worked |= published;
+        shown_ |= published;
+    }
+    if (marked_ && publisher_->staleShown()) status_.marked = status_.taken;
+    if (publisher_->hasStore() && mesh_.empty() && publisher_->open() == 0) {
+        if (complete_) status_.complete = status_.taken;
+        if (settled_) {
+            status_.phase = WorkerStatus::settled;
+            status_.lit = status_.taken;
         }
     }
-    if (directDone_ && mesh_.empty()) worked |= publisher_->publish(kMostBlocks);
-    if (solved_ && publisher_->hasStore() && mesh_.empty() && publisher_->open() == 0) {
-        status_.phase = WorkerStatus::settled;
-        status_.lit = status_.taken;
-    }
     return worked;
+}
+
+/// Until the light is settled; then goes on with what was put off.
+void LightingWorker::solve(double budget) {
+    const auto progress = [&](const char* phase, double done) {
+        status_.task.set(phase);
+        status_.progress = done;
+        directDone_ |= std::strcmp(phase, "direct light") != 0;
+    };
+    Solver& solver = lit_->solver();
+    bool done = false; // this much
+    if (!settled_)
+        done = settled_ = solver.stepUntilReady(budget, progress);
+    else
+        done = complete_ = solver.step(budget);
+    directDone_ |= settled_;
+    if (!settled_) status_.phase = WorkerStatus::solving;
+    if (directDone_) solver.sumUp(kMostSums); // the first light comes all at once
+    if (done || seconds() >= nextLook_) {
+        publisher_->solverWorked(done);
+        nextLook_ = seconds() + kBetweenLooks;
+    } else {
+        publisher_->directWorked();
+    }
 }
 
 /// This scene can't be lit; the next one, or an edit, may change that.

@@ -6,11 +6,13 @@
 #include "radiosity/process/GraphCopy.h"
 #include "radiosity/process/LightPublisher.h"
 #include "radiosity/process/LightingTask.h"
+#include "scenegraph/Camera.h"
 
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 namespace penumbra {
@@ -40,11 +42,13 @@ private:
     void receive();
     void take(MessageKind kind, ByteReader& message);
     void takeScene(const std::string& region);
+    void takeLamps(ByteReader& message);
     void followScene();
     void build();
     void requestStore();
     void openStore();
     bool work(double budget);
+    void solve(double budget);
     void fail(const std::string& why);
     void report();
 
@@ -61,9 +65,16 @@ private:
     std::unique_ptr<LightPublisher> publisher_;
     std::vector<glm::dmat4> objectFrames_; ///< when it was meshed
     std::vector<Bounds> invalid_;
+    std::optional<View> camera_;                ///< from where it is seen
+    std::unordered_set<std::uint32_t> grabbed_; ///< nodes of the graph in someone's hand
+    std::uint32_t lampSet_ = 0;
+    std::vector<std::string> lamps_;
+    bool marked_ = false; ///< stale blocks of live lamps are known, if not yet published
+    bool shown_ = false;  ///< something was published since the last edit
     bool edited_ = false, stopped_ = false;
-    bool solved_ = false, directDone_ = false;
-    double nextLook_ = 0; ///< at the indirect light, steady clock [s]
+    bool settled_ = false, complete_ = false; ///< within the certificate; altogether
+    bool directDone_ = false;                 ///< of the mesh as it is, once
+    double nextLook_ = 0;                     ///< at the indirect light, steady clock [s]
 
     StoreRequest request_;
     StoreShape shape_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace penumbra {
@@ -29,12 +30,28 @@ std::size_t indexCount(const std::array<std::uint32_t, 4>& base) {
     return base[2] == base[3] ? 3 : 6;
 }
 
+void clearLamps(LitMeshData& data, std::size_t count) {
+    const std::size_t blocks = data.positions.size() / kBlock;
+    data.lamps.assign(count, {std::vector<float>(data.positions.size()),
+                              std::vector<LampShare::Known>(blocks), std::vector<Rgb>(blocks)});
+}
+
 } // namespace
 
-LitObjects::LitObjects(std::shared_ptr<StoreReader> store)
-    : store_(std::move(store)), mesh_(store_->mesh(), store_->shape().firstPrivate),
+LitObjects::LitObjects(std::shared_ptr<StoreReader> store, const Lamps& lamps)
+    : store_(std::move(store)), mesh_(store_->mesh(), store_->shape().firstPrivate), lamps_(lamps),
       places_(store_->shape().blocks) {
     if (!mesh_.ok()) senseless();
+}
+
+void LitObjects::setLamps(const Lamps& lamps) {
+    lamps_ = lamps;
+    for (std::size_t o = 0; o < parts_.size(); ++o) {
+        if (entries_[o].geometry)
+            entries_[o].geometry->setLamps(lamps.count);
+        else
+            clearLamps(parts_[o].data, lamps.count);
+    }
 }
 
 void LitObjects::take(const Colour& colour) {
@@ -62,6 +79,7 @@ void LitObjects::takeObject(const Colour& colour) {
     part.data.indirect.resize(vertices);
     for (const LitMeshMaterial& material : mesh_.head().materials)
         part.data.materials.push_back(colour(material));
+    clearLamps(part.data, lamps_.count);
     part.base = std::move(object->elements);
     part.now = part.base;
     part.standsFor.assign(vertices, kNoCorner);
@@ -96,6 +114,11 @@ void LitObjects::placePrivate(const StoreReader::Got& got, Place& place) {
     edit(place.object, [&](LitMeshData& data) {
         for (auto* points : {&data.positions, &data.normals}) points->resize(part.standsFor.size());
         for (auto* light : {&data.direct, &data.indirect}) light->resize(part.standsFor.size());
+        for (LampShare& lamp : data.lamps) {
+            lamp.factor.resize(part.standsFor.size());
+            lamp.known.resize(part.standsFor.size() / kBlock);
+            lamp.exitance.resize(part.standsFor.size() / kBlock);
+        }
     });
 }
 
@@ -113,6 +136,7 @@ void LitObjects::takeBlock(const StoreReader::Got& got) {
         };
         unpack(got.light.direct, got.light.directScale, data.direct);
         unpack(got.light.indirect, got.light.indirectScale, data.indirect);
+        unpackLamps(got.light, place.block, data);
     };
     if (const auto& geometry = entries_[place.object].geometry)
         geometry->setBlock(place.block, write);
@@ -124,6 +148,21 @@ void LitObjects::takeBlock(const StoreReader::Got& got) {
     } else if (!std::exchange(place.lit, true)) {
         --part.missing;
         --missing_;
+    }
+}
+
+void LitObjects::unpackLamps(const LightBlock& light, std::size_t block, LitMeshData& data) const {
+    if (light.lampSet != lamps_.set || light.lamps != lamps_.count) return; // of other lamps
+    for (std::size_t l = 0; l < lamps_.count; ++l) {
+        LampShare& lamp = data.lamps[l];
+        unpackHalves(light.factor[l].data(), light.factorScale[l],
+                     {&lamp.factor[block * kBlock], kBlock});
+        const Rgb exitance = light.exitance[l];
+        const auto sane = [](float x) { return x >= 0 && std::isfinite(x); };
+        if (sane(exitance.r) && sane(exitance.g) && sane(exitance.b))
+            lamp.exitance[block] = exitance;
+        lamp.known[block] =
+            light.stale >> l & 1 ? LampShare::Known::stale : LampShare::Known::exact;
     }
 }
 

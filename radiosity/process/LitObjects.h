@@ -22,7 +22,13 @@ class LitObjects {
 public:
     using Colour = std::function<LitMaterial(const LitMeshMaterial&)>;
 
-    explicit LitObjects(std::shared_ptr<StoreReader> store);
+    /// Which live lamps the light of blocks is to be about: a serial number, and how many.
+    struct Lamps {
+        std::uint32_t set = 0;
+        std::size_t count = 0;
+    };
+    LitObjects(std::shared_ptr<StoreReader> store, const Lamps& lamps);
+    void setLamps(const Lamps& lamps);
 
     /// Takes in what is new, for some milliseconds at most. \throws Error if it makes no sense
     void take(const Colour& colour);
@@ -66,10 +72,12 @@ private:
     void standFor(Part& part, std::uint32_t vertex, std::uint32_t corner);
     void writeTriangles();
     void finish(std::uint32_t object);
+    void unpackLamps(const LightBlock& light, std::size_t block, LitMeshData& data) const;
     void edit(std::uint32_t object, const std::function<void(LitMeshData&)>& change);
 
     std::shared_ptr<StoreReader> store_;
     LitMeshReader mesh_;
+    Lamps lamps_;
     std::vector<Entry> entries_;
     std::vector<Part> parts_;
     std::vector<Place> places_; ///< of the store's blocks

@@ -3,6 +3,7 @@
 
 #include "radiosity/BuildPatches.h"
 #include "radiosity/Solver.h"
+#include "scenegraph/Scene.h"
 
 #include <cstddef>
 
@@ -32,6 +33,9 @@ struct RadiosityOptions {
     double patience = 2;
     std::size_t mostMemory = std::size_t(4) << 30; ///< shared at most [bytes]
 };
+
+/// The defaults, and what the scene's file asks for.
+RadiosityOptions optionsOf(const Scene& scene);
 
 constexpr std::size_t kMostLiveLamps = 8;
 

@@ -13,10 +13,11 @@ struct RadiosityState {
         connecting, ///< the other side is being started
         meshing,    ///< it has the scene, and cuts it into patches
         solving,    ///< it works on the light
-        settled,    ///< the light is that of the scene as it was sent
+        settled,    ///< the light is that of the scene as it was sent, within the certificate
         failed      ///< this scene can't be lit, see takeMessages(); an edit has it tried again
     };
     Phase phase = Phase::connecting;
+    bool complete = false;      ///< settled, and nothing is put off any more
     std::string task;           ///< of phase solving, e.g. "direct light"
     double progress = 0;        ///< share of the task that is done, in [0, 1]
     double certificate = 0;     ///< bound of |B_exact - B| for the meshed scene [lm/m^2]

@@ -73,6 +73,20 @@ TEST(UsdScene, TheDefaultPrimMayAskForAPatchSize) {
     }
 }
 
+TEST(UsdScene, TheDefaultPrimMayAskForSizesToleranceTriggerAndOrder) {
+    const LoadedScene loaded =
+        loadText("(\n defaultPrim = \"w\"\n metersPerUnit = 0.01\n)\ndef Xform \"w\"\n{\n"
+                 " custom uniform double penumbra:elementSize = 4\n"
+                 " custom uniform double penumbra:residual = 0.001\n"
+                 " custom uniform token penumbra:trigger = \"continuous\"\n"
+                 " custom uniform token penumbra:order = \"fastest\"\n}\n");
+    EXPECT_DOUBLE_EQ(loaded.scene->elementSize, 0.04);
+    EXPECT_DOUBLE_EQ(loaded.scene->residual, 0.001);
+    EXPECT_EQ(loaded.scene->trigger, "continuous");
+    EXPECT_EQ(loaded.scene->order, "");
+    EXPECT_EQ(countOf(loaded, "'fastest' is none of importance, plain"), 1u);
+}
+
 TEST(UsdScene, AxesAndFramesAreRecorded) {
     const LoadedScene loaded = loadText(
         "(upAxis = \"Z\"\n startTimeCode = 3\n endTimeCode = 9\n timeCodesPerSecond = 30)\n");

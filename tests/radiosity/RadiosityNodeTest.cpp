@@ -73,8 +73,8 @@ TEST(RadiosityNode, KeepsItsLightWhenItIsStopped) {
 TEST(RadiosityNode, IsInTheEndAsIfSolvedFromScratchWhateverWasDone) {
     for (std::uint32_t seed : {1u, 2u, 3u}) {
         EditableRoom room(seed);
-        RadiosityOptions options{.meshing = EditableRoom::meshing(),
-                                 .solving = {}, .trigger = Trigger::continuous};
+        RadiosityOptions options{
+            .meshing = EditableRoom::meshing(), .solving = {}, .trigger = Trigger::continuous};
         // By its own extent a scene that has been edited before it is meshed allows for other
         // rounding errors than one that has not.
         options.meshing.extent = 10;

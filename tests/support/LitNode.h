@@ -13,7 +13,7 @@ namespace penumbra {
 
 /// Calls update() until `until` holds; false: it did not within some time.
 bool updateUntil(RadiosityNode& node, const std::function<bool()>& until, double seconds = 60);
-/// Until the light is that of the graph, and all of it has arrived.
+/// Until the light is that of the graph, nothing of it put off, and all of it has arrived.
 bool updateUntilSettled(RadiosityNode& node, double seconds = 20);
 
 /// Its state and messages, for people.

@@ -1,62 +1,14 @@
-#include "radiosity/process/LightingWorker.h"
 #include "tests/support/LitNode.h"
+#include "tests/support/SteppedLink.h"
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cstdlib>
-#include <exception>
 #include <random>
 
 namespace penumbra {
 
 namespace {
-
-/// Remembers what it hands out.
-class WatchedRegions : public Regions {
-public:
-    RegionPtr create(std::size_t bytes) override {
-        RegionPtr region = regions_->create(bytes);
-        std::erase_if(all, [](const auto& known) { return known.expired(); });
-        all.push_back(region);
-        return region;
-    }
-    RegionPtr open(const std::string& name) override { return regions_->open(name); }
-
-    std::vector<std::weak_ptr<Region>> all;
-
-private:
-    std::unique_ptr<Regions> regions_ = makeHeapRegions();
-};
-
-/// A worker that takes its turns when it is told to: both sides in one thread, so that a test is
-/// the same each time and every byte can be written to between any two steps.
-class SteppedLink : public LightingLink {
-public:
-    Regions& regions() override { return watched; }
-    bool apart() const override { return false; }
-    void start(const RegionPtr& control, const WorkerLimits&) override {
-        why_.reset();
-        worker_ = std::make_unique<LightingWorker>(watched, control);
-    }
-    std::optional<std::string> ended() override { return why_; }
-    void end() override { worker_.reset(); }
-
-    void step() {
-        if (!worker_ || why_) return;
-        try {
-            if (worker_->turn(0.0005) == LightingWorker::Turn::stopped) why_ = "it has stopped";
-        } catch (const std::exception& error) {
-            why_ = error.what();
-        }
-    }
-
-    WatchedRegions watched;
-
-private:
-    std::unique_ptr<LightingWorker> worker_;
-    std::optional<std::string> why_;
-};
 
 class Mutator {
 public:
@@ -80,12 +32,12 @@ private:
     std::mt19937_64 random_;
 };
 
-/// Until it is settled, or for so many steps.
+/// Until nothing is left to do, or for so many steps.
 bool settle(RadiosityNode& node, SteppedLink& link) {
     for (int i = 0; i < 3000; ++i) {
         link.step();
         node.update();
-        if (node.state().phase == RadiosityState::Phase::settled) return true;
+        if (node.state().complete) return true;
     }
     return false;
 }
@@ -99,6 +51,7 @@ TEST(FuzzedSegment, NoByteOfItCanCrashOrHangEitherSide) {
     options.meshing = {.patchSize = 2, .elementSize = 1};
     options.mostMemory = 10 << 20; // what a mad worker asks for is not to be had
     LitRoom room(std::move(owned), options);
+    room.node->setLiveLamps({"/lamp/light"});
     ASSERT_TRUE(settle(*room.node, link)) << describe(*room.node);
     Mutator mutator(1);
     unsigned restarts = 0;

@@ -1,0 +1,204 @@
+#include "tests/support/LitNode.h"
+#include "tests/support/SteppedLink.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <vector>
+
+namespace penumbra {
+
+namespace {
+
+using Known = LampShare::Known;
+using Shares = std::map<std::string, std::vector<LampShare>>; ///< of objects
+
+/// A room with two lamps, both live, and whose other side takes a step a frame.
+class LampRoom {
+public:
+    explicit LampRoom(double residual = 1e-7) : room_(takeLink(), optionsOf(residual)) {
+        room_.node->add(other);
+        room_.node->setLiveLamps({"/other/light", "/lamp/light"});
+    }
+
+    void frame() {
+        link_->step(1e-9); // one piece of work
+        room_.node->update();
+    }
+    /// \param look at each frame
+    bool settle(const std::function<void()>& look = [] {}) {
+        for (int i = 0; i < 20'000; ++i) {
+            frame();
+            look();
+            if (state().complete) return true;
+        }
+        return false;
+    }
+    const RadiosityState& state() const { return room_.node->state(); }
+    LitRoom& room() { return room_; }
+
+    /// The lamps' shares of all objects.
+    Shares shares() const {
+        Shares all;
+        for (const LitObject& object : room_.node->objects())
+            if (object.geometry) all[object.path] = object.geometry->data().lamps;
+        return all;
+    }
+    std::size_t blocks(Known known) const {
+        std::size_t count = 0;
+        for (const auto& [path, lamps] : shares())
+            for (const LampShare& lamp : lamps)
+                count += std::size_t(std::ranges::count(lamp.known, known));
+        return count;
+    }
+
+    std::shared_ptr<Light> otherLight =
+        std::make_shared<Light>("light", SphereShape{0.1f}, Rgb(700));
+    std::shared_ptr<Transform> other = movable("other", {otherLight});
+
+private:
+    std::unique_ptr<LightingLink> takeLink() {
+        auto link = std::make_unique<SteppedLink>();
+        link_ = link.get();
+        return link;
+    }
+    static RadiosityOptions optionsOf(double residual) {
+        RadiosityOptions options = LitRoom::smallRoomOptions();
+        options.solving.residual = residual;
+        return options;
+    }
+
+    SteppedLink* link_ = nullptr;
+    LitRoom room_;
+};
+
+/// Vertices whose light by an exact factor is not what it is in the end.
+std::size_t wrongOnes(const LampShare& then, const LampShare& last) {
+    std::size_t wrong = 0;
+    for (std::size_t v = 0; v < then.factor.size(); ++v) {
+        const std::size_t block = v / LitGeometry::kBlock;
+        if (then.known[block] != Known::exact) continue;
+        const float was = then.factor[v] * last.exitance[block].g;
+        const float is = last.factor[v] * last.exitance[block].g;
+        wrong += std::abs(was - is) > 1e-3f * is + 1e-3f;
+    }
+    return wrong;
+}
+
+void expectNoExactLightChanges(LampRoom& lamps, const std::function<void()>& edit) {
+    std::vector<Shares> seen;
+    edit();
+    ASSERT_TRUE(lamps.settle([&] {
+        if (lamps.state().lampsMarked && seen.size() < 200) seen.push_back(lamps.shares());
+    })) << describe(*lamps.room().node);
+    const Shares last = lamps.shares();
+    std::size_t stale = 0;
+    for (const Shares& shares : seen)
+        for (const char* path : {"/room", "/box"}) // lamps themselves reflect nothing
+            for (std::size_t l = 0; l < 2; ++l) {
+                const LampShare& then = shares.at(path)[l];
+                stale += std::size_t(std::ranges::count(then.known, Known::stale));
+                ASSERT_EQ(wrongOnes(then, last.at(path)[l]), 0u)
+                    << path << ", lamp " << l << ", frame " << &shares - seen.data();
+            }
+    EXPECT_GT(stale, 0u);
+    EXPECT_EQ(lamps.blocks(Known::stale), 0u);
+    EXPECT_EQ(lamps.blocks(Known::no), 0u);
+}
+
+/// There is no other lamp, so that what they give is all direct light.
+void expectLampsAreAllDirectLight(const LampRoom& lamps, const RadiosityNode& node) {
+    std::size_t wrong = 0, lit = 0;
+    for (const LitObject& object : node.objects()) {
+        if (!object.geometry) continue;
+        const LitMeshData& data = object.geometry->data();
+        for (std::uint32_t v : data.indices) {
+            Rgb sum;
+            bool known = true;
+            for (const LampShare& lamp : data.lamps) {
+                sum += lamp.factor[v] * lamp.exitance[v / LitGeometry::kBlock];
+                known &= lamp.known[v / LitGeometry::kBlock] != Known::no;
+            }
+            if (!known) continue;
+            ++lit;
+            wrong += std::abs(data.direct[v].g - sum.g) > 2e-3f * sum.g + 1e-4f;
+        }
+    }
+    EXPECT_EQ(wrong, 0u) << "of " << lit << " corners";
+    EXPECT_TRUE(lit > 1000 || !lamps.state().lampsMarked);
+}
+
+TEST(LiveLamps, EachOnesLightIsGivenAlone) {
+    LampRoom lamps;
+    lamps.other->setMatrix(moved(1.5, 1, 2.3));
+    ASSERT_TRUE(lamps.settle());
+    EXPECT_TRUE(lamps.state().lampsMarked);
+    EXPECT_EQ(lamps.blocks(Known::stale) + lamps.blocks(Known::no), 0u);
+    expectLampsAreAllDirectLight(lamps, *lamps.room().node);
+    lamps.room().node->setLiveLamps({});
+    ASSERT_TRUE(lamps.settle());
+    for (const auto& [path, shares] : lamps.shares()) EXPECT_TRUE(shares.empty()) << path;
+}
+
+TEST(LiveLamps, LightThatIsCalledExactDoesNotChangeAnyMore) {
+    LampRoom lamps;
+    lamps.other->setMatrix(moved(1.5, 1, 2.3));
+    ASSERT_TRUE(lamps.settle());
+    LitRoom& room = lamps.room();
+    // another object; the lamp itself; a lamp that is off; something that comes to touch a wall
+    expectNoExactLightChanges(lamps, [&] { room.box->setMatrix(moved(0.9, -0.4, 0.1)); });
+    expectNoExactLightChanges(lamps, [&] { lamps.other->setMatrix(moved(-1, 1, 1.8)); });
+    lamps.otherLight->setLuminance(Rgb(0));
+    ASSERT_TRUE(lamps.settle());
+    expectNoExactLightChanges(lamps, [&] { room.box->setMatrix(moved(-0.8, 0.5, 0)); });
+    lamps.otherLight->setLuminance(Rgb(300));
+    expectNoExactLightChanges(lamps, [&] { room.box->setMatrix(moved(1.7, 1.7, 0)); });
+    expectLampsAreAllDirectLight(lamps, *room.node);
+}
+
+TEST(LiveLamps, TheirSharesFitTheDirectLightAtEveryMoment) {
+    LampRoom lamps;
+    lamps.other->setMatrix(moved(1.5, 1, 2.3));
+    ASSERT_TRUE(lamps.settle());
+    for (int i = 0; i < 60; ++i) {
+        if (i % 3 == 0) lamps.otherLight->setLuminance(Rgb(float(100 + 10 * i)));
+        if (i % 7 == 0) lamps.other->setMatrix(moved(1.5 - 0.03 * i, 1, 2.2));
+        if (i % 4 == 1) lamps.room().box->setMatrix(moved(0.02 * i, -0.01 * i, 0));
+        lamps.frame();
+        expectLampsAreAllDirectLight(lamps, *lamps.room().node);
+    }
+}
+
+TEST(LiveLamps, ALampThatIsSwitchedOffKeepsItsFactors) {
+    LampRoom lamps;
+    lamps.other->setMatrix(moved(1.5, 1, 2.3));
+    ASSERT_TRUE(lamps.settle());
+    const auto on = lamps.shares();
+    lamps.otherLight->setLuminance(Rgb(0));
+    lamps.room().node->update();
+    EXPECT_FALSE(lamps.state().lampsMarked); // nobody has looked at it yet
+    ASSERT_TRUE(lamps.settle([&] { EXPECT_EQ(lamps.blocks(Known::stale), 0u); }));
+    for (const auto& [path, shares] : lamps.shares())
+        EXPECT_EQ(shares[0].factor, on.at(path)[0].factor) << path;
+}
+
+TEST(LiveLamps, WorkThatIsPutOffIsNotCalledStale) {
+    LampRoom lamps(0.05); // a tolerance that much is below
+    ASSERT_TRUE(lamps.settle());
+    lamps.room().box->setMatrix(moved(0.4, 0, 0));
+    bool settled = false;
+    ASSERT_TRUE(lamps.settle([&] {
+        settled |= lamps.state().phase == RadiosityState::Phase::settled;
+        if (!settled) return;
+        EXPECT_EQ(lamps.state().phase, RadiosityState::Phase::settled) << "and stays so";
+        EXPECT_EQ(lamps.blocks(Known::stale), 0u);
+    }));
+    EXPECT_TRUE(settled);
+    EXPECT_EQ(lamps.room().difference(), "");
+}
+
+} // namespace
+
+} // namespace penumbra
