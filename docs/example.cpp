@@ -23,7 +23,9 @@ int main(int argc, char** argv) try {
                    .materials = {std::make_shared<Material>("wood")}};
     shelf->add(std::make_shared<Mesh>("board", std::move(board)));
 
-    RadiosityNode lit("lit", {.trigger = Trigger::continuous}, makeProcessLink());
+    RadiosityOptions options = optionsOf(*loaded.scene); // what the file says of its light
+    options.trigger = Trigger::continuous;
+    RadiosityNode lit("lit", options, makeProcessLink());
     lit.add(loaded.scene->root); // whatever stands below the node is lit
     lit.add(shelf);
     for (double height : {0.38, 0.42, 0.46}) {

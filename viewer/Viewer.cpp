@@ -174,9 +174,12 @@ void Viewer::openScene(ReadyScene ready) {
 void Viewer::lightScene() {
     RadiosityOptions how = options_.light;
     how.trigger = state_.trigger;
-    how.meshing.patchSize =
-        state_.patchSize > 0 ? state_.patchSize : float(walk_->scene().patchSize);
-    how.meshing.elementSize = state_.elementSize;
+    const RadiosityOptions asked = optionsOf(walk_->scene());
+    how.order = asked.order;
+    how.meshing.patchSize = state_.patchSize > 0 ? state_.patchSize : asked.meshing.patchSize;
+    how.meshing.elementSize =
+        state_.elementSize > 0 ? state_.elementSize : asked.meshing.elementSize;
+    if (how.solving.residual == 0) how.solving.residual = asked.solving.residual;
     light_.reset();
     light_.emplace(*walk_, how, makeProcessLink());
 }

@@ -257,6 +257,7 @@ void LightingClient::watch(double passed) {
 void LightingClient::readStatus() {
     WorkerStatus status;
     if (!control().status.read(status) || control().status.version() == 0) return;
+    control_->unlink(); // the worker has it
     status_ = status;
     if (status_.taken >= 1 && !sent_.empty()) sent_.clear();
     const bool lit =

@@ -47,7 +47,6 @@ public:
 
 private:
     void leave() const {
-        removeRegionsOf(viewer_);
         _exit(0);
     }
     pid_t viewer_;

@@ -196,8 +196,8 @@ void LightingWorker::openStore() {
     if (!control_.grant.read(grant) || grant.number != request_.number) return;
     const RegionPtr region = regions_.open(grant.name.text());
     if (!region || region->bytes().size() < shape_.bytes()) senseless("the memory for results");
-    region->unlink();
     region->reserve();
+    region->unlink();
     control_.opened.store(request_.number, std::memory_order_release);
     publisher_->setStore(std::make_unique<StoreWriter>(region, request_.number, shape_, mesh_));
     mesh_ = {};

@@ -68,9 +68,7 @@ pid_t spawn(const std::string& program, std::vector<std::string> arguments) {
 
 class ProcessLink : public LightingLink {
 public:
-    explicit ProcessLink(ProcessLinkOptions options) : options_(std::move(options)) {
-        removeOrphanedRegions();
-    }
+    explicit ProcessLink(ProcessLinkOptions options) : options_(std::move(options)) {}
     ~ProcessLink() override {
         ProcessLink::end();
         for (pid_t process : dying_) waitpid(process, nullptr, 0); // killed: it can't take long

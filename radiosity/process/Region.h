@@ -15,7 +15,8 @@ public:
     virtual ~Region() = default;
     virtual std::span<std::byte> bytes() = 0; ///< aligned to 64
     virtual const std::string& name() const = 0;
-    /// Makes sure that all of it is there. May take a while. \throws Error if there is not so much
+    /// Makes sure that all of it is there. May take a while. \pre not unlinked
+    /// \throws Error if there is not so much
     virtual void reserve() = 0;
     /// Nobody can open it any more. Both sides may do this, at any time.
     virtual void unlink() = 0;

@@ -7,14 +7,10 @@
 
 namespace penumbra {
 
-/// POSIX shared memory. Names can't be guessed, and nobody but the user who runs this may open what
-/// they name (mode 0600). Memory is there when reserve() says so, or when it is written to.
+/// Files of Linux that are nothing but memory (memfd): they are in no folder, and end with the last
+/// process that has them open or mapped, however that ends. Their size is sealed: nobody can take
+/// memory away that the other side is about to read. A name says which process has which file open,
+/// with 128 random bits; only processes of the same user find it there.
 std::unique_ptr<Regions> makeSharedRegions();
-
-/// Names begin with the process that made them. Removes those of a process that has ended without
-/// being able to.
-void removeRegionsOf(int process);
-/// The same for all processes that are no more.
-void removeOrphanedRegions();
 
 } // namespace penumbra

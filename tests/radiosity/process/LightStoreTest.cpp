@@ -1,12 +1,19 @@
 #include "radiosity/process/LightStore.h"
 
+#include "radiosity/process/SharedRegions.h"
 #include "scenegraph/Error.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <thread>
+
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace penumbra {
 
@@ -118,6 +125,44 @@ TEST(LightStore, NoBlockIsEverReadTorn) {
     thread.join();
     store.read();
     EXPECT_EQ(torn, 0u);
+}
+
+// Two processes, each with a mapping of its own; the writer is killed in the middle of it.
+TEST(LightStore, NoBlockIsReadTornThatAnotherProcessWrites) {
+    const auto regions = makeSharedRegions();
+    const StoreShape shape = Store().shape;
+    const RegionPtr region = regions->create(shape.bytes());
+    region->reserve();
+    const std::vector<std::byte> mesh(shape.meshBytes);
+    const pid_t writer = fork();
+    ASSERT_GE(writer, 0);
+    if (writer == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
+        StoreWriter store(makeSharedRegions()->open(region->name()), 5, shape, mesh);
+        store.setUsed(shape.blocks);
+        for (unsigned i = 1;; ++i)
+            for (std::uint32_t b = 0; b < shape.blocks; ++b) store.write(b, blockOf(i, true));
+    }
+    while (!storeReady(*region, 5)) std::this_thread::yield();
+    StoreReader reader(region, 5);
+    std::size_t whole = 0, torn = 0;
+    const auto look = [&] {
+        std::vector<StoreReader::Got> got;
+        reader.read(100, got);
+        for (const auto& [block, light] : got) {
+            const auto value = std::uint16_t(light.object);
+            const auto differs = [&](std::uint16_t half) { return half != value; };
+            ++whole;
+            torn += std::ranges::any_of(light.direct, differs) ||
+                    std::ranges::any_of(light.indirect, differs) ||
+                    std::ranges::any_of(light.factor[kMostLiveLamps - 1], differs);
+        }
+    };
+    while (whole < 20'000) look();
+    kill(writer, SIGKILL);
+    waitpid(writer, nullptr, 0);
+    look();
+    EXPECT_EQ(torn, 0u) << "of " << whole;
 }
 
 TEST(LightStore, HalvesKeepLightOfAnyStrengthToATwoThousandth) {
