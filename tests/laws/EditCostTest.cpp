@@ -1,4 +1,5 @@
-// Colours and luminances move no form factor: taking them in traces no ray.
+// Colours and luminances move no form factor: taking them in traces no ray. A move costs what it
+// changes.
 #include "tests/support/Scenes.h"
 
 #include <gtest/gtest.h>
@@ -107,6 +108,52 @@ TEST_F(EditCost, AMoveTracesFewerRaysThanTheSceneDoesFromScratch) {
     EXPECT_FALSE(lit.follow(placeScene(room.scene)).rebuilt);
     lit.solver().settle();
     EXPECT_LT(rays() - scratch, scratch);
+}
+
+/// Closed rooms of 2 m in a row, each with a lamp and a box that moves.
+Scene roomsInARow(int count, std::vector<std::shared_ptr<Transform>>& boxes) {
+    std::vector<NodePtr> nodes;
+    for (int i = 0; i < count; ++i) {
+        const std::string n = std::to_string(i);
+        const float x = 2.2f * float(i);
+        nodes.push_back(object("room" + n, boxData({x - 1, -1, -1}, {x + 1, 1, 1}, true)));
+        nodes.push_back(placed("lamp" + n, moved(x, 0, 0.99),
+                               {std::make_shared<Light>("light", RectShape{0.6f, 0.4f}, Rgb(10))}));
+        const auto box = std::make_shared<Mesh>(
+            "mesh", boxData({x - 0.3f, -0.3f, -1}, {x + 0.1f, 0.4f, -0.4f}, false));
+        nodes.push_back(movable("box" + n, {box}));
+        boxes.push_back(std::dynamic_pointer_cast<Transform>(nodes.back()));
+    }
+    Scene scene;
+    scene.root = std::make_shared<Group>("root");
+    for (NodePtr& node : nodes) scene.root->add(node);
+    return scene;
+}
+
+TEST(EditCostOfRooms, AMoveCostsWhatItCostsInItsOwnRoomAndRowsGrowWithTheRoomsAlone) {
+    struct Cost {
+        double entries, moveRays;
+    };
+    const auto costOf = [](int rooms) {
+        std::vector<std::shared_ptr<Transform>> boxes;
+        const Scene scene = roomsInARow(rooms, boxes);
+        LitScene lit(placeScene(scene), {.patchSize = 0.5f, .elementSize = 0.125f, .extent = 8},
+                     {.directOnly = true});
+        lit.solver().settle();
+        const auto raysSoFar = [&] {
+            return double(lit.solver().statistics().direct.rays.total());
+        };
+        const double before = raysSoFar();
+        const auto entries = double(lit.solver().statistics().entries);
+        boxes.front()->setMatrix(moved(0.2, 0.1, 0));
+        EXPECT_FALSE(lit.follow(placeScene(scene)).rebuilt);
+        lit.solver().settle();
+        return Cost{entries, raysSoFar() - before};
+    };
+    const Cost one = costOf(1), four = costOf(4);
+    EXPECT_NEAR(four.entries, 4 * one.entries, 0.01 * four.entries);
+    EXPECT_GT(one.moveRays, 1000);
+    EXPECT_NEAR(four.moveRays, one.moveRays, 0.01 * one.moveRays);
 }
 
 } // namespace
