@@ -31,14 +31,15 @@ bool canBeDrawnLive(const Emitter& lamp) {
            (lamp.polygons.size() == 1 && lamp.polygons.front().size() == 4);
 }
 
+bool sameLamp(const std::optional<Emitter>& a, const std::optional<Emitter>& b) {
+    if (!a || !b) return !a && !b;
+    return a->polygons == b->polygons && a->centre == b->centre && a->axis == b->axis &&
+           a->radius == b->radius;
+}
+
 bool sameArrangement(const Arrangement& a, const Arrangement& b) {
-    const auto samePlace = [](const std::optional<Emitter>& l, const std::optional<Emitter>& m) {
-        if (!l || !m) return !l && !m;
-        return l->polygons == m->polygons && l->centre == m->centre && l->axis == m->axis &&
-               l->radius == m->radius;
-    };
-    return a.objects == b.objects && std::equal(a.lamps.begin(), a.lamps.end(), b.lamps.begin(),
-                                                b.lamps.end(), samePlace);
+    return a.objects == b.objects &&
+           std::equal(a.lamps.begin(), a.lamps.end(), b.lamps.begin(), b.lamps.end(), sameLamp);
 }
 
 } // namespace penumbra

@@ -18,6 +18,8 @@ Arrangement arrangementOf(const RadiosityNode& node, std::span<const std::string
 /// something else.
 bool canBeDrawnLive(const Emitter& lamp);
 
+/// The same lamp in the same place, or none both times.
+bool sameLamp(const std::optional<Emitter>& a, const std::optional<Emitter>& b);
 /// The same objects and lamps in the same places.
 bool sameArrangement(const Arrangement& a, const Arrangement& b);
 

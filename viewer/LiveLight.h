@@ -32,12 +32,15 @@ using ArrangementPtr = std::shared_ptr<const Arrangement>;
 /// date: with F_u a lamp's form factor in closed form and V the share of it that is seen, by shadow
 /// maps, a vertex of which the lamp's factor was f is shown with
 ///
-///     f + F_u(now) V(now) - F_u(then) V(then)     clamped to [0, F_u(now) + max(0, f - F_u(then))]
+///     f + sum over anchors a of share_a (F_u(now) V(now) - F_u(a) V(a))
 ///
-/// in place of f, for each anchor, an arrangement of an earlier time, by its share in the vertex.
-/// Where nothing has changed that is f, exactly: nothing jumps when a thing is taken hold of, and
-/// what lies in no shadow keeps its radiosity. (The second term of the upper bound is what the
-/// triangle, on which f is linear, has too much.)
+/// in place of f; anchors are arrangements of earlier times whose light is in the vertex, by their
+/// shares. The sum is kept in [0, F_u(now) + max(0, f - F_u(then))]; the last term is what the
+/// triangle, on which f is linear, has too much. It is the sum that is kept there, not each of its
+/// terms: f is a mixture as well, and what one term takes another may have to give.
+///
+/// Where nothing has changed the light is f, exactly: nothing jumps when a thing is taken hold of,
+/// and what lies in no shadow keeps its radiosity.
 struct LiveLight {
     struct Object {
         std::shared_ptr<const LitGeometry> geometry;

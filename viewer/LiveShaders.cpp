@@ -1,5 +1,5 @@
 // [Lambert1760], [Baum1989], [Howell] as in radiosity/FormFactor.cpp, which says more; shadows from
-// several points of a lamp after Heckbert & Herf (CMU-CS-97-104).
+// several points of a lamp after [HeckbertHerf1997].
 #include "viewer/LiveShaders.h"
 
 namespace penumbra {
@@ -210,18 +210,19 @@ vec3 liveChange(vec3 position, vec3 normal, vec4 held, float behind) {
     for (int lamp = 0; lamp < liveLamps; ++lamp) {
         float most = formFactor(lamp, p, n);
         float now = most * (1.0 - hidden(lamp, p, n, ownMoves != 0));
-        float f = held[lamp];
+        float f = held[lamp], change = 0.0, mostThen = most;
         for (int s = 1; s <= liveAnchors; ++s) {
             int row = 4 * s + lamp;
             vec3 then = vec3(livePlaces[s] * vec4(position, 1.0));
             vec3 up = unit(liveNormals[s] * normal);
-            float mostThen = formFactor(row, then, up);
-            float change = now - mostThen * (1.0 - hidden(row, then, up, ownMoves != 0));
-            if (f >= 0.0)
-                change = clamp(f + change, 0.0, most + max(0.0, f - mostThen)) - f;
-            sum += mix(anchorShares[s].x, anchorShares[s].y, behind) * change *
-                   liveExitances[lamp].rgb;
+            float share = mix(anchorShares[s].x, anchorShares[s].y, behind);
+            float most1 = formFactor(row, then, up);
+            change += share * (now - most1 * (1.0 - hidden(row, then, up, ownMoves != 0)));
+            mostThen += share * (most1 - most);
         }
+        if (f >= 0.0)
+            change = clamp(f + change, 0.0, most + max(0.0, f - mostThen)) - f;
+        sum += change * liveExitances[lamp].rgb;
     }
     return sum;
 }

@@ -24,7 +24,7 @@ struct ShadowPoint {
 };
 
 /// Views of one box from several points, with one set of axes: their planes are parallel, as
-/// Heckbert & Herf have them ("Simulating soft shadows with graphics hardware", CMU-CS-97-104).
+/// Heckbert & Herf have them [HeckbertHerf1997].
 struct ShadowView {
     glm::vec3 right{1, 0, 0}, up{0, 1, 0}, axis{0, 0, 1}; ///< orthonormal
     std::vector<ShadowPoint> points;

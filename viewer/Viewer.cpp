@@ -30,6 +30,7 @@ namespace {
 
 constexpr double kLongestStep = 0.1;   // after a stall things don't jump further than this [s]
 constexpr double kIdlePoll = 1.0 / 60; // how long a picture that does not change is kept [s]
+constexpr int kSoftwarePoints = 4;     // of a lamp for fast shadows, where the processor draws them
 constexpr int kAfterglow = 3;          // pictures that follow the last event: panels need some
 
 using Clock = std::chrono::steady_clock;
@@ -71,6 +72,7 @@ private:
     Signals signals_; // before any thread
     std::optional<SceneLoader> loader_;
     Window window_;
+    const bool software_;
     InteractiveRenderer renderer_;
     Renderer stills_;
     PanelState state_;
@@ -95,8 +97,9 @@ Viewer::Viewer(const ViewerOptions& options)
                .height = settings_.height,
                .title = name_ + " (loading) - Penumbra",
                .vsync = options.vsync}),
-      renderer_(
-          {.samples = options.samples > 0 ? options.samples : (drawnInSoftware(window_) ? 1 : 4)}) {
+      software_(drawnInSoftware(window_)),
+      renderer_({.samples = options.samples > 0 ? options.samples : (software_ ? 1 : 4),
+                 .live = software_ ? LiveSampling::vertices : LiveSampling::pixels}) {
     gui_.emplace(window_);
     state_.sceneName = name_;
     state_.renderer = window_.renderer();
@@ -181,7 +184,8 @@ void Viewer::lightScene() {
         state_.elementSize > 0 ? state_.elementSize : asked.meshing.elementSize;
     if (how.solving.residual == 0) how.solving.residual = asked.solving.residual;
     light_.reset();
-    light_.emplace(*walk_, how, makeProcessLink());
+    light_.emplace(*walk_, how, makeProcessLink(),
+                   BlendOptions{.points = software_ ? kSoftwarePoints : 16});
 }
 
 void Viewer::reload() {
@@ -348,10 +352,10 @@ void Viewer::draw(double seconds) {
     const Frustum frustum(view.worldToClip());
     renderer_.setOverlay(state_.overlay, state_.exposure.middleGrey(), state_.time);
     renderer_.drawScene(light_ ? light_->listVisible(frustum) : listVisible(nothing_, frustum),
-                        view, preview_, size.x, size.y);
+                        view, preview_, size.x, size.y, light_ ? light_->live() : LiveLight());
     if (const auto luminances = renderer_.luminances(!state_.exposure.measured() && walk_))
         state_.exposure.measure(*luminances);
-    state_.exposure.advance(seconds);
+    state_.exposure.advance(seconds, light_ && light_->fading());
     state_.drawn = renderer_.statistics();
     renderer_.show(0, state_.exposure.middleGrey(), state_.tone);
     drawPanelsOver();

@@ -1,6 +1,7 @@
 #include "viewer/WalkLight.h"
 
 #include "scenegraph/Light.h"
+#include "viewer/LampChoice.h"
 #include "viewer/Walkthrough.h"
 
 #include <algorithm>
@@ -10,9 +11,9 @@
 namespace penumbra {
 
 WalkLight::WalkLight(const Walkthrough& walk, const RadiosityOptions& options,
-                     std::unique_ptr<LightingLink> link)
+                     std::unique_ptr<LightingLink> link, const BlendOptions& blend)
     : scene_(*walk.scene().root),
-      node_(std::make_shared<RadiosityNode>("lit", options, std::move(link))),
+      node_(std::make_shared<RadiosityNode>("lit", options, std::move(link))), blend_(blend),
       trigger_(options.trigger) {
     node_->add(walk.scene().root);
 }
@@ -21,6 +22,24 @@ WalkLight::~WalkLight() = default;
 
 void WalkLight::setTrigger(Trigger trigger) {
     if (std::exchange(trigger_, trigger) != trigger) node_->setTrigger(trigger);
+}
+
+/// Those of the selected thing: their light is there when somebody takes hold of it.
+void WalkLight::chooseLamps(const Walkthrough& walk) {
+    const auto& selection = walk.selection();
+    if (!selection || !selection->movable()) return; // what was selected may be moved by undo
+    if (lampsFor_ == selection->object && lampsOf_ == walk.revision()) return;
+    const bool inHand = lampsFor_ == selection->object && walk.inHand();
+    if (inHand) return; // no other lamps in the middle of a move
+    lampsFor_ = selection->object;
+    lampsOf_ = walk.revision();
+    const auto& lights = node_->placed().lights; // the same ones; the paths begin at the node
+    std::vector<std::string> paths;
+    for (const std::size_t l :
+         lampsThatMatter(walk.placed(), walk.rays(), selection->object, kMostLampsDrawnLive))
+        if (l < lights.size() && lights[l].node == walk.placed().lights[l].node)
+            paths.push_back(lights[l].path);
+    blend_.want(std::move(paths));
 }
 
 bool WalkLight::update(const Walkthrough& walk, const View& view) {
@@ -33,9 +52,11 @@ bool WalkLight::update(const Walkthrough& walk, const View& view) {
     const glm::dmat4 seenFrom = view.worldToClip();
     if (std::exchange(seenFrom_, seenFrom) != seenFrom) node_->setCamera(view);
     node_->update();
+    chooseLamps(walk);
+    blend_.advance(*node_, walk.time());
     const RadiosityState& state = node_->state();
-    const bool news =
-        blocks_ != state.blocksTaken || phase_ != state.phase || unlit_ != node_->unlit().size();
+    const bool news = blend_.changing() || blocks_ != state.blocksTaken || phase_ != state.phase ||
+                      unlit_ != node_->unlit().size();
     blocks_ = state.blocksTaken;
     phase_ = state.phase;
     unlit_ = node_->unlit().size();
@@ -48,6 +69,7 @@ bool WalkLight::complete() const {
 
 DrawList WalkLight::listVisible(const Frustum& frustum) const {
     DrawList list = penumbra::listVisible(node_->lit(), frustum);
+    for (DrawItem& item : list.items) item.shown = blend_.shown(*item.geometry);
     if (complete()) return list;
     std::unordered_set<std::string> litPaths;
     for (const LitObject& object : node_->objects())

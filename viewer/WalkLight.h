@@ -5,6 +5,7 @@
 #include "radiosity/process/LightingLink.h"
 #include "scenegraph/Frustum.h"
 #include "viewer/DrawList.h"
+#include "viewer/LightBlend.h"
 
 #include <memory>
 #include <string>
@@ -21,12 +22,13 @@ public:
     /// \param walk its scene must outlive this
     /// \param link where the light is computed: a process, or, for tests, a thread
     WalkLight(const Walkthrough& walk, const RadiosityOptions& options,
-              std::unique_ptr<LightingLink> link);
+              std::unique_ptr<LightingLink> link, const BlendOptions& blend = {});
     ~WalkLight();
     WalkLight(const WalkLight&) = delete;
     WalkLight& operator=(const WalkLight&) = delete;
 
-    /// To be called once a frame. Whether there is new light to be drawn.
+    /// To be called once a frame, at the walkthrough's time. Whether there is new light to be
+    /// drawn.
     bool update(const Walkthrough& walk, const View& view);
 
     void setTrigger(Trigger trigger);
@@ -35,6 +37,12 @@ public:
     /// What is to be drawn in a view: the lit surfaces, and the meshes and lights of objects that
     /// have no light yet.
     DrawList listVisible(const Frustum& frustum) const;
+    /// Lamps that are drawn live: those that matter to what is selected, while it moves.
+    const LiveLight& live() const { return blend_.live(); }
+    /// Whether direct light is on its way on the screen.
+    bool fading() const { return blend_.fading(); }
+    /// Whether vertices wait for their light, to be exact for how things stand.
+    bool waiting() const { return blend_.waiting(); }
     /// Everything that has light.
     const Group& lit() const { return node_->lit(); }
     /// Whether all that is visible has light.
@@ -46,8 +54,13 @@ public:
     std::vector<std::string> takeMessages() { return node_->takeMessages(); }
 
 private:
+    void chooseLamps(const Walkthrough& walk);
+
     const Group& scene_;
     std::shared_ptr<RadiosityNode> node_;
+    LightBlend blend_;
+    std::uint64_t lampsOf_ = 0; ///< revision of the walkthrough, and
+    ObjectId lampsFor_;         ///< the object, that live lamps were chosen for
     std::shared_ptr<const Transform> inHand_;
     Trigger trigger_;
     glm::dmat4 seenFrom_{0.0};

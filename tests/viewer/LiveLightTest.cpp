@@ -42,12 +42,12 @@ TEST_P(LiveLightTest, WhatLiesInNoShadowHasTheValueOfItsRadiosity) {
     Arrangement dark = *now;
     dark.lamps[0].reset();
 
-    InteractiveRenderer renderer(options());
+    InteractiveRenderer interactive(options());
     room.show(ownLight);
-    const std::vector<Rgb> exact = room.draw(renderer, {}, kSize);
+    const std::vector<Rgb> exact = room.draw(interactive, {}, kSize);
     room.show([](const LitMeshData&, std::size_t) { return Rgb(); });
     const std::vector<Rgb> fast =
-        room.draw(renderer, room.live(now, std::make_shared<Arrangement>(dark)), kSize);
+        room.draw(interactive, room.live(now, std::make_shared<Arrangement>(dark)), kSize);
     // Where shadows are: any vertex of the triangle sees less than all of the lamp, or is not in
     // front of it: there the mesh cuts off light more coarsely than the lamp does.
     room.show([](const LitMeshData&, std::size_t) { return Rgb(); });
@@ -60,7 +60,7 @@ TEST_P(LiveLightTest, WhatLiesInNoShadowHasTheValueOfItsRadiosity) {
             room.shown[object.geometry.get()].direct[v] = Rgb(shadow ? 1.0f : 0.0f);
         }
     }
-    const std::vector<Rgb> shadows = room.draw(renderer, {}, kSize);
+    const std::vector<Rgb> shadows = room.draw(interactive, {}, kSize);
     keep("exact", exact, 30), keep("live", fast, 30), keep("shadows", shadows, 1);
 
     std::vector<float> differences;
@@ -76,14 +76,14 @@ TEST_P(LiveLightTest, TakingHoldOfSomethingChangesNothing) {
     LiveRoom room;
     ASSERT_TRUE(room.settle());
     const ArrangementPtr now = room.arrangement();
-    InteractiveRenderer renderer(options());
+    InteractiveRenderer interactive(options());
     room.show(ownLight);
-    const std::vector<Rgb> before = room.draw(renderer, {}, kSize);
+    const std::vector<Rgb> before = room.draw(interactive, {}, kSize);
     LiveLight held = room.live(now, room.arrangement());
     for (std::size_t o = 0; o < held.objects.size(); ++o)
         held.objects[o].moves = room.room.node->objects()[o].path == "/box";
-    const std::vector<Rgb> after = room.draw(renderer, held, kSize);
-    EXPECT_GT(renderer.statistics().shadowMaps, 0u);
+    const std::vector<Rgb> after = room.draw(interactive, held, kSize);
+    EXPECT_GT(interactive.statistics().shadowMaps, 0u);
     for (std::size_t i = 0; i < before.size(); ++i) {
         ASSERT_NEAR(after[i].r, before[i].r, 1e-6f * before[i].r);
         ASSERT_NEAR(after[i].b, before[i].b, 1e-6f * before[i].b);
@@ -103,19 +103,20 @@ TEST_P(LiveLightTest, AMovedThingTakesItsShadowAlong) {
             old[object.geometry.get()].factors[v] =
                 glm::vec4(data.direct[v].r / (room.room.light->luminance().r * 3.14159265f));
     }
-    InteractiveRenderer renderer(options());
-    const std::vector<Rgb> before = room.draw(renderer, {}, kSize);
+    InteractiveRenderer interactive(options());
+    const std::vector<Rgb> before = room.draw(interactive, {}, kSize);
 
     room.room.box->setMatrix(glm::translate(glm::dmat4(1.0), glm::dvec3(-0.4, 0.6, 0.3)));
     ASSERT_TRUE(room.settle());
     room.show(ownLight);
-    const std::vector<Rgb> exact = room.draw(renderer, {}, kSize);
+    const std::vector<Rgb> exact = room.draw(interactive, {}, kSize);
     room.shown = old;
     for (auto& [geometry, light] : room.shown)
         light.blockRevisions.assign(light.blockRevisions.size(), ++room.revision),
             light.revision = room.revision;
-    const std::vector<Rgb> fast = room.draw(renderer, room.live(room.arrangement(), then), kSize);
-    const std::vector<Rgb> stale = room.draw(renderer, {}, kSize);
+    const std::vector<Rgb> fast =
+        room.draw(interactive, room.live(room.arrangement(), then), kSize);
+    const std::vector<Rgb> stale = room.draw(interactive, {}, kSize);
     keep("moved-before", before, 30), keep("moved-exact", exact, 30), keep("moved-live", fast, 30);
 
     std::vector<float> errors, staleErrors;
@@ -132,8 +133,8 @@ TEST_P(LiveLightTest, AMovedThingTakesItsShadowAlong) {
 
 INSTANTIATE_TEST_SUITE_P(Sampling, LiveLightTest,
                          testing::Values(LiveSampling::pixels, LiveSampling::vertices),
-                         [](const auto& info) {
-                             return info.param == LiveSampling::pixels ? "Pixels" : "Vertices";
+                         [](const auto& tried) {
+                             return tried.param == LiveSampling::pixels ? "Pixels" : "Vertices";
                          });
 
 } // namespace

@@ -1,0 +1,193 @@
+#include "DragRun.h"
+
+#include "io/UsdScene.h"
+#include "radiosity/process/LightingLink.h"
+#include "scenegraph/Error.h"
+#include "scenegraph/Transform.h"
+#include "viewer/AutoExposure.h"
+#include "viewer/InteractiveRenderer.h"
+#include "viewer/OffscreenContext.h"
+#include "viewer/SceneLoader.h"
+#include "viewer/WalkLight.h"
+#include "viewer/Walkthrough.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+namespace penumbra {
+
+namespace {
+
+constexpr double kFrame = 1.0 / 60;
+constexpr float kShownGrey = 18; // nits that middle grey has on a display of 100
+
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+ReadyScene load(const std::string& scene) {
+    SceneLoader loader(std::string(PENUMBRA_SOURCE_DIR) + "/scenes/" + scene + ".usda");
+    for (;;) {
+        if (auto ready = loader.take()) return std::move(*ready);
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+}
+
+class Run {
+public:
+    Run(const DragScript& script, const DragOptions& options)
+        : script_(script), options_(options), walk_(load(script.scene)),
+          renderer_(
+              {.samples = 1, .precision = HdrTarget::Precision::single, .live = options.sampling}) {
+        if (!script.camera.empty()) walk_.goTo(script.camera, script.scene);
+        RadiosityOptions light;
+        light.meshing.patchSize = float(walk_.scene().patchSize);
+        light.meshing.elementSize = options.elementSize;
+        light.trigger = Trigger::implicit;
+        light.solving.directOnly = !options.indirect;
+        light_ = std::make_unique<WalkLight>(walk_, light, makeThreadLink(), options.blend);
+        for (const auto& place : walk_.loaded().addresses.places)
+            if (place.prim == script.object) thing_ = place.node;
+        if (!thing_) throw Error(script.scene + ": there is no '" + script.object + "' to move");
+        start_ = thing_->matrix();
+    }
+
+    DragResult play() {
+        settle();
+        for (const auto& object : light_->node().objects())
+            result_.elements += object.geometry->data().indices.size() / 6;
+        measureExposure();
+        select();
+        settle();
+        for (int i = 0; i < script_.idle; ++i) frame();
+        result_.grabbed = result_.frames.size();
+        light_->node().grab(*thing_);
+        for (int i = 0; i < script_.held; ++i) frame();
+        result_.moved = result_.frames.size();
+        drag();
+        result_.released = result_.frames.size();
+        light_->node().release(*thing_);
+        const Clock::time_point released = Clock::now();
+        for (int i = 0; i < script_.after; ++i) {
+            frame();
+            follow(since(released));
+        }
+        result_.realSeconds = since(released);
+        for (int i = 0; i < 1000 && !settled(); ++i) { // longer than the script
+            frame();
+            result_.frames.pop_back();
+            poses_.pop_back();
+            follow(since(released));
+        }
+        settle();
+        exact();
+        return std::move(result_);
+    }
+
+private:
+    View view() const { return walk_.rig().view(options_.size.x, options_.size.y); }
+
+    bool settled() const {
+        const RadiosityState& state = light_->state();
+        return state.phase == RadiosityState::Phase::settled && state.queued == 0 &&
+               state.held == 0;
+    }
+    void settle() {
+        for (int still = 0; still < 5;) {
+            walk_.advance(kFrame);
+            still = light_->update(walk_, view()) || !settled() ? 0 : still + 1;
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+    }
+    std::vector<float> draw(const DrawList& list, const LiveLight& live) {
+        renderer_.drawScene(list, view(), {}, options_.size.x, options_.size.y, live);
+        std::vector<float> luminances;
+        for (const Rgb& pixel : renderer_.readLuminances()) luminances.push_back(luminance(pixel));
+        return luminances;
+    }
+    void frame() {
+        const Clock::time_point begin = Clock::now();
+        walk_.advance(kFrame);
+        light_->update(walk_, view());
+        const Frustum frustum(view().worldToClip());
+        result_.frames.push_back({draw(light_->listVisible(frustum), light_->live()), {}});
+        result_.lamps = std::max(result_.lamps, light_->live().lamps.size());
+        poses_.push_back(thing_->matrix());
+        lastFrame_ = since(begin);
+        if (lastFrame_ < kFrame)
+            std::this_thread::sleep_for(std::chrono::duration<double>(kFrame - lastFrame_));
+    }
+    void drag() {
+        for (int i = 1; i <= script_.drag; ++i) {
+            const double s = double(i) / script_.drag;
+            glm::dmat4 matrix = start_;
+            matrix[3] += glm::dvec4(s * s * (3 - 2 * s) * script_.way, 0);
+            thing_->setMatrix(matrix);
+            walk_.followScene();
+            frame();
+            result_.mean += lastFrame_ / script_.drag;
+            result_.slowest = std::max(result_.slowest, lastFrame_);
+        }
+    }
+    /// Notes when there is nothing any more to be waited for, and when all is at rest.
+    void follow(double seconds) {
+        if (light_->waiting()) result_.readySeconds = seconds;
+        if (!settled() || light_->fading()) result_.settledSeconds = seconds;
+    }
+    void select() {
+        const PlacedScene& placed = walk_.placed();
+        for (std::uint32_t o = 0; o < placed.objects.size(); ++o)
+            if (placed.objects[o].path.ends_with(thing_->name()))
+                walk_.select(Selection{
+                    ObjectId{o}, placed.objects[o].path, {}, {}, {}, thing_, nullptr, {}});
+        if (!walk_.selection()) throw Error("nothing is at '" + script_.object + "'");
+    }
+    void measureExposure() {
+        frame();
+        result_.frames.clear();
+        poses_.clear();
+        AutoExposure exposure;
+        if (const auto seen = renderer_.luminances(true)) exposure.measure(*seen);
+        result_.toDisplay = kShownGrey / exposure.middleGrey();
+    }
+    /// The settled light of every pose, drawn at rest.
+    void exact() {
+        std::vector<float> picture;
+        glm::dmat4 poseOf(0);
+        for (std::size_t i = 0; i < poses_.size(); ++i) {
+            const bool between = i > result_.moved + 1 && i + 1 < result_.released;
+            if (between && !options_.motion) continue;
+            if (picture.empty() || poses_[i] != poseOf) {
+                poseOf = poses_[i];
+                thing_->setMatrix(poses_[i]);
+                walk_.followScene();
+                settle();
+                picture = draw(listVisible(light_->lit(), Frustum(view().worldToClip())), {});
+            }
+            result_.frames[i].exact = picture;
+        }
+    }
+
+    const DragScript& script_;
+    const DragOptions& options_;
+    OffscreenContext context_;
+    Walkthrough walk_;
+    InteractiveRenderer renderer_;
+    std::unique_ptr<WalkLight> light_;
+    std::shared_ptr<Transform> thing_;
+    glm::dmat4 start_{1.0};
+    std::vector<glm::dmat4> poses_;
+    double lastFrame_ = 0;
+    DragResult result_;
+};
+
+} // namespace
+
+DragResult runDrag(const DragScript& script, const DragOptions& options) {
+    return Run(script, options).play();
+}
+
+} // namespace penumbra

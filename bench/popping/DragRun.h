@@ -1,0 +1,56 @@
+// Something is dragged and let go, as the walkthrough shows it, frame by frame.
+#pragma once
+
+#include "PopFigures.h"
+
+#include "viewer/LightBlend.h"
+#include "viewer/LiveShaders.h"
+
+#include <glm/glm.hpp>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace penumbra {
+
+/// What is done, at 60 frames a second.
+struct DragScript {
+    std::string scene;  ///< one of scenes/*.usda, without its ending
+    std::string camera; ///< path of a camera; empty: the first
+    std::string object; ///< path of the prim that is dragged
+    glm::dvec3 way{0};  ///< how far [m]
+    int idle = 4;       ///< frames before it is taken hold of
+    int held = 2;       ///< frames in the hand before it moves
+    int drag = 12;      ///< frames in motion
+    int after = 40;     ///< frames after it is let go
+};
+
+struct DragOptions {
+    BlendOptions blend;
+    LiveSampling sampling = LiveSampling::pixels;
+    float elementSize = 0; ///< [m]; 0: the scene's
+    bool indirect = true;  ///< else direct light alone, in black surroundings
+    bool motion = false;   ///< what should be seen while it moves is worked out as well
+    glm::ivec2 size{640, 360};
+};
+
+/// What came of it.
+struct DragResult {
+    std::vector<FramePair> frames;                    ///< exact: empty where it was not asked for
+    std::size_t grabbed = 0, moved = 0, released = 0; ///< first frames of each
+    double toDisplay = 1;                             ///< see popFigures()
+    double realSeconds = 0;                           ///< that the frames after the release took
+    double readySeconds = 0;   ///< of the clock, from the release until no vertex waits
+    double settledSeconds = 0; ///< until all light is settled, shown, and at rest
+    std::size_t elements = 0;
+    std::size_t lamps = 0;        ///< drawn live
+    double slowest = 0, mean = 0; ///< frames in motion [s]
+};
+
+/// Plays it with the renderer off-screen, the blend by the script's clock, and the light in a
+/// thread of its own which has as much time a frame as drawing takes, but at least a sixtieth of a
+/// second. Then the same once more, settled at each pose, at rest: what should have been seen.
+DragResult runDrag(const DragScript& script, const DragOptions& options);
+
+} // namespace penumbra

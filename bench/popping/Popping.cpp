@@ -1,0 +1,157 @@
+// penumbra_popping [office|gallery]: what can be seen of fast shadows turning into soft ones.
+//
+//   --vertices        live light at vertices, as where the processor draws; else at pixels
+//   --element-size M  of the mesh; else the scene's
+//   --direct-only     no indirect light: shadows are black, steps in them count for more
+//   --motion          what should be seen in the middle of the drag is worked out, too
+//   --variant N       0: 16 points of a lamp and 0.25 s, 1: one point, 2: no blend; else all
+//   --keep FOLDER     writes what was shown, what should have been, and the error, as PNG
+//
+// Columns: largest steps from grabbing, and of the first frames in motion; in motion, and from the
+// release on: 99.9th percentile of pixels and most (see PopFigures.h), share of pixels above 1;
+// excess variation; milliseconds of the clock until no vertex waits, until all has settled, and how
+// much time the lighting thread had in percent of that of the script; frames until the error of
+// 99.9 % and of all pixels can't be seen any more; mean and longest frame in motion.
+#include "DragRun.h"
+
+#include "io/PngWriter.h"
+#include "scenegraph/Error.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+namespace penumbra {
+
+namespace {
+
+const std::vector<DragScript> kScripts{
+    {"office", "", "/World/Seat", {-0.5, -0.35, 0}},
+    {"gallery", "", "/World/TwistedColumn", {0.7, 0.4, 0}},
+};
+
+struct Variant {
+    const char* name;
+    BlendOptions blend;
+};
+const std::vector<Variant> kVariants{
+    {"16 points, 0.25 s", {.seconds = 0.25, .points = 16}},
+    {"1 point, 0.25 s", {.seconds = 0.25, .points = 1}},
+    {"16 points, no blend", {.seconds = 0, .points = 16}},
+};
+
+/// Writes frames as PNG: shown, exact, and the error around grey.
+void keepFrames(const DragResult& r, glm::ivec2 size, const std::string& stem, std::size_t every) {
+    const auto write = [&](const std::string& name, const auto& value) {
+        std::vector<Rgb> pixels;
+        for (int y = size.y - 1; y >= 0; --y)
+            for (int x = 0; x < size.x; ++x) {
+                const Rgb grey(float(value(std::size_t(y * size.x + x))));
+                pixels.push_back(Rgb(std::clamp(grey.r, 0.0f, 1.0f)));
+            }
+        writePngBytes(name, size.x, size.y, displayBytes(pixels, size.x));
+    };
+    const double gain = r.toDisplay / 100;
+    for (std::size_t t = r.grabbed; t < r.frames.size(); t += every) {
+        const FramePair& f = r.frames[t];
+        if (f.exact.empty()) continue;
+        const std::string name = stem + "-" + std::to_string(t);
+        write(name + "-shown.png", [&](std::size_t i) { return gain * f.shown[i]; });
+        write(name + "-exact.png", [&](std::size_t i) { return gain * f.exact[i]; });
+        write(name + "-error.png",
+              [&](std::size_t i) { return 0.2 + 2 * gain * (f.shown[i] - f.exact[i]); });
+    }
+}
+
+PopFigures figures(const DragResult& result, std::size_t first, std::size_t end) {
+    return popFigures(std::span(result.frames).subspan(first, end - first), result.toDisplay);
+}
+
+/// Frames after the release until the error can't be seen any more.
+std::size_t framesToExact(const DragResult& result, double p) {
+    std::size_t last = result.released;
+    for (std::size_t t = result.released; t < result.frames.size(); ++t)
+        if (visibleError(result.frames[t], result.toDisplay, p) > 1) last = t + 1;
+    return last - result.released;
+}
+
+void report(const DragScript& script, const char* variant, const DragResult& r) {
+    const std::size_t end = r.frames.size();
+    const PopFigures grab = figures(r, r.grabbed - 1, r.moved);
+    const PopFigures start = figures(r, r.moved - 1, r.moved + 2);
+    const bool known = !r.frames[r.moved + 2].exact.empty();
+    const PopFigures motion = known ? figures(r, r.moved, r.released) : PopFigures{};
+    const PopFigures over = figures(r, r.released - 1, end);
+    std::printf("%-8s %-20s | %5.2f %5.2f | %6.2f %6.2f | %6.2f %6.2f %6.2f %% | %6.3f | ",
+                script.scene.c_str(), variant, grab.most, start.most, motion.p999, motion.most,
+                over.p999, over.most, 100 * over.share, over.flicker);
+    std::printf("%4.0f %5.0f %5.0f | %3zu %3zu | %5.1f %5.1f\n", 1000 * r.readySeconds,
+                1000 * r.settledSeconds, 100 * r.realSeconds / (double(end - r.released) / 60),
+                framesToExact(r, 0.999), framesToExact(r, 1), 1000 * r.mean, 1000 * r.slowest);
+    std::fflush(stdout);
+}
+
+int run(int argc, char** argv) {
+    std::string only;
+    LiveSampling sampling = LiveSampling::pixels;
+    float elementSize = 0;
+    bool indirect = true, motion = false;
+    std::string keep;
+    int variantWanted = -1;
+    for (int i = 1; i < argc; ++i) {
+        const std::string argument = argv[i];
+        if (argument == "--vertices")
+            sampling = LiveSampling::vertices;
+        else if (argument == "--direct-only")
+            indirect = false;
+        else if (argument == "--motion")
+            motion = true;
+        else if (argument == "--variant" && i + 1 < argc)
+            variantWanted = std::stoi(argv[++i]);
+        else if (argument == "--keep" && i + 1 < argc)
+            keep = argv[++i];
+        else if (argument == "--element-size" && i + 1 < argc)
+            elementSize = std::stof(argv[++i]);
+        else
+            only = argument;
+    }
+    std::printf("                              |   start     |    motion     |       "
+                "hand-over        | flick |  ready settled real%% | frames | frame ms\n");
+    for (const DragScript& script : kScripts) {
+        if (!only.empty() && only != script.scene) continue;
+        for (const Variant& variant : kVariants) {
+            const auto number = int(&variant - kVariants.data());
+            if (variantWanted >= 0 && variantWanted != number) continue;
+            DragOptions options;
+            options.motion = motion;
+            options.blend = variant.blend;
+            options.sampling = sampling;
+            options.elementSize = elementSize;
+            options.indirect = indirect;
+            const DragResult result = runDrag(script, options);
+
+            std::printf("%s: %zu elements, %zu lamps drawn live\n", script.scene.c_str(),
+                        result.elements, result.lamps);
+            report(script, variant.name, result);
+            if (!keep.empty())
+                keepFrames(result, options.size, keep + "/" + script.scene + std::to_string(number),
+                           4);
+        }
+    }
+    return 0;
+}
+
+} // namespace
+
+} // namespace penumbra
+
+int main(int argc, char** argv) {
+    try {
+        return penumbra::run(argc, argv);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "penumbra_popping: %s\n", error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,252 @@
+// What is shown of a surface while its light changes.
+#include "viewer/LightFade.h"
+
+#include "LitScenes.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace penumbra {
+
+namespace {
+
+using Known = LampShare::Known;
+
+/// Two triangles in a strip of `blocks` blocks of vertices each: triangle i joins three
+/// consecutive vertices, so that the last of a block and the first of the next share some.
+LitMeshData strip(std::size_t blocks, std::size_t lamps) {
+    LitMeshData data;
+    const std::size_t count = blocks * LitGeometry::kBlock;
+    data.normals.assign(count, {0, 0, 1});
+    data.direct.assign(count, Rgb(100));
+    data.indirect.assign(count, Rgb(20));
+    for (std::uint32_t v = 0; v < count; ++v) {
+        data.positions.emplace_back(float(v), float(v % 2), 0);
+        if (v < 2) continue;
+        data.indices.insert(data.indices.end(), {v - 2, v - 1, v});
+        data.triangleMaterial.push_back(0);
+    }
+    data.materials.emplace_back();
+    data.lamps.assign(lamps, {.factor = std::vector<float>(count, 0.5f),
+                              .known = std::vector<Known>(blocks, Known::exact),
+                              .exitance = {}});
+    return data;
+}
+
+/// A strip whose light is edited and shown.
+struct Surface {
+    explicit Surface(std::size_t blocks = 1, std::size_t lamps = 1)
+        : geometry("strip", ObjectId{0}, strip(blocks, lamps)), fade(geometry), lampCount(lamps) {
+        if (lamps > 0) fade.setLamps(lamps);
+        show(0);
+    }
+    void publish(std::size_t block, float direct, Known known = Known::exact, float indirect = 20) {
+        geometry.setBlock(block, [&](LitMeshData& data) {
+            for (std::size_t v = 0; v < LitGeometry::kBlock; ++v) {
+                data.direct[block * LitGeometry::kBlock + v] = Rgb(direct);
+                data.indirect[block * LitGeometry::kBlock + v] = Rgb(indirect);
+            }
+            for (LampShare& lamp : data.lamps) lamp.known[block] = known;
+        });
+    }
+    void show(double time, bool fresh = true, double seconds = 0.25) {
+        fade.advance(geometry, {time, seconds, lampCount, fresh});
+    }
+    float direct(std::size_t vertex = 5) const { return fade.shown().direct[vertex].r; }
+
+    LitGeometry geometry;
+    LightFade fade;
+    std::size_t lampCount;
+};
+
+TEST(LightFade, GoesFromOneLightToTheNextBySmoothstepInTime) {
+    Surface surface;
+    surface.publish(0, 200);
+    surface.show(1);
+    EXPECT_EQ(surface.direct(), 100) << "starts where it is";
+    surface.show(1.125);
+    EXPECT_NEAR(surface.direct(), 150, 1e-3);
+    surface.show(1.1875); // three quarters: 3/4^2 (3 - 3/2) = 27/32
+    EXPECT_NEAR(surface.direct(), 100 + 100 * 27 / 32.0, 1e-3);
+    surface.show(1.25);
+    EXPECT_EQ(surface.direct(), 200) << "and ends there exactly";
+    EXPECT_FALSE(surface.fade.changing());
+}
+
+TEST(LightFade, ABlockThatIsNotReadyStaysAsItIs) {
+    Surface surface;
+    surface.publish(0, 200, Known::stale);
+    for (double t = 1; t < 2; t += 0.1) surface.show(t);
+    EXPECT_EQ(surface.direct(), 100);
+    surface.publish(0, 210, Known::exact);
+    surface.show(2);
+    surface.show(2.25);
+    EXPECT_EQ(surface.direct(), 210);
+}
+
+TEST(LightFade, NothingIsTakenBeforeTheMarksAreComplete) {
+    Surface surface;
+    surface.publish(0, 200);
+    surface.show(1, false);
+    surface.show(2, false);
+    EXPECT_EQ(surface.direct(), 100);
+    surface.show(3, true);
+    surface.show(4, true);
+    EXPECT_EQ(surface.direct(), 200);
+}
+
+TEST(LightFade, AVertexWaitsForTheBlocksOfAllItsTriangles) {
+    Surface surface(2);
+    surface.publish(0, 200);
+    surface.publish(1, 200, Known::stale);
+    surface.show(1);
+    surface.show(2);
+    EXPECT_EQ(surface.direct(61), 200) << "shares no triangle with the other block";
+    EXPECT_EQ(surface.direct(62), 100);
+    EXPECT_EQ(surface.direct(63), 100);
+    EXPECT_EQ(surface.direct(64), 100);
+    surface.publish(1, 200);
+    surface.show(3);
+    surface.show(4);
+    EXPECT_EQ(surface.direct(63), 200);
+    EXPECT_EQ(surface.direct(64), 200);
+    EXPECT_FALSE(surface.fade.changing());
+}
+
+TEST(LightFade, WithoutLiveLampsEveryVertexIsAlwaysReady) {
+    Surface surface(1, 0);
+    surface.publish(0, 200);
+    surface.show(1);
+    surface.show(1.25);
+    EXPECT_EQ(surface.direct(), 200);
+    EXPECT_TRUE(surface.fade.shown().factors.empty());
+}
+
+TEST(LightFade, IndirectLightFollowsAtOnceWhateverDirectLightWaitsFor) {
+    Surface surface;
+    surface.publish(0, 200, Known::stale, 40);
+    surface.show(1);
+    surface.show(1.125);
+    EXPECT_NEAR(surface.fade.shown().indirect[5].r, 30, 1e-3);
+    surface.show(1.25);
+    EXPECT_EQ(surface.fade.shown().indirect[5].r, 40);
+    EXPECT_EQ(surface.direct(), 100);
+}
+
+TEST(LightFade, LampsThatBecomeKnownChangeNothingOfWhatIsSeen) {
+    Surface surface;
+    surface.fade.setLamps(1);
+    EXPECT_LT(surface.fade.shown().factors[5].x, 0);
+    surface.show(1);
+    EXPECT_EQ(surface.fade.shown().factors[5].x, 0.5f);
+    EXPECT_EQ(surface.direct(), 100);
+    EXPECT_FALSE(surface.fade.changing());
+}
+
+TEST(LightFade, WhoIsNotReadyStaysBehindAndFollows) {
+    Surface surface(3);
+    surface.publish(2, 100, Known::stale);
+    EXPECT_TRUE(surface.fade.leaveBehind(surface.geometry, {1, 0.25, 1, true}));
+    surface.show(1);
+    const ShownLight& shown = surface.fade.shown();
+    EXPECT_EQ(shown.behind[5], 0);
+    EXPECT_EQ(shown.behind[127], 1) << "a neighbour of the block";
+    EXPECT_EQ(shown.behind[140], 1);
+    surface.publish(2, 300);
+    surface.show(2);
+    surface.show(2.125);
+    EXPECT_NEAR(shown.behind[140], 0.5f, 1e-6f);
+    EXPECT_NEAR(surface.direct(140), 200, 1e-3f) << "with the light that it is the share of";
+    surface.show(2.25);
+    EXPECT_EQ(shown.behind[140], 0);
+    EXPECT_FALSE(surface.fade.anyBehind());
+}
+
+TEST(LightFade, GoesOnFromWhatWasShownWhenTheSurfaceComesAnew) {
+    Surface before, after;
+    before.publish(0, 300);
+    before.show(1);
+    before.show(1.125);
+    after.fade.takeOver(before.fade);
+    after.show(1.125);
+    EXPECT_NEAR(after.direct(), 200, 1e-3f);
+    after.show(1.375);
+    EXPECT_EQ(after.direct(), 100) << "the light that it carries";
+}
+
+TEST(LightFade, OnlyBlocksThatChangeAreUploaded) {
+    Surface surface(3);
+    const std::vector<std::uint64_t> before = surface.fade.shown().blockRevisions;
+    surface.publish(1, 200);
+    for (double t = 1; t < 2; t += 0.05) surface.show(t);
+    EXPECT_EQ(surface.fade.shown().blockRevisions[0], before[0]);
+    EXPECT_GT(surface.fade.shown().blockRevisions[1], before[1]);
+    EXPECT_EQ(surface.fade.shown().blockRevisions[2], before[2]);
+}
+
+RC_GTEST_PROP(LightFadeProperty, AFadeIsMonotoneAndAsFastAsSmoothstepAtMost, ()) {
+    Surface surface;
+    surface.publish(0, 200);
+    surface.show(0);
+    float last = surface.direct();
+    double time = 0;
+    while (time < 0.3) {
+        const double step = *rc::gen::inRange(1, 40) * 1e-3;
+        time += step;
+        surface.show(time);
+        const float now = surface.direct();
+        RC_ASSERT(now >= last - 1e-4f);
+        RC_ASSERT(now - last <= float(100 * 1.5 * step / 0.25) + 1e-3f);
+        last = now;
+    }
+    RC_ASSERT(last == 200);
+}
+
+RC_GTEST_PROP(LightFadeProperty, TheFrameRateMakesNoDifference, ()) {
+    // Fades start at the frame in which light comes; from there on only the time counts.
+    Surface often, seldom;
+    double time = 0;
+    for (int i = 0; i < 4; ++i) {
+        const float light = float(*rc::gen::inRange(0, 500));
+        often.publish(0, light), seldom.publish(0, light);
+        often.show(time), seldom.show(time);
+        const double until = time + *rc::gen::inRange(10, 400) * 1e-3;
+        for (; time < until; time += 0.004) often.show(time);
+        time = until;
+    }
+    often.show(time), seldom.show(time);
+    RC_ASSERT(std::abs(often.direct() - seldom.direct()) < 1e-2f);
+}
+
+RC_GTEST_PROP(LightFadeProperty, NothingJumpsHoweverItIsInterrupted, ()) {
+    Surface surface(2);
+    double time = 0;
+    std::vector<float> last(128, 100);
+    for (int i = 0; i < 60; ++i) {
+        const auto block = std::size_t(*rc::gen::inRange(0, 2));
+        if (*rc::gen::inRange(0, 3) == 0)
+            surface.publish(block, float(*rc::gen::inRange(0, 500)),
+                            *rc::gen::element(Known::exact, Known::stale, Known::no));
+        const double step = *rc::gen::inRange(0, 20) * 1e-3;
+        time += step;
+        surface.show(time, *rc::gen::inRange(0, 4) != 0);
+        for (std::size_t v = 0; v < last.size(); ++v) {
+            const float now = surface.direct(v);
+            RC_ASSERT(std::abs(now - last[v]) <= float(500 * 1.5 * step / 0.25) + 1e-2f);
+            last[v] = now;
+        }
+    }
+    surface.publish(0, 70), surface.publish(1, 70);
+    surface.show(time + 1), surface.show(time + 2);
+    RC_ASSERT(surface.direct(3) == 70);
+    RC_ASSERT(surface.direct(100) == 70);
+    RC_ASSERT(!surface.fade.changing());
+}
+
+} // namespace
+
+} // namespace penumbra

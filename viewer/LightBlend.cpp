@@ -1,0 +1,184 @@
+#include "viewer/LightBlend.h"
+
+#include "radiosity/RadiosityNode.h"
+#include "scenegraph/Light.h"
+#include "viewer/Arrangements.h"
+
+#include <algorithm>
+#include <cassert>
+#include <numbers>
+#include <utility>
+
+namespace penumbra {
+
+void LightBlend::want(std::vector<std::string> lamps) {
+    assert(lamps.size() <= kMostLampsDrawnLive);
+    wanted_ = std::move(lamps);
+}
+
+/// \return whether there are other geometries than before
+bool LightBlend::followObjects(const RadiosityNode& node) {
+    const auto objects = node.objects();
+    const auto same = [](const Entry& entry, const LitObject& object) {
+        return entry.geometry == object.geometry && entry.path == object.path;
+    };
+    if (std::equal(entries_.begin(), entries_.end(), objects.begin(), objects.end(), same))
+        return false;
+    std::unordered_map<std::string, Entry> before;
+    for (Entry& entry : entries_) before.emplace(entry.path, std::move(entry));
+    entries_.clear();
+    byGeometry_.clear();
+    for (const LitObject& object : objects) {
+        Entry entry{object.path, object.geometry, nullptr};
+        if (object.geometry) {
+            const auto old = before.find(object.path);
+            if (old != before.end() && old->second.geometry == object.geometry) {
+                entry.fade = std::move(old->second.fade);
+            } else {
+                entry.fade = std::make_unique<LightFade>(*object.geometry);
+                if (old != before.end() && old->second.fade)
+                    entry.fade->takeOver(*old->second.fade);
+                if (!lamps_.empty()) entry.fade->setLamps(lamps_.size());
+            }
+            byGeometry_[object.geometry.get()] = entry.fade.get();
+        }
+        entries_.push_back(std::move(entry));
+    }
+    return true;
+}
+
+/// How things stand now; the same pointer as long as they do.
+void LightBlend::lookAround(const RadiosityNode& node) {
+    Arrangement now = arrangementOf(node, lamps_);
+    for (const ArrangementPtr& known : {now_, next_, rest_, behind_})
+        if (known && sameArrangement(*known, now)) {
+            now_ = known;
+            return;
+        }
+    now_ = std::make_shared<const Arrangement>(std::move(now));
+}
+
+void LightBlend::restAnew() {
+    rest_ = sent_ = now_;
+    next_ = behind_ = nullptr;
+}
+
+/// Nothing moves, nothing is on its way.
+bool LightBlend::quiet() const {
+    return rest_ == now_ && !next_ && !behind_;
+}
+
+void LightBlend::followLamps(RadiosityNode& node) {
+    if (wanted_ == lamps_ || !quiet()) return;
+    lamps_ = wanted_;
+    node.setLiveLamps(lamps_);
+    for (Entry& entry : entries_)
+        if (entry.fade) entry.fade->setLamps(lamps_.size());
+    now_ = nullptr;
+    rest_ = nullptr;
+    lookAround(node);
+    restAnew();
+}
+
+LightFade::Frame LightBlend::frameAt(double time, bool fresh) const {
+    return {time, options_.seconds, lamps_.size(), fresh};
+}
+
+/// What was sent is exact, at least in part: it comes to rest.
+void LightBlend::comeToRest(double time) {
+    if (next_) return; // one after the other
+    const LightFade::Frame frame = frameAt(time, true);
+    const auto unready = [&](const Entry& entry) {
+        return entry.fade && entry.fade->anyUnready(*entry.geometry, frame);
+    };
+    if (behind_ && std::any_of(entries_.begin(), entries_.end(), unready)) return;
+    bool any = false;
+    for (Entry& entry : entries_)
+        if (entry.fade) any |= entry.fade->leaveBehind(*entry.geometry, frame);
+    if (any) behind_ = rest_;
+    next_ = sent_;
+    since_ = time;
+}
+
+void LightBlend::advanceFades(const LightFade::Frame& frame) {
+    changing_ = fading_ = waiting_ = false;
+    bool behind = false;
+    for (Entry& entry : entries_) {
+        if (!entry.fade) continue;
+        entry.fade->advance(*entry.geometry, frame);
+        changing_ |= entry.fade->changing();
+        fading_ |= entry.fade->fading();
+        waiting_ |= entry.fade->waiting();
+        behind |= entry.fade->anyBehind();
+    }
+    if (!behind) behind_ = nullptr;
+}
+
+/// Of next_ in the vertices that are not behind.
+float LightBlend::restShare(double time) const {
+    if (!next_) return 0;
+    const double s =
+        options_.seconds > 0 ? std::clamp((time - since_) / options_.seconds, 0.0, 1.0) : 1.0;
+    return float(s * s * (3 - 2 * s));
+}
+
+void LightBlend::describeLive(const RadiosityNode& node, double time) {
+    live_ = {};
+    live_.points = options_.points;
+    live_.now = now_;
+    const float share = restShare(time);
+    const auto anchor = [&](const ArrangementPtr& of, float rest, float behind) {
+        if (of && of != now_ && (rest > 0 || behind > 0))
+            live_.anchors.push_back({of, rest, behind});
+    };
+    if (lamps_.empty()) return;
+    anchor(rest_, 1 - share, 0);
+    anchor(next_, share, 0);
+    anchor(behind_, 0, 1);
+    if (live_.anchors.empty()) return;
+    for (std::size_t o = 0; o < entries_.size(); ++o) {
+        const bool moves = std::any_of(live_.anchors.begin(), live_.anchors.end(),
+                                       [&](const LiveLight::Anchor& a) {
+                                           return !(a.arrangement->objects[o] == now_->objects[o]);
+                                       });
+        live_.objects.push_back({entries_[o].geometry, moves});
+    }
+    const PlacedScene& placed = node.placed();
+    for (const std::string& path : lamps_) {
+        const auto light = std::find_if(placed.lights.begin(), placed.lights.end(),
+                                        [&](const auto& l) { return l.path == path; });
+        LiveLight::Lamp lamp;
+        if (light != placed.lights.end())
+            lamp.exitance = light->node->luminance() * std::numbers::pi_v<float>;
+        const std::size_t l = live_.lamps.size();
+        lamp.moves = std::any_of(live_.anchors.begin(), live_.anchors.end(),
+                                 [&](const LiveLight::Anchor& a) {
+                                     return !sameLamp(a.arrangement->lamps[l], now_->lamps[l]);
+                                 });
+        live_.lamps.push_back(lamp);
+    }
+}
+
+void LightBlend::advance(RadiosityNode& node, double time) {
+    const bool others = followObjects(node);
+    if (others) now_ = rest_ = next_ = behind_ = nullptr;
+    lookAround(node);
+    if (others || lamps_.empty()) restAnew();
+    followLamps(node);
+    if (next_ && time - since_ >= options_.seconds) rest_ = std::exchange(next_, nullptr);
+    const RadiosityState& state = node.state();
+    if (state.held == 0) sent_ = now_;
+    if (state.lampsMarked && sent_ != (next_ ? next_ : rest_)) comeToRest(time);
+    const bool fresh = lamps_.empty() || (state.lampsMarked && sent_ == (next_ ? next_ : rest_));
+    advanceFades(frameAt(time, fresh));
+    changing_ |= next_ != nullptr;
+    waiting_ |= !fresh;
+    describeLive(node, time);
+}
+
+const ShownLight* LightBlend::shown(const LitGeometry& geometry) const {
+    const auto found = byGeometry_.find(&geometry);
+    return found == byGeometry_.end() ? nullptr : &found->second->shown();
+}
+
+} // namespace penumbra

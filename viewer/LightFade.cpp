@@ -1,0 +1,261 @@
+#include "viewer/LightFade.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <set>
+
+namespace penumbra {
+
+namespace {
+
+/// Share of the way that is done.
+float smoothstep(double time, double start, double seconds) {
+    const double s = seconds > 0 ? std::clamp((time - start) / seconds, 0.0, 1.0) : 1.0;
+    return float(s * s * (3 - 2 * s));
+}
+
+Rgb mix(Rgb a, Rgb b, float w) {
+    return a + (b - a) * w;
+}
+
+/// Whether two values differ by no more than 16-bit floats do.
+bool alike(Rgb a, Rgb b) {
+    const float most = 2e-3f * std::max(maxChannel(a), maxChannel(b));
+    return std::abs(a.r - b.r) <= most && std::abs(a.g - b.g) <= most &&
+           std::abs(a.b - b.b) <= most;
+}
+
+} // namespace
+
+LightFade::LightFade(const LitGeometry& geometry) {
+    shown_.blockRevisions = geometry.blockRevisions();
+    followTopology(geometry);
+    seen_ = geometry.blockRevisions();
+    revision_ = geometry.revision();
+}
+
+/// Vertices may have been added, and triangles may have other ones.
+void LightFade::followTopology(const LitGeometry& geometry) {
+    if (topology_ == geometry.topologyRevision()) return;
+    topology_ = geometry.topologyRevision();
+    const LitMeshData& data = geometry.data();
+    const std::size_t before = shown_.direct.size(), now = data.positions.size();
+    shown_.direct.resize(now);
+    shown_.indirect.resize(now);
+    if (!shown_.factors.empty()) {
+        shown_.factors.resize(now, glm::vec4(-1));
+        shown_.behind.resize(now, 0);
+    }
+    for (std::size_t v = before; v < now; ++v) {
+        shown_.direct[v] = data.direct[v];
+        shown_.indirect[v] = data.indirect[v];
+    }
+    shown_.blockRevisions.resize(geometry.blockRevisions().size(), 1);
+    seen_.resize(geometry.blockRevisions().size(), 0);
+    std::erase_if(flights_, [&](const auto& f) { return f.first >= seen_.size(); });
+    ++shown_.revision;
+    findBorders(data);
+}
+
+void LightFade::findBorders(const LitMeshData& data) {
+    std::set<std::pair<std::uint32_t, std::uint32_t>> pairs; // vertex, other block
+    for (std::size_t t = 0; t < data.indices.size(); t += 3)
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t j = 0; j < 3; ++j) {
+                const std::uint32_t v = data.indices[t + i];
+                const std::uint32_t block = data.indices[t + j] / kBlock;
+                if (block != v / kBlock) pairs.emplace(v, block);
+            }
+    borderFirst_.assign(data.positions.size() + 1, 0);
+    borders_.clear();
+    for (const auto& [vertex, block] : pairs) {
+        ++borderFirst_[vertex + 1];
+        borders_.push_back(block);
+    }
+    for (std::size_t v = 0; v < data.positions.size(); ++v) borderFirst_[v + 1] += borderFirst_[v];
+}
+
+void LightFade::setLamps(std::size_t lamps) {
+    assert(behind_ == 0);
+    const std::size_t vertices = lamps > 0 ? shown_.direct.size() : 0;
+    shown_.factors.assign(vertices, glm::vec4(-1));
+    shown_.behind.assign(vertices, 0);
+    for (auto& [block, flight] : flights_)
+        for (auto& way : flight.direct) way.from.factors = way.target.factors = glm::vec4(-1);
+    for (std::uint64_t& revision : shown_.blockRevisions) ++revision;
+    ++shown_.revision;
+    std::fill(seen_.begin(), seen_.end(), 0); // all are looked at again
+    revision_ = 0;
+}
+
+void LightFade::takeOver(const LightFade& before) {
+    if (before.shown_.direct.size() != shown_.direct.size()) return;
+    shown_.direct = before.shown_.direct;
+    shown_.indirect = before.shown_.indirect;
+    std::fill(seen_.begin(), seen_.end(), 0);
+    revision_ = 0;
+}
+
+bool LightFade::blockReady(const LitMeshData& data, std::size_t block, const Frame& frame) const {
+    if (frame.lamps == 0) return true;
+    if (data.lamps.size() != frame.lamps) return false;
+    return std::all_of(data.lamps.begin(), data.lamps.end(), [&](const LampShare& lamp) {
+        return lamp.known[block] == LampShare::Known::exact;
+    });
+}
+
+bool LightFade::ready(const LitMeshData& data, std::size_t vertex, const Frame& frame) const {
+    if (!frame.fresh || !blockReady(data, vertex / kBlock, frame)) return false;
+    for (std::uint32_t i = borderFirst_[vertex]; i < borderFirst_[vertex + 1]; ++i)
+        if (!blockReady(data, borders_[i], frame)) return false;
+    return true;
+}
+
+LightFade::Direct LightFade::target(const LitMeshData& data, std::size_t vertex) const {
+    Direct direct{data.direct[vertex]};
+    if (shown_.factors.empty()) return direct;
+    for (std::size_t l = 0; l < data.lamps.size() && l < 4; ++l)
+        if (data.lamps[l].known[vertex / kBlock] != LampShare::Known::no)
+            direct.factors[int(l)] = data.lamps[l].factor[vertex];
+    return direct;
+}
+
+LightFade::Direct LightFade::shownDirect(std::size_t vertex) const {
+    if (shown_.factors.empty()) return {shown_.direct[vertex]};
+    return {shown_.direct[vertex], shown_.factors[vertex], shown_.behind[vertex]};
+}
+
+void LightFade::setShown(std::size_t vertex, const Direct& direct) {
+    changed_ = true;
+    shown_.direct[vertex] = direct.light;
+    if (shown_.factors.empty()) return;
+    shown_.factors[vertex] = direct.factors;
+    float& behind = shown_.behind[vertex];
+    behind_ += std::size_t(direct.behind > 0) - std::size_t(behind > 0);
+    behind = direct.behind;
+}
+
+LightFade::Flight& LightFade::flightOf(std::size_t block) {
+    Flight& flight = flights_[block];
+    const std::size_t size = std::min(kBlock, shown_.direct.size() - block * kBlock);
+    flight.direct.resize(size);
+    flight.indirect.resize(size);
+    return flight;
+}
+
+/// Goes on along a way to the frame's time.
+void LightFade::goOn(std::size_t vertex, Way<Direct>& way, const Frame& frame) {
+    if (way.start == kNever) return;
+    const float w = smoothstep(frame.time, way.start, frame.seconds);
+    const Direct &a = way.from, &b = way.target;
+    if (w >= 1) {
+        setShown(vertex, b);
+        way.start = kNever;
+        return;
+    }
+    fading_ = true;
+    setShown(vertex, {mix(a.light, b.light, w), glm::mix(a.factors, b.factors, w),
+                      a.behind + (b.behind - a.behind) * w});
+}
+
+bool LightFade::advanceDirect(const LitMeshData& data, std::size_t vertex, Way<Direct>& way,
+                              const Frame& frame) {
+    goOn(vertex, way, frame);
+    if (!ready(data, vertex, frame)) {
+        waiting_ = true;
+        return false;
+    }
+    const Direct wanted = target(data, vertex);
+    const Direct now = shownDirect(vertex);
+    if (wanted == (way.start != kNever ? way.target : now)) return way.start == kNever;
+    if (wanted.light == now.light && now.behind == 0) {
+        setShown(vertex, wanted); // lamps have become known: nothing is seen of that
+        way.start = kNever;
+        return true;
+    }
+    way = {now, wanted, frame.time};
+    for (int l = 0; l < 4; ++l) // what was not known is taken to be as it is now
+        if (way.from.factors[l] < 0) way.from.factors[l] = wanted.factors[l];
+    goOn(vertex, way, frame);
+    return way.start == kNever;
+}
+
+bool LightFade::advanceIndirect(const LitMeshData& data, std::size_t vertex, Way<Rgb>& way,
+                                const Frame& frame) {
+    Rgb& now = shown_.indirect[vertex];
+    const Rgb wanted = data.indirect[vertex];
+    const auto step = [&] {
+        const float w = smoothstep(frame.time, way.start, frame.seconds);
+        changed_ = true;
+        now = w >= 1 ? way.target : mix(way.from, way.target, w);
+        if (w >= 1) way.start = kNever;
+    };
+    if (way.start != kNever) {
+        if (alike(wanted, way.target)) way.target = wanted; // too little to start anew
+        step();
+    }
+    if (wanted == (way.start != kNever ? way.target : now)) return way.start == kNever;
+    way = {now, wanted, frame.time};
+    step();
+    return way.start == kNever;
+}
+
+/// \return whether all of the block has come to rest at what the geometry carries
+bool LightFade::advanceBlock(const LitMeshData& data, std::size_t block, Flight& flight,
+                             const Frame& frame) {
+    changed_ = false;
+    bool done = true;
+    for (std::size_t i = 0; i < flight.direct.size(); ++i) {
+        done &= advanceDirect(data, block * kBlock + i, flight.direct[i], frame);
+        done &= advanceIndirect(data, block * kBlock + i, flight.indirect[i], frame);
+    }
+    if (changed_) {
+        ++shown_.blockRevisions[block];
+        ++shown_.revision;
+    }
+    return done;
+}
+
+void LightFade::advance(const LitGeometry& geometry, const Frame& frame) {
+    followTopology(geometry);
+    if (revision_ != geometry.revision()) {
+        revision_ = geometry.revision();
+        const std::vector<std::uint64_t>& latest = geometry.blockRevisions();
+        for (std::size_t block = 0; block < latest.size(); ++block) {
+            if (seen_[block] == latest[block]) continue;
+            seen_[block] = latest[block];
+            flightOf(block);
+        }
+    }
+    fading_ = waiting_ = false;
+    for (auto flight = flights_.begin(); flight != flights_.end();)
+        if (advanceBlock(geometry.data(), flight->first, flight->second, frame))
+            flight = flights_.erase(flight);
+        else
+            ++flight;
+}
+
+bool LightFade::anyUnready(const LitGeometry& geometry, const Frame& frame) const {
+    for (std::size_t block = 0; block < seen_.size(); ++block)
+        if (!blockReady(geometry.data(), block, frame)) return true;
+    return false;
+}
+
+bool LightFade::leaveBehind(const LitGeometry& geometry, const Frame& frame) {
+    if (shown_.factors.empty() || !anyUnready(geometry, frame)) return false;
+    for (std::size_t v = 0; v < shown_.direct.size(); ++v) {
+        if (ready(geometry.data(), v, frame)) continue;
+        Flight& flight = flightOf(v / kBlock);
+        Way<Direct>& way = flight.direct[v % kBlock];
+        way.from.behind = way.target.behind = 1;
+        Direct now = shownDirect(v);
+        now.behind = 1;
+        setShown(v, now);
+        ++shown_.blockRevisions[v / kBlock];
+    }
+    ++shown_.revision;
+    return behind_ > 0;
+}
+
+} // namespace penumbra

@@ -1,0 +1,105 @@
+// How the light of one lit surface changes on the screen.
+#pragma once
+
+#include "scenegraph/LitGeometry.h"
+#include "viewer/ShownLight.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace penumbra {
+
+/// Keeps what is shown of a LitGeometry apart from what it carries, and lets the one follow the
+/// other without a jump: each vertex by a smoothstep in time, in linear light,
+///
+///     shown = from + (target - from) w,   w = s^2 (3 - 2 s),   s = (t - start) / seconds
+///
+/// A vertex takes a new target when it is *ready*: its direct light, when the factors of all live
+/// lamps are exact in its block and in the blocks that share a triangle with it, so that no
+/// triangle is half ready; its indirect light, always. Until then it goes on to the target that it
+/// has, or stays. A target that comes while it is on its way starts a new way from what is shown.
+///
+/// Only blocks that wait or are on their way cost anything.
+class LightFade {
+public:
+    /// Shows what the geometry carries.
+    explicit LightFade(const LitGeometry& geometry);
+
+    struct Frame {
+        double time = 0;       ///< [s]
+        double seconds = 0.25; ///< of a fade; 0: at once
+        std::size_t lamps = 0; ///< live ones; with none of them every vertex is always ready
+        bool fresh = true;     ///< what is exact is the light of the arrangement that is at rest
+    };
+
+    /// Begins anew with another number of live lamps: no factors are known. \pre nothing is behind
+    void setLamps(std::size_t lamps);
+
+    /// Another arrangement comes to rest: vertices that are not ready stay behind with the one
+    /// before (see ShownLight::behind). \return whether there are any
+    bool leaveBehind(const LitGeometry& geometry, const Frame& frame);
+    /// What leaveBehind() would return.
+    bool anyUnready(const LitGeometry& geometry, const Frame& frame) const;
+
+    void advance(const LitGeometry& geometry, const Frame& frame);
+
+    /// Goes on from what was shown of another geometry with the same vertices, if it has.
+    void takeOver(const LightFade& before);
+
+    const ShownLight& shown() const { return shown_; }
+    bool changing() const { return !flights_.empty(); } ///< something is on its way, or waits
+    bool fading() const { return fading_; }             ///< direct light is on its way
+    bool waiting() const { return waiting_; }           ///< some vertices are not ready
+    bool anyBehind() const { return behind_ > 0; }
+
+private:
+    static constexpr std::size_t kBlock = LitGeometry::kBlock;
+    static constexpr double kNever = -1e30;
+
+    struct Direct {
+        Rgb light;
+        glm::vec4 factors{-1};
+        float behind = 0;
+        friend bool operator==(const Direct&, const Direct&) = default;
+    };
+    template <class T>
+    struct Way {
+        T from, target;
+        double start = kNever; ///< kNever: at rest
+    };
+    struct Flight {
+        std::vector<Way<Direct>> direct;
+        std::vector<Way<Rgb>> indirect;
+    };
+
+    void followTopology(const LitGeometry& geometry);
+    void findBorders(const LitMeshData& data);
+    bool blockReady(const LitMeshData& data, std::size_t block, const Frame& frame) const;
+    bool ready(const LitMeshData& data, std::size_t vertex, const Frame& frame) const;
+    Direct target(const LitMeshData& data, std::size_t vertex) const;
+    Direct shownDirect(std::size_t vertex) const;
+    void setShown(std::size_t vertex, const Direct& direct);
+    Flight& flightOf(std::size_t block);
+    bool advanceBlock(const LitMeshData& data, std::size_t block, Flight& flight,
+                      const Frame& frame);
+    void goOn(std::size_t vertex, Way<Direct>& way, const Frame& frame);
+    bool advanceDirect(const LitMeshData& data, std::size_t vertex, Way<Direct>& way,
+                       const Frame& frame);
+    bool advanceIndirect(const LitMeshData& data, std::size_t vertex, Way<Rgb>& way,
+                         const Frame& frame);
+
+    ShownLight shown_;
+    std::vector<std::uint64_t> seen_; ///< block revisions of the geometry
+    std::uint64_t revision_ = 0, topology_ = 0;
+    std::unordered_map<std::size_t, Flight> flights_; ///< by block
+    /// The other blocks that share a triangle with a vertex: of vertex v those from borderFirst_[v]
+    /// to borderFirst_[v + 1].
+    std::vector<std::uint32_t> borderFirst_, borders_;
+    std::size_t behind_ = 0; ///< vertices that are, in part
+    bool fading_ = false, waiting_ = false;
+    bool changed_ = false; ///< the block that is being worked on
+};
+
+} // namespace penumbra
