@@ -19,7 +19,7 @@ namespace {
 
 using Place = MovedScene::Place;
 
-constexpr int kRepeats = 20; ///< there and back, by each way in turn: drift hits all
+constexpr int kRepeats = 8; ///< there and back, by each way in turn: drift hits all
 
 /// A scene that is kept lit in some way, and what its moves took.
 class LitMove {

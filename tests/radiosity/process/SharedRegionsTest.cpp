@@ -111,8 +111,7 @@ TEST(SharedRegions, TheyEndWithTheProcessesThatHaveThem) {
 
 TEST(SharedRegions, MoreThanThereIsIsAnError) {
     const auto regions = makeSharedRegions();
-    const RegionPtr region = regions->create(std::size_t(1) << 45);
-    EXPECT_THROW(region->reserve(), Error);
+    EXPECT_THROW(regions->create(std::size_t(1) << 45)->reserve(), Error);
 }
 
 } // namespace
