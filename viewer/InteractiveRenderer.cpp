@@ -17,6 +17,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <map>
+#include <utility>
 
 namespace penumbra {
 
@@ -96,15 +98,18 @@ void InteractiveRenderer::Impl::drawLit(const std::vector<LitItem>& items) {
 
 /// The same, but triangles that a live change of light may reach are drawn by the live pass.
 void InteractiveRenderer::Impl::drawLitLive(const std::vector<LitItem>& items) {
-    std::vector<std::vector<IndexRuns>> live(items.size());
+    std::vector<LivePass::Runs> live;
     litProgram.use();
     for (std::size_t i = 0; i < items.size(); ++i) {
         const LitItem& item = items[i];
         std::vector<IndexRuns> plain(item.gpu->ranges().size());
-        live[i].resize(plain.size());
-        for (const TriangleChunk& chunk : item.gpu->chunks())
-            (livePass->reaches(item, chunk) ? live[i] : plain)[chunk.range].add(chunk.firstIndex,
-                                                                                chunk.indexCount);
+        std::map<std::pair<std::size_t, unsigned>, IndexRuns> reached; // by range and lamps
+        for (const TriangleChunk& chunk : item.gpu->chunks()) {
+            const unsigned lamps = livePass->reaching(item, chunk);
+            IndexRuns& runs = lamps == 0 ? plain[chunk.range] : reached[{chunk.range, lamps}];
+            runs.add(chunk.firstIndex, chunk.indexCount);
+        }
+        for (auto& [by, runs] : reached) live.push_back({i, by.first, by.second, std::move(runs)});
         setPlace(litProgram, item.place);
         item.gpu->bind();
         for (std::size_t r = 0; r < plain.size(); ++r) {

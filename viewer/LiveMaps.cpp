@@ -205,7 +205,7 @@ std::size_t LiveMaps::draw(const LiveLight& light, GeometryCache& cache, std::si
         if (!at.lamps[l]) continue; // hidden: LiveKind::none
         const Emitter lamp = placedLamp(*at.lamps[l]);
         LampMaps& maps = lamps[l];
-        maps.reach = {boxOf(lamp), thing, light.lamps[l].moves};
+        maps.reach = {boxOf(lamp), thing, light.lamps[l].moves, l};
         describe(lamp, maps.row);
         const int layer = int(group * light.lamps.size() + l);
         maps.row[10].w = float(layer);

@@ -34,6 +34,7 @@ public:
     struct Reach {
         Bounds lamp, thing;
         bool everywhere = false; ///< the lamp itself moves
+        std::size_t index = 0;   ///< of the lamp
     };
     const std::vector<Reach>& reaches() const { return reaches_; }
 

@@ -19,6 +19,9 @@ constexpr std::array<const char*, kLiveSlots> kPlaceNames{"livePlaces[0]", "live
 constexpr std::array<const char*, kLiveSlots> kNormalNames{"liveNormals[0]", "liveNormals[1]",
                                                            "liveNormals[2]", "liveNormals[3]"};
 
+constexpr std::array<const char*, kMostLampsDrawnLive> kLampNames{"lampList[0]", "lampList[1]",
+                                                                  "lampList[2]", "lampList[3]"};
+
 } // namespace
 
 struct LivePass::Impl {
@@ -26,6 +29,7 @@ struct LivePass::Impl {
         : program(liveVertexShader(sampling).c_str(), liveFragmentShader(sampling).c_str()) {}
 
     void setPlaces(const LitItem& item);
+    void setLamps(unsigned mask);
     bool moves(const LitItem& item) const {
         const std::uint32_t object = item.geometry->object().value;
         return object < light.objects.size() && light.objects[object].moves &&
@@ -63,23 +67,31 @@ void LivePass::prepare(const LiveLight& light, GeometryCache& cache) {
     impl_->statistics.maps = impl_->maps.prepare(light, cache);
 }
 
-bool LivePass::reaches(const LitItem& item, const TriangleChunk& chunk) const {
-    if (impl_->moves(item)) return true;
+unsigned LivePass::reaching(const LitItem& item, const TriangleChunk& chunk) const {
+    if (impl_->moves(item)) return (1u << impl_->light.lamps.size()) - 1;
     glm::dmat4 place = item.toWorld;
     place[3] -= glm::dvec4(impl_->maps.origin(), 0);
     const Bounds box = transformed(chunk.bounds, place);
+    unsigned lamps = 0;
     for (const LiveMaps::Reach& reach : impl_->maps.reaches())
-        if (reach.everywhere || shaftMeets(reach.lamp, box, reach.thing)) return true;
-    return false;
+        if (reach.everywhere || shaftMeets(reach.lamp, box, reach.thing))
+            lamps |= 1u << reach.index;
+    return lamps;
 }
 
-void LivePass::draw(const std::vector<LitItem>& items,
-                    const std::vector<std::vector<IndexRuns>>& runs) {
+/// The lamps of a mask, one after the other.
+void LivePass::Impl::setLamps(unsigned mask) {
+    int count = 0;
+    for (int l = 0; l < int(kMostLampsDrawnLive); ++l)
+        if (mask >> l & 1) program.set(kLampNames[std::size_t(count++)], l);
+    program.set("liveLamps", count);
+}
+
+void LivePass::draw(const std::vector<LitItem>& items, const std::vector<Runs>& runs) {
     const ShaderProgram& program = impl_->program;
     const LiveLight& light = impl_->light;
     program.use();
     impl_->maps.bind(program);
-    program.set("liveLamps", int(light.lamps.size()));
     program.set("liveAnchors", int(light.anchors.size()));
     std::vector<glm::vec4> exitances, shares(1);
     for (const auto& lamp : light.lamps)
@@ -89,21 +101,21 @@ void LivePass::draw(const std::vector<LitItem>& items,
     program.set("anchorShares", shares);
     glVertexAttrib4f(kFactors, -1, -1, -1, -1); // of surfaces that have none
     glVertexAttrib1f(kBehind, 0);
-    for (std::size_t i = 0; i < items.size(); ++i) {
-        bool any = false;
-        for (const IndexRuns& run : runs[i]) any |= !run.empty();
-        if (!any) continue;
-        const LitItem& item = items[i];
-        setPlace(program, item.place);
-        impl_->setPlaces(item);
-        item.gpu->bind();
-        for (std::size_t r = 0; r < runs[i].size(); ++r) {
-            const LitMaterial& material =
-                item.geometry->data().materials[item.gpu->ranges()[r].material];
-            program.set("reflectance", material.reflectance);
-            program.set("emission", material.emission);
-            runs[i][r].draw();
+    const LitItem* last = nullptr;
+    for (const Runs& run : runs) {
+        const LitItem& item = items[run.item];
+        if (&item != last) {
+            setPlace(program, item.place);
+            impl_->setPlaces(item);
+            item.gpu->bind();
+            last = &item;
         }
+        const LitMaterial& material =
+            item.geometry->data().materials[item.gpu->ranges()[run.range].material];
+        program.set("reflectance", material.reflectance);
+        program.set("emission", material.emission);
+        impl_->setLamps(run.lamps);
+        run.runs.draw();
     }
     for (const GLenum unit : {GL_TEXTURE2, GL_TEXTURE1}) {
         glActiveTexture(unit);

@@ -32,11 +32,18 @@ public:
     /// \param light with LiveLight::active()
     void prepare(const LiveLight& light, GeometryCache& cache);
 
-    /// Whether the change may reach a triangle of a chunk. After prepare(), before the next.
-    bool reaches(const LitItem& item, const TriangleChunk& chunk) const;
+    /// Which lamps' change may reach a triangle of a chunk, a bit a lamp. After prepare(), before
+    /// the next.
+    unsigned reaching(const LitItem& item, const TriangleChunk& chunk) const;
 
-    /// Draws runs of triangles, one list a material range of each item.
-    void draw(const std::vector<LitItem>& items, const std::vector<std::vector<IndexRuns>>& runs);
+    /// Triangles of one range of an item that the same lamps reach.
+    struct Runs {
+        std::size_t item = 0, range = 0;
+        unsigned lamps = 0;
+        IndexRuns runs;
+    };
+    /// \param runs by item
+    void draw(const std::vector<LitItem>& items, const std::vector<Runs>& runs);
 
     const LiveStatistics& statistics() const;
 

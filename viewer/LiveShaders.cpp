@@ -101,24 +101,22 @@ float diskFactor(vec3 p, vec3 n, vec3 centre, vec3 axis, float radius) {
     return sides > 0 ? closed(contour, n) : whole;
 }
 
-float sphereFactor(vec3 p, vec3 n, vec3 centre, float radius) {
-    vec3 way = centre - p;
-    float d2 = dot(way, way), r2 = radius * radius;
-    if (d2 <= r2) return 0.0;
-    float height = dot(n, way);
-    vec3 axis = -way * inversesqrt(d2);
-    float disk = diskFactor(p, n, centre + axis * (r2 * inversesqrt(d2)), axis,
-                            radius * sqrt(1.0 - r2 / d2));
-    return height >= radius ? r2 / d2 * height * inversesqrt(d2) : disk;
-}
-
+// A sphere is seen as the disk in which the tangent cone touches it. One call for both: where the
+// processor draws, both sides of a branch are worked out.
 float formFactor(int row, vec3 p, vec3 n) {
     int kind = int(entry(row, 0).x);
+    if (kind == 0) return 0.0;
     vec4 centre = entry(row, 1);
-    if (kind == 1) return quadFactor(row, p, n);
-    if (kind == 2) return diskFactor(p, n, centre.xyz, entry(row, 2).xyz, centre.w);
-    if (kind == 3) return sphereFactor(p, n, centre.xyz, centre.w);
-    return 0.0;
+    vec3 middle = centre.xyz, axis = entry(row, 2).xyz, way = centre.xyz - p;
+    float radius = centre.w, r2 = radius * radius, d2 = dot(way, way);
+    bool sphere = kind == 3;
+    if (sphere) {
+        axis = -way * inversesqrt(d2);
+        middle += axis * (r2 * inversesqrt(d2));
+        radius *= sqrt(max(0.0, 1.0 - r2 / d2));
+    }
+    float factor = kind == 1 ? quadFactor(row, p, n) : diskFactor(p, n, middle, axis, radius);
+    return sphere && d2 <= r2 ? 0.0 : factor;
 }
 )";
 
@@ -198,6 +196,7 @@ float hidden(int row, vec3 p, vec3 n, bool own) {
 
 const char* const kChange = R"(
 uniform int liveLamps, liveAnchors;
+uniform int lampList[4];                 // those that reach what is drawn
 uniform vec4 liveExitances[4];           // lm/m^2
 uniform vec4 anchorShares[4];            // of anchor 1 ... 3: x of rest, y of what is left behind
 uniform mat4 livePlaces[4];              // of the geometry, then and now
@@ -207,7 +206,8 @@ uniform int ownMoves;
 vec3 liveChange(vec3 position, vec3 normal, vec4 held, float behind) {
     vec3 sum = vec3(0.0);
     vec3 p = vec3(livePlaces[0] * vec4(position, 1.0)), n = unit(liveNormals[0] * normal);
-    for (int lamp = 0; lamp < liveLamps; ++lamp) {
+    for (int i = 0; i < liveLamps; ++i) {
+        int lamp = lampList[i];
         float most = formFactor(lamp, p, n);
         float now = most * (1.0 - hidden(lamp, p, n, ownMoves != 0));
         float f = held[lamp], change = 0.0, mostThen = most;
