@@ -16,6 +16,7 @@ class RadiosityNode;
 struct BlendOptions {
     double seconds = 0.25; ///< that a vertex takes from one light to the next; 0: it jumps
     int points = 16;       ///< of a lamp for its fast shadows, at most 16
+    std::size_t lamps = kMostLampsDrawnLive; ///< drawn live at most, no more than that
 };
 
 /// Follows the light of a RadiosityNode such that nothing on the screen jumps: when something

@@ -30,8 +30,10 @@ namespace {
 
 constexpr double kLongestStep = 0.1;   // after a stall things don't jump further than this [s]
 constexpr double kIdlePoll = 1.0 / 60; // how long a picture that does not change is kept [s]
-constexpr int kSoftwarePoints = 4;     // of a lamp for fast shadows, where the processor draws them
-constexpr int kAfterglow = 3;          // pictures that follow the last event: panels need some
+/// Of lamps drawn live, where the processor draws them.
+constexpr int kSoftwarePoints = 4;
+constexpr std::size_t kSoftwareLamps = 2;
+constexpr int kAfterglow = 3; // pictures that follow the last event: panels need some
 
 using Clock = std::chrono::steady_clock;
 
@@ -185,7 +187,8 @@ void Viewer::lightScene() {
     if (how.solving.residual == 0) how.solving.residual = asked.solving.residual;
     light_.reset();
     light_.emplace(*walk_, how, makeProcessLink(),
-                   BlendOptions{.points = software_ ? kSoftwarePoints : 16});
+                   software_ ? BlendOptions{.points = kSoftwarePoints, .lamps = kSoftwareLamps}
+                             : BlendOptions{});
 }
 
 void Viewer::reload() {

@@ -36,7 +36,7 @@ void WalkLight::chooseLamps(const Walkthrough& walk) {
     const auto& lights = node_->placed().lights; // the same ones; the paths begin at the node
     std::vector<std::string> paths;
     for (const std::size_t l :
-         lampsThatMatter(walk.placed(), walk.rays(), selection->object, kMostLampsDrawnLive))
+         lampsThatMatter(walk.placed(), walk.rays(), selection->object, mostLamps_))
         if (l < lights.size() && lights[l].node == walk.placed().lights[l].node)
             paths.push_back(lights[l].path);
     blend_.want(std::move(paths));

@@ -59,6 +59,7 @@ private:
     const Group& scene_;
     std::shared_ptr<RadiosityNode> node_;
     LightBlend blend_;
+    std::size_t mostLamps_;     ///< drawn live
     std::uint64_t lampsOf_ = 0; ///< revision of the walkthrough, and
     ObjectId lampsFor_;         ///< the object, that live lamps were chosen for
     std::shared_ptr<const Transform> inHand_;
