@@ -37,7 +37,7 @@ struct Room {
         for (std::uint32_t t = 0; t < count; ++t) {
             random = random * 1664525 + 1013904223; // Numerical Recipes
             const float change = float(random >> 8) / float(1 << 24);
-            tasks.push_back({clusters.placeOf[t / kSenders], t, 20 * change * change, 1, 0});
+            tasks.push_back({clusters.placeOf[t / kSenders], t, {20 * change * change, 1, 1}, 0});
         }
     }
 

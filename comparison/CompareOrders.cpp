@@ -27,20 +27,13 @@ struct Truth {
 };
 using Truths = std::vector<Truth>;
 
-SolverOptions optionsFor(const OrderUnderTest& order, SolverOptions options) {
-    const bool plain = order.kind == OrderUnderTest::Kind::plain;
-    options.order = plain ? UpdateOrder::plain : UpdateOrder::bound;
-    return options;
-}
-
-/// A scene that is played under one order.
+/// A scene that is played.
 class Player {
 public:
-    Player(const Playback& playback, const OrderUnderTest& order, const ComparisonOptions& options)
-        : playback_(playback), order_(order), options_(options),
-          placed_(playback.show(playback.frames.front())),
-          lit_(placed_, options.meshing, optionsFor(order, options.solving)) {
-        lit_.solver().settle();
+    Player(const Playback& playback, const ComparisonOptions& options)
+        : playback_(playback), options_(options), placed_(playback.show(playback.frames.front())),
+          lit_(placed_, options.meshing, options.solving) {
+        settle();
         look();
     }
 
@@ -52,22 +45,35 @@ public:
         if (!followed.rebuilt) moved_ = followed.change.objects;
         look();
     }
+    /// In no order that is watched.
+    void settle() {
+        lit_.solver().setOrder(UpdateOrder::importance);
+        lit_.solver().settle();
+    }
 
-    /// Tells the solver in which order to go about it, as a viewer would at each frame. \param
-    /// truth for the order that knows it
-    void order(const Truth& truth) {
+    /// Tells the solver in which order to go about it, as a viewer would at each frame.
+    /// \param truth for the order that knows it
+    /// \param before the cut, if there is one
+    void order(const OrderUnderTest& order, const Truth& truth, bool before) {
         using Kind = OrderUnderTest::Kind;
         Solver& solver = lit_.solver();
-        if (order_.kind == Kind::random)
-            solver.setOrder(std::make_shared<RandomOrder>(order_.seed));
-        if (order_.kind == Kind::importance) solver.attend(attention());
-        if (order_.kind == Kind::oracle)
-            solver.setOrder(std::make_shared<OracleOrder>(lit_.patches(), solver.emitterRows(),
-                                                          truth.factors, *drawn_, adaptation_));
+        switch (order.kind) {
+        case Kind::plain:
+            return solver.setOrder(UpdateOrder::plain);
+        case Kind::bound:
+            return solver.setDirectOrder(std::make_shared<BoundOrder>());
+        case Kind::random:
+            return solver.setDirectOrder(std::make_shared<RandomOrder>(order.seed));
+        case Kind::importance:
+            return solver.attend(attention(order, before));
+        case Kind::oracle:
+            return solver.setDirectOrder(std::make_shared<OracleOrder>(
+                lit_.patches(), solver.emitterRows(), truth.factors, *drawn_, adaptation_));
+        }
     }
 
     LitScene& lit() { return lit_; }
-    double pixelsPerDegree() const { return viewpoint().pixelsPerDegree(); }
+    double pixelsPerDegree() const { return viewpoint(view_).pixelsPerDegree(); }
     Picture picture() const {
         return {options_.width, options_.height, drawn_->colours(lit_.solver().lighting())};
     }
@@ -80,8 +86,10 @@ private:
             std::make_unique<DrawnView>(lit_.patches(), view_, options_.width, options_.height);
         adaptation_ = meanAdaptation(luminances().values);
     }
-    Viewpoint viewpoint() const { return Viewpoint(view_, options_.width, options_.height); }
-    Attention attention() const {
+    Viewpoint viewpoint(const View& view) const {
+        return Viewpoint(view, options_.width, options_.height);
+    }
+    Attention attention(const OrderUnderTest& order, bool before) const {
         std::optional<Bounds> moved;
         for (ObjectId object : moved_) {
             if (!moved) moved.emplace();
@@ -89,12 +97,11 @@ private:
         }
         GazeHints hints;
         if (moved) hints.dragged = glm::dvec3(moved->centre());
-        const Viewpoint from = viewpoint();
-        return {from, Gaze(from, hints), adaptation_, moved, order_.factors};
+        const Viewpoint from = viewpoint(before ? playback_.viewBefore(placed_) : view_);
+        return {from, Gaze(from, hints), adaptation_, moved, order.factors};
     }
 
     const Playback& playback_;
-    const OrderUnderTest& order_;
     const ComparisonOptions& options_;
     PlacedScene placed_;
     LitScene lit_;
@@ -107,25 +114,28 @@ private:
 /// One edit, worked off and looked at every now and then.
 class Watch {
 public:
-    Watch(Player& player, const Truth& truth, const ComparisonOptions& options, OrderResult& result,
-          bool film)
-        : player_(player), truth_(truth), options_(options), result_(result), film_(film),
-          before_(player.lit().solver().done()) {
+    /// \param cut after so much work the viewer looks elsewhere [rays]; 0: never
+    Watch(Player& player, const OrderUnderTest& order, const Truth& truth,
+          const ComparisonOptions& options, OrderResult& result, bool film, double cut)
+        : player_(player), order_(order), truth_(truth), options_(options), result_(result),
+          film_(film), cut_(cut), before_(player.lit().solver().done()) {
         result_.frames.emplace_back();
     }
 
     void run() {
         look();
         Solver& solver = player_.lit().solver();
-        const double begun = now();
-        player_.order(truth_);
-        seconds_ += now() - begun;
+        tellOrder(cut_ > 0);
         bool more = true;
         for (double next = options_.firstLook; more;
              next = std::max(next, work()) * options_.growth) {
-            const double start = now();
-            while (more && work() < next)
+            while (more && work() < next) {
+                const double start = now();
                 more = solver.work(std::size_t(std::clamp((next - work()) / 8, 512.0, 65536.0)));
+                seconds_ += now() - start;
+                if (cut_ > 0 && work() >= cut_) cut_ = 0, tellOrder(false);
+            }
+            const double start = now();
             solver.sumUp();
             seconds_ += now() - start;
             look();
@@ -137,6 +147,11 @@ public:
     }
 
 private:
+    void tellOrder(bool beforeCut) {
+        const double start = now();
+        player_.order(order_, truth_, beforeCut);
+        seconds_ += now() - start;
+    }
     /// Since the edit.
     double work() const { return player_.lit().solver().done().inRays() - before_.inRays(); }
 
@@ -156,37 +171,35 @@ private:
     }
 
     Player& player_;
+    const OrderUnderTest& order_;
     const Truth& truth_;
     const ComparisonOptions& options_;
     OrderResult& result_;
     bool film_;
+    double cut_;
     WorkDone before_;
     double seconds_ = 0;
     std::size_t filmed_ = 0;
 };
 
-/// Settles every frame, to know what is to come out.
-Truths findTruths(const Playback& playback, const ComparisonOptions& options,
-                  ComparisonResult& result, const Progress& progress) {
-    Truths truths;
-    const OrderUnderTest order{.name = "truth"};
-    Player player(playback, order, options);
-    for (std::size_t i = 1; i < playback.frames.size(); ++i) {
-        if (progress) progress("the settled light", double(i) / double(playback.frames.size()));
-        player.edit(playback.frames[i]);
-        player.lit().solver().settle();
-        truths.push_back({player.luminances(), factorsOf(player.lit().solver().emitterRows(),
-                                                         player.lit().patches().vertices.size())});
-        result.frames.push_back(playback.frames[i]);
-        if (int(i) - 1 != options.filmFrame) continue;
-        result.truth = player.picture();
-        result.pixelsPerDegree = player.pixelsPerDegree();
-    }
+/// Settles a frame, to know what is to come out.
+Truth findTruth(Player& player, double frame, double& work) {
+    Solver& solver = player.lit().solver();
+    const double before = solver.done().inRays();
+    player.edit(frame);
+    player.settle();
+    work = player.lit().solver().done().inRays() - before;
+    return {player.luminances(),
+            factorsOf(player.lit().solver().emitterRows(), player.lit().patches().vertices.size())};
+}
+
+void describe(Player& player, ComparisonResult& result) {
     const PatchSet& patches = player.lit().patches();
     result.elements = patches.elements.size();
     result.patches = patches.patches.size();
     result.lamps = patches.emitters.size();
-    return truths;
+    result.truth = player.picture();
+    result.pixelsPerDegree = player.pixelsPerDegree();
 }
 
 } // namespace
@@ -204,6 +217,8 @@ std::vector<OrderUnderTest> allOrders() {
     std::vector<OrderUnderTest> orders = usualOrders();
     const std::pair<const char*, bool ValueFactors::*> factors[] = {
         {"no-change", &ValueFactors::change},
+        {"no-look", &ValueFactors::look},
+        {"no-feedback", &ValueFactors::feedback},
         {"no-contrast", &ValueFactors::contrast},
         {"no-size", &ValueFactors::size},
         {"no-frustum", &ValueFactors::frustum},
@@ -215,6 +230,13 @@ std::vector<OrderUnderTest> allOrders() {
         order.factors.*factor = false;
         orders.push_back(order);
     }
+    for (std::uint32_t seed = 2; seed <= 5; ++seed)
+        orders.push_back({.kind = OrderUnderTest::Kind::random,
+                          .name = "random" + std::to_string(seed),
+                          .seed = seed});
+    OrderUnderTest geometry{.kind = OrderUnderTest::Kind::importance, .name = "geometry"};
+    geometry.factors.change = geometry.factors.contrast = false;
+    orders.push_back(geometry);
     return orders;
 }
 
@@ -222,16 +244,25 @@ ComparisonResult compareOrders(const Playback& playback, const std::vector<Order
                                const ComparisonOptions& options, const Progress& progress) {
     ComparisonResult result;
     result.filmFrame = options.filmFrame;
-    const Truths truths = findTruths(playback, options, result, progress);
-    for (const OrderUnderTest& order : orders) {
-        OrderResult& one = result.orders.emplace_back();
-        one.name = order.name;
-        Player player(playback, order, options);
-        player.order(truths.front()); // what is found once, a viewer has found long before
-        for (std::size_t i = 1; i < playback.frames.size(); ++i) {
-            if (progress) progress(order.name.c_str(), double(i) / double(playback.frames.size()));
+    for (const OrderUnderTest& order : orders) result.orders.emplace_back().name = order.name;
+    if (progress) progress("the light at first", 0);
+    Player player(playback, options);
+    const double steps = double(playback.frames.size() - 1) * double(orders.size());
+    for (std::size_t i = 1; i < playback.frames.size(); ++i) {
+        const bool film = int(i) - 1 == options.filmFrame;
+        double work = 0;
+        const Truth truth = findTruth(player, playback.frames[i], work);
+        result.frames.push_back(playback.frames[i]);
+        if (film) describe(player, result);
+        for (std::size_t o = 0; o < orders.size(); ++o) {
+            if (progress)
+                progress(orders[o].name.c_str(),
+                         (double(i - 1) * double(orders.size()) + double(o)) / steps);
+            player.edit(playback.frames[i - 1]);
+            player.settle();
             player.edit(playback.frames[i]);
-            Watch(player, truths[i - 1], options, one, int(i) - 1 == options.filmFrame).run();
+            const double cut = playback.viewBefore ? options.cutAt * work : 0;
+            Watch(player, orders[o], truth, options, result.orders[o], film, cut).run();
         }
     }
     return result;

@@ -44,13 +44,16 @@ struct ComparisonOptions {
     double growth = 1.25;            ///< of the work until the next look; > 1
     std::vector<double> filmSeconds; ///< the film strip's moments, ascending [s]
     int filmFrame = 0;               ///< which of the edits the film strip shows: index of a frame
+    double cutAt = 0.1;              ///< share of the work before a cut, see Playback::viewBefore
 };
 
 /// What plays: the scene at a frame, and the view of it.
 struct Playback {
     std::vector<double> frames; ///< the first is where it starts; each later one is an edit
     std::function<PlacedScene(double frame)> show;
-    std::function<View(const PlacedScene&)> view;
+    std::function<View(const PlacedScene&)> view; ///< in which the error is measured
+    /// If there is one, what the viewer looks at first, until a share of the work is done: a cut.
+    std::function<View(const PlacedScene&)> viewBefore{};
 };
 
 /// One picture of the film strip: the first that was there at or after its moment.
@@ -82,7 +85,8 @@ struct ComparisonResult {
 /// Plays under each order. The truth of each frame is the settled solution of the same mesh, found
 /// by a solver that is not watched. Pictures are as drawn.
 ///
-/// Settling between edits, so that each starts from the same light whatever the order.
+/// One scene plays all of it: for each order it goes back to the frame before, settles, and takes
+/// the edit again, so that each starts from the same light whatever the order.
 /// \param progress called with a phase and the share done in [0, 1]
 ComparisonResult compareOrders(const Playback& playback, const std::vector<OrderUnderTest>& orders,
                                const ComparisonOptions& options, const Progress& progress = {});

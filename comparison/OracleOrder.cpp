@@ -45,8 +45,8 @@ WorkQueue::Task OracleOrder::rank(const BlockOfWork& work) const {
         gain += workValue({pixels_[v], perThreshold_, false}, nits, 1);
     }
     WorkQueue::Task task;
-    task.change = float(gain);
-    task.cost = float(work.cost);
+    task.worth.change = float(gain);
+    task.worth.cost = float(work.cost);
     return task;
 }
 

@@ -1,5 +1,7 @@
 #include "importance/OrderOfWork.h"
 
+#include "importance/ContrastSensitivity.h"
+
 #include <algorithm>
 #include <limits>
 #include <numbers>
@@ -14,8 +16,8 @@ constexpr PlaceValue kLinear{1e-9, 1e9, false};
 WorkQueue::Task taskFor(std::uint32_t place, double change, double cost) {
     WorkQueue::Task task;
     task.place = place;
-    task.change = float(change);
-    task.cost = float(cost);
+    task.worth.change = float(change);
+    task.worth.cost = float(cost);
     return task;
 }
 
@@ -52,16 +54,33 @@ PlaceValue RandomOrder::value(std::uint32_t) const {
 }
 
 WorkQueue::Task ImportanceOrder::rank(const BlockOfWork& work) const {
-    // A block that has come since then is of something small: its place is behind all others.
+    // What has no place of its own belongs to several: all of that counts as one more.
     const bool known =
         work.block < placeOf_.size() && placeOf_[work.block] != PlaceClusters::kNowhere;
     const auto none = std::uint32_t(placeOf_.size());
-    return taskFor(known ? placeOf_[work.block] : none, work.bound / std::numbers::pi, work.cost);
+    const double change = work.expected ? work.expected->change : work.bound;
+    WorkQueue::Task task =
+        taskFor(known ? placeOf_[work.block] : none, change * std::numbers::inv_pi, work.cost);
+    if (work.expected) task.worth.share = float(work.expected->share);
+    return task;
 }
 PlaceValue ImportanceOrder::value(std::uint32_t place) const {
-    if (place >= placeOf_.size()) return {1e-12, 1, false};
+    if (!attention_) return {1e-12, 1, false};
+    if (place >= placeOf_.size()) return averageValue();
     const Sight sight = look_(place);
-    return placeValue(sight.place, attention_, sight.seen);
+    return placeValue(sight.place, *attention_, sight.seen);
+}
+
+/// Of a place in the picture, if a quarter of all is.
+PlaceValue ImportanceOrder::averageValue() const {
+    PlaceValue value;
+    const double places = std::max(1.0, double(placeOf_.size()) / 4);
+    value.weight = attention_->factors.size ? attention_->viewpoint.pixels() / places : 1;
+    value.anyChange = !attention_->factors.change;
+    if (attention_->factors.contrast)
+        value.perThreshold =
+            peakContrastSensitivity(attention_->adaptation) / attention_->adaptation;
+    return value;
 }
 
 } // namespace penumbra

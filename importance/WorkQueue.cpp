@@ -18,31 +18,50 @@ bool WorkQueue::before(std::uint32_t a, std::uint32_t b) const {
 
 /// At least the value of any task of a place, also after rounding.
 double WorkQueue::boundOf(const Place& at) {
-    return at.tasks.empty() ? 0 : (1 + 1e-9) * workValue(at.value, at.mostChange, at.leastCost);
+    return at.tasks.empty() ? 0 : (1 + 1e-6) * workValue(at.value, at.mostChange, at.leastCost);
 }
 
-void WorkQueue::add(const Task& task) {
-    assert(task.cost > 0 && task.change >= 0);
+double WorkQueue::valueOf(const Place& at, const Worth& worth) const {
+    return workValue(at.value, worth.change, double(worth.cost) / double(worth.share));
+}
+
+WorkQueue::Handle WorkQueue::add(const Task& task) {
     if (free_.empty()) {
         free_.push_back(std::uint32_t(slots_.size()));
         slots_.emplace_back();
     }
-    const std::uint32_t slot = free_.back();
+    const Handle handle = free_.back();
     free_.pop_back();
-    slots_[slot] = {task, ++serial_};
-    ages_.push_back({serial_, slot});
+    Slot& slot = slots_[handle];
+    slot.task = task;
+    slot.serial = ++serial_;
+    ages_.push_back({serial_, handle});
     ++size_;
+    insert(handle);
+    return handle;
+}
 
-    Place& at = placeAt(task.place);
-    at.mostChange = std::max(at.mostChange, task.change);
-    at.leastCost = std::min(at.leastCost, task.cost);
-    at.tasks.push_back({workValue(at.value, task.change, task.cost), serial_, slot});
+void WorkQueue::rank(Handle handle, const Worth& worth) {
+    slots_[handle].task.worth = worth;
+    insert(handle);
+}
+
+/// Puts a task in the list of its place; what stood there for it counts no more.
+void WorkQueue::insert(Handle handle) {
+    Slot& slot = slots_[handle];
+    const Worth& worth = slot.task.worth;
+    assert(worth.cost > 0 && worth.change >= 0 && worth.share > 0);
+    slot.chosen = false;
+    Place& at = placeAt(slot.task.place);
+    at.mostChange = std::max(at.mostChange, worth.change);
+    at.leastCost = std::min(at.leastCost, worth.cost / worth.share);
+    at.tasks.push_back({valueOf(at, worth), slot.serial, handle, ++slot.ranking});
     if (at.ordered) std::push_heap(at.tasks.begin(), at.tasks.end());
     if (at.position == kOut) {
         at.position = heap_.size();
-        heap_.push_back(task.place);
+        heap_.push_back(slot.task.place);
     }
-    settle(task.place);
+    settle(slot.task.place);
 }
 
 /// A place whose value is that of the last rekey().
@@ -75,22 +94,22 @@ void WorkQueue::rekey(std::uint32_t index, const PlaceValue& value) {
 
 /// Ranks all tasks of a place, and finds its exact key and bounds.
 void WorkQueue::order(Place& at) {
-    std::erase_if(at.tasks, [&](const Ranked& ranked) { return taken(ranked); });
+    std::erase_if(at.tasks, [&](const Ranked& ranked) { return stale(ranked); });
     at.mostChange = 0;
     at.leastCost = std::numeric_limits<float>::infinity();
     for (Ranked& ranked : at.tasks) {
-        const Task& task = slots_[ranked.slot].task;
-        ranked.value = workValue(at.value, task.change, task.cost);
-        at.mostChange = std::max(at.mostChange, task.change);
-        at.leastCost = std::min(at.leastCost, task.cost);
+        const Worth& worth = slots_[ranked.slot].task.worth;
+        ranked.value = valueOf(at, worth);
+        at.mostChange = std::max(at.mostChange, worth.change);
+        at.leastCost = std::min(at.leastCost, worth.cost / worth.share);
     }
     std::make_heap(at.tasks.begin(), at.tasks.end());
     at.ordered = true;
 }
 
-/// Tasks that were overdue are gone from their place's list only now.
-void WorkQueue::skipTaken(Place& at) {
-    while (!at.tasks.empty() && taken(at.tasks.front())) {
+/// Tasks that were removed or ranked anew leave their place's list only now.
+void WorkQueue::skipStale(Place& at) {
+    while (!at.tasks.empty() && stale(at.tasks.front())) {
         std::pop_heap(at.tasks.begin(), at.tasks.end());
         at.tasks.pop_back();
     }
@@ -99,7 +118,7 @@ void WorkQueue::skipTaken(Place& at) {
 /// Brings a place of the heap to where it belongs, or takes it out if nothing is left in it.
 void WorkQueue::settle(std::uint32_t index) {
     Place& at = places_[index];
-    if (at.ordered) skipTaken(at);
+    if (at.ordered) skipStale(at);
     if (at.tasks.empty()) {
         const std::size_t hole = std::exchange(at.position, kOut);
         at.mostChange = 0;
@@ -115,27 +134,24 @@ void WorkQueue::settle(std::uint32_t index) {
     rise(at.position), sink(at.position);
 }
 
-WorkQueue::Task WorkQueue::remove(std::uint32_t slot) {
-    const Task task = slots_[slot].task;
-    slots_[slot].serial = 0;
-    free_.push_back(slot);
+void WorkQueue::remove(Handle handle) {
+    Slot& slot = slots_[handle];
+    assert(slot.serial != 0);
+    slot.serial = 0;
+    free_.push_back(handle);
     --size_;
-    return task;
 }
 
-WorkQueue::Task WorkQueue::takeBest() {
-    for (;;) {
+/// The most valuable task that is in a list, if there is any.
+std::optional<WorkQueue::Handle> WorkQueue::best() {
+    while (!heap_.empty()) {
         const std::uint32_t index = heap_.front();
         Place& at = places_[index];
-        if (!at.ordered) {
-            order(at);
-            settle(index);
-            continue;
-        }
-        const Task task = remove(at.tasks.front().slot);
+        if (at.ordered && !stale(at.tasks.front())) return at.tasks.front().slot;
+        if (!at.ordered) order(at);
         settle(index);
-        return task;
     }
+    return {};
 }
 
 const WorkQueue::Age* WorkQueue::front() {
@@ -144,22 +160,34 @@ const WorkQueue::Age* WorkQueue::front() {
     return ages_.empty() ? nullptr : &ages_.front();
 }
 
-std::optional<WorkQueue::Task> WorkQueue::take(double now) {
+std::optional<WorkQueue::Choice> WorkQueue::choose(double now) {
     const Age* const oldest = front();
     if (!oldest) return {};
     const Task& task = slots_[oldest->slot].task;
     const bool overdue = now - task.since >= fairness_.patience;
     if (!overdue) owed_ = 0;
-    if (overdue && owed_ >= task.cost * (1 - fairness_.reserve)) {
-        owed_ -= task.cost * (1 - fairness_.reserve);
-        const std::uint32_t index = task.place;
-        const Task taken = remove(oldest->slot);
-        settle(index);
-        return taken;
-    }
-    const Task best = takeBest();
-    if (overdue) owed_ += fairness_.reserve * best.cost;
-    return best;
+    const bool itsTurn = overdue && !slots_[oldest->slot].chosen &&
+                         owed_ >= task.worth.cost * (1 - fairness_.reserve);
+    const std::optional<Handle> chosen = itsTurn ? oldest->slot : best();
+    if (!chosen) return {};
+    slots_[*chosen].chosen = true;
+    return Choice{*chosen, slots_[*chosen].task, itsTurn};
+}
+
+void WorkQueue::finish(const Choice& choice) {
+    const double cost = slots_[choice.handle].task.worth.cost;
+    if (choice.overdue)
+        owed_ -= cost * (1 - fairness_.reserve);
+    else
+        owed_ += cost * fairness_.reserve;
+    remove(choice.handle);
+}
+
+std::optional<WorkQueue::Task> WorkQueue::take(double now) {
+    const std::optional<Choice> choice = choose(now);
+    if (!choice) return {};
+    finish(*choice);
+    return choice->task;
 }
 
 double WorkQueue::oldest(double now) {

@@ -19,6 +19,9 @@ namespace penumbra {
 /// the tasks there may be worth; the tasks themselves are only put in order when their place's turn
 /// comes. The order is nevertheless exactly that of the tasks' values, ties broken by age.
 ///
+/// What is known of a task may change while it is open: rank() puts it where it belongs now, and it
+/// keeps its age.
+///
 /// Nothing starves. A task that has waited for `patience` is overdue; of the cost of all work taken
 /// from then on, the share `reserve` goes to what is overdue, the oldest first. So with work of
 /// cost P ahead of it in age, itself among it, a task that was added at time t is taken before work
@@ -33,15 +36,21 @@ public:
     explicit WorkQueue(Fairness fairness) : fairness_(fairness) {}
     WorkQueue() : WorkQueue(Fairness()) {}
 
-    /// A piece of open work; `id` and `ticket` are the caller's.
+    /// What a task is ranked by, besides its place.
+    struct Worth {
+        float change = 0; ///< of luminance where it changes, see workValue() [nit]
+        float share = 1;  ///< of the place that changes, in (0, 1]
+        float cost = 1;   ///< > 0
+    };
+    /// A piece of open work; `id` is the caller's.
     struct Task {
         std::uint32_t place = 0;
         std::uint64_t id = 0;
-        std::uint32_t ticket = 0;
-        float change = 0; ///< of luminance, see workValue() [nit]
-        float cost = 1;   ///< > 0
+        Worth worth;
         double since = 0; ///< when it was added
     };
+    using Handle = std::uint32_t; ///< of a task that is open
+
     /// What work at a place is worth as the viewer sees it now.
     using Value = std::function<PlaceValue(std::uint32_t place)>;
     /// Asks anew for all places, those with open work at once, others when work comes there.
@@ -51,10 +60,24 @@ public:
 
     /// Adds a task. Before the first rekey() all are worth nothing.
     /// \param task its `since` may not be before that of tasks added earlier
-    void add(const Task& task);
+    Handle add(const Task& task);
+    /// A task is worth something else now.
+    void rank(Handle handle, const Worth& worth);
+    /// A task is not open any more.
+    void remove(Handle handle);
 
-    /// Takes the most valuable task, or the oldest if that is overdue and has its share.
+    struct Choice {
+        Handle handle = 0;
+        Task task;
+        bool overdue = false; ///< comes for its age, not for its worth
+    };
+    /// The most valuable task, or the oldest if that is overdue and has its share. It stays open
+    /// and grows older, but is not chosen again before rank(); or it is done, see finish().
     /// \param now in any unit that rises; nothing if there is no work
+    std::optional<Choice> choose(double now);
+    /// A task that was chosen is going to be done.
+    void finish(const Choice& choice);
+    /// Chooses a task to be done.
     std::optional<Task> take(double now);
 
     std::size_t size() const { return size_; }
@@ -67,7 +90,7 @@ private:
     struct Ranked {
         double value;
         std::uint64_t serial;
-        std::uint32_t slot;
+        std::uint32_t slot, ranking;
         bool operator<(const Ranked& o) const { // comes later
             return value != o.value ? value < o.value : serial > o.serial;
         }
@@ -77,14 +100,16 @@ private:
         std::uint32_t keyed = 0;   ///< at which rekey() it was asked for
         std::vector<Ranked> tasks; ///< a heap once it is `ordered`
         bool ordered = false;
-        float mostChange = 0; ///< of any task here
-        float leastCost = std::numeric_limits<float>::infinity();
+        float mostChange = 0;                                     ///< of any task here
+        float leastCost = std::numeric_limits<float>::infinity(); ///< over share
         double key = 0;              ///< of the best task, or a bound of it
         std::size_t position = kOut; ///< in heap_
     };
     struct Slot {
         Task task;
-        std::uint64_t serial = 0; ///< 0: free
+        std::uint64_t serial = 0;  ///< 0: free
+        std::uint32_t ranking = 0; ///< how often it was ranked
+        bool chosen = false;       ///< and not ranked since
     };
     struct Age {
         std::uint64_t serial;
@@ -95,11 +120,16 @@ private:
     Place& placeAt(std::uint32_t index);
     bool before(std::uint32_t a, std::uint32_t b) const;
     static double boundOf(const Place& place);
-    bool taken(const Ranked& ranked) const { return slots_[ranked.slot].serial != ranked.serial; }
+    double valueOf(const Place& place, const Worth& worth) const;
+    void insert(Handle handle);
+    /// Whether an entry of a place's list counts for nothing any more.
+    bool stale(const Ranked& ranked) const {
+        const Slot& slot = slots_[ranked.slot];
+        return slot.serial != ranked.serial || slot.ranking != ranked.ranking || slot.chosen;
+    }
     void order(Place& place);
-    void skipTaken(Place& place);
-    Task remove(std::uint32_t slot);
-    Task takeBest();
+    void skipStale(Place& place);
+    std::optional<Handle> best();
     const Age* front();
     void place(std::size_t position, std::uint32_t index);
     void rise(std::size_t position);

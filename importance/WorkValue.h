@@ -22,11 +22,13 @@ struct WorkPlace {
 
 /// Which of the factors count: all, but for those who measure what each is worth.
 struct ValueFactors {
-    bool change = true;       ///< how far the light may change; else all changes count alike
-    bool contrast = true;     ///< what of it can be seen at all; else luminance counts as it is
-    bool size = true;         ///< how many pixels it covers
-    bool frustum = true;      ///< whether it is in the picture
-    bool occlusion = true;    ///< whether something stands in front of it
+    bool change = true;    ///< how far the light may change; else all changes count alike
+    bool look = true;      ///< looking at work for what to expect of it; else all that is possible
+    bool feedback = true;  ///< what came of the work beside it
+    bool contrast = true;  ///< what of it can be seen at all; else luminance counts as it is
+    bool size = true;      ///< how many pixels it covers
+    bool frustum = true;   ///< whether it is in the picture
+    bool occlusion = true; ///< whether something stands in front of it
     bool eccentricity = true; ///< how far it is from the centre of gaze
     bool proximity = true;    ///< how near it is to what is being moved
 };

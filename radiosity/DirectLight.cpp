@@ -165,16 +165,25 @@ bool DirectLight::updateRows(std::size_t effort, double enough) {
         known.area = float(emitter.area);
         return known;
     };
-    const auto update = [&](RowBuilder& builder, const OpenBlock& item,
-                            std::span<const MovedObject> moved, std::size_t) {
+    const auto receiversFor = [&](const OpenBlock& item) {
         const bool present = set_.objects[set_.emitters[item.row].object.value].present &&
                              set_.objects[set_.vertexBlockObject[item.block].value].present;
         ReceiverBlock receivers{receiversOf(item.block), 0, 0};
         if (present && item.anew != 0) receivers.wanted = ~hidden(item.row, item.block, item.anew);
+        return receivers;
+    };
+    const auto expect = [&](ChangeLook& look, const OpenBlock& item,
+                            std::span<const MovedObject> moved) {
+        return look.at(emitters_[item.row], receiversFor(item), item.anew, moved,
+                       table_[item.row][item.block]);
+    };
+    const auto update = [&](RowBuilder& builder, const OpenBlock& item,
+                            std::span<const MovedObject> moved, std::size_t) {
+        const ReceiverBlock receivers = receiversFor(item);
         return builder.updateEmitterBlock(emitters_[item.row], receivers, item.anew, moved,
                                           table_[item.row][item.block]);
     };
-    for (const OpenBlock& item : updates_.work(effort, enough, facts, update))
+    for (const OpenBlock& item : updates_.work(effort, enough, facts, update, expect))
         touchBlock(item.block);
     return true;
 }

@@ -18,6 +18,15 @@ struct OpenBlock {
     std::uint64_t anew = 0;  ///< bits: entries to be evaluated anew
     std::uint32_t since = 0; ///< how many edits its entries have taken in
     float factor = 0;        ///< F V of no entry changes by more
+    bool look = false;       ///< from next(): is to be looked at first, see expect()
+    bool overdue = false;    ///< from next(): comes for its age
+};
+
+/// How F V of a block's entries may be expected to change.
+struct ExpectedFactor {
+    float factor = 0; ///< mean over those that change
+    float share = 1;  ///< of them, in (0, 1]
+    float rays = 0;   ///< that it takes to find out
 };
 
 /// Open work, with a bound of what it may change found before any ray is traced. An entry of a
@@ -54,11 +63,22 @@ public:
     void open(std::uint32_t row, std::span<const OpenBlock> blocks);
     /// Closes all of a row.
     void drop(std::uint32_t row);
-    /// Closes the next block, to be worked on now.
+    /// The next block. It stays open: it is to be closed and worked on now, or ranked again by
+    /// expect() or putBack().
     /// \param enough what may stay open on each block of receivers [lm/m^2]; 0: nothing
     /// \param steps tasks of the queue to go through at most; those that were are taken off
     /// \return nothing: none is left, or no step
+    std::optional<OpenBlock> next(double enough, std::size_t& steps);
+    /// Is worked on, and not open any more. \param block from next()
+    void close(const OpenBlock& block);
+    /// What is expected of an open block; one that is not open is left alone.
+    void expect(std::uint32_t row, std::uint32_t block, const ExpectedFactor& expected);
+    void putBack(const OpenBlock& block); ///< from next(): not now
+    /// next() and close().
     std::optional<OpenBlock> take(double enough, std::size_t& steps);
+    /// What came of a block says what to expect of those beside it.
+    /// \param share of its entries that changed, in [0, 1]
+    void learn(const OpenBlock& done, float share);
 
     /// Whether take() may give anything.
     bool pending(double enough) const { return count_ > 0 && (enough <= 0 || !urgent_.empty()); }
@@ -80,7 +100,9 @@ private:
         std::uint64_t anew;
         std::uint32_t block, since;
         float factor;
-        std::uint32_t ticket; ///< its task in a queue has the same; 0: closed
+        WorkQueue::Handle handle = 0; ///< in its queue
+        bool open = false, putOff = false, looked = false;
+        ExpectedFactor expected{}; ///< if it was looked at
     };
     struct RowList {
         std::vector<Entry> entries; ///< by block
@@ -91,10 +113,12 @@ private:
         double light = 0, factor = 0;
         std::uint32_t count = 0;
     };
+    WorkQueue::Task task(std::uint32_t row, const Entry& entry) const;
     void enqueue(std::uint32_t row, Entry& entry);
-    void clearQueues();
+    void enqueueAnew(std::uint32_t row, Entry& entry);
     void add(std::uint32_t block, double factor, double power, int count);
-    Entry* find(const WorkQueue::Task& task);
+    Entry* find(std::uint32_t row, std::uint32_t block);
+    WorkQueue& queueOf(const Entry& entry) { return entry.putOff ? later_ : urgent_; }
 
     std::vector<RowList> rows_;
     std::vector<Sum> sums_;            ///< a block of receivers each
@@ -103,7 +127,6 @@ private:
     std::shared_ptr<const OrderOfWork> order_;
     WorkQueue urgent_, later_; ///< later_: those that were put off
     std::size_t count_ = 0;
-    std::uint32_t tickets_ = 0;
     double taken_ = 0; ///< cost of all work so far: the queues' clock
 };
 

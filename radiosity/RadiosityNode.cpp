@@ -66,7 +66,7 @@ struct RadiosityNode::Impl {
 /// The scene as it was told. Sizes that followed from it at first are kept, so that it is meshed
 /// alike wherever things stand now.
 void RadiosityNode::Impl::writeTask(ByteWriter& out) const {
-    LightingTask task{options.meshing, options.solving, options.order, {}};
+    LightingTask task{options.meshing, options.solving, {}};
     if (shown) {
         const MeshingOptions& sizes = shown->sizes();
         if (task.meshing.patchSize == 0) task.meshing.patchSize = sizes.patchSize;
@@ -235,6 +235,11 @@ void RadiosityNode::setTrigger(Trigger trigger) {
     impl_->look(*this); // edits so far belong to the trigger so far
     impl_->gate.setTrigger(trigger);
     impl_->client.send(MessageKind::trigger, std::uint32_t(trigger));
+}
+
+void RadiosityNode::setOrder(UpdateOrder order) {
+    impl_->options.solving.order = order; // what another process is told
+    impl_->client.send(MessageKind::order, std::uint32_t(order));
 }
 
 void RadiosityNode::setTrigger(const Node& node, std::optional<Trigger> trigger) {

@@ -84,7 +84,9 @@ public:
 
     /// Has what lies in a box, or is crossed by light through it, evaluated anew [m, this frame].
     void invalidate(const Bounds& box);
-    /// From where the scene is seen; what is in view may come first.
+    /// Which of the open work comes first, from now on. The light that comes out is the same.
+    void setOrder(UpdateOrder order);
+    /// From where the scene is seen: in the order of importance, what is in view comes first.
     void setCamera(const View& view);
     /// Lamps of which each one's own light is wanted as well, by their paths as Placed<Light> and
     /// Emitter have them, at most kMostLiveLamps: LitMeshData::lamps has one entry each, in this

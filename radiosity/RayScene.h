@@ -65,7 +65,8 @@ public:
     void occluded(ShadowRays& rays) const;
     bool occluded(glm::vec3 origin, glm::vec3 target) const;
     /// The same against one object alone. For a segment that nothing else blocks, the answer is
-    /// that of the whole scene, bit for bit; not so if the segment runs along a face up to rounding.
+    /// that of the whole scene, bit for bit; not so if the segment runs along a face up to
+    /// rounding.
     void occludedBy(ObjectId object, ShadowRays& rays) const;
     enum class Faces { both, front };
     /// The nearest triangle, up to `reach` times the length of `direction`; on request only of

@@ -13,6 +13,7 @@ namespace {
 
 /// What finding costs: looking into a row; and each block that is found [rays].
 constexpr std::size_t kLook = 16, kOpen = 2;
+constexpr std::size_t kMostLooks = 64; ///< at blocks, at a time
 
 /// Bound of the form factor, F <= cos A / (pi d^2), of a sender onto any receiver in a box.
 float factorBound(const RowUpdates::RowFacts& sender, const Bounds& receivers) {
@@ -162,21 +163,57 @@ void RowUpdates::allFound() {
     toDo_ = open_.count();
 }
 
-std::span<const OpenBlock> RowUpdates::work(std::size_t effort, double enough, const Facts& facts,
-                                            const Update& update) {
+/// Looks at all that is to be looked at. \return what it cost, about [rays]
+std::size_t RowUpdates::lookAt(const Expect& expect) {
+    constexpr std::size_t kGrain = 8;
+    while (looks_.size() < kMostLooks / kGrain) looks_.emplace_back(rayScene_);
+    std::vector<ExpectedFactor> expected(unseen_.size());
+    parallelFor(unseen_.size(), kGrain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            expected[i] = expect(looks_[first / kGrain], unseen_[i], movedSince(unseen_[i].since));
+    });
+    for (std::size_t i = 0; i < unseen_.size(); ++i)
+        open_.expect(unseen_[i].row, unseen_[i].block, expected[i]);
+    for (ChangeLook& look : looks_) rays_ += look.takeRayCount();
+    const std::size_t cost = unseen_.size() * ChangeLook::kCost;
+    unseen_.clear();
+    return cost;
+}
+
+/// Takes what is to be worked on next. Blocks that might come first are looked at before that: only
+/// when no other could be worth more, by what is known of it, is one of them taken.
+void RowUpdates::choose(std::size_t effort, double enough, const Expect& expect) {
     items_.clear();
+    std::size_t steps = effort;
+    for (std::size_t sum = 0; sum < effort;) {
+        const std::optional<OpenBlock> item = open_.next(enough, steps);
+        if (item && item->look && expect) {
+            unseen_.push_back(*item);
+            if (unseen_.size() == kMostLooks) sum += lookAt(expect);
+        } else if (!unseen_.empty()) {
+            if (item) open_.putBack(*item);
+            sum += lookAt(expect);
+        } else if (item) {
+            open_.close(*item);
+            items_.push_back(*item);
+            sum += open_.cost(*item);
+        } else {
+            break;
+        }
+    }
+    if (!unseen_.empty()) lookAt(expect);
+}
+
+std::span<const OpenBlock> RowUpdates::work(std::size_t effort, double enough, const Facts& facts,
+                                            const Update& update, const Expect& expect) {
     if (!found()) {
+        items_.clear();
         find(effort, facts);
         return {};
     }
-    std::size_t steps = effort;
-    for (std::size_t sum = 0; sum < effort;) {
-        const std::optional<OpenBlock> item = open_.take(enough, steps);
-        if (!item) break;
-        items_.push_back(*item);
-        sum += open_.cost(*item);
-    }
+    choose(effort, enough, expect);
     const auto items = std::span<const OpenBlock>(items_);
+    std::vector<int> entriesOf(items.size());
     const std::size_t tasks = (items.size() + grain_ - 1) / grain_;
     while (builders_.size() < std::min<std::size_t>(tasks, 64)) builders_.emplace_back(rayScene_);
     // A builder a task of a round: results do not depend on which thread does what.
@@ -190,6 +227,7 @@ std::span<const OpenBlock> RowUpdates::work(std::size_t effort, double enough, c
             for (std::size_t i = begin; i < end; ++i) {
                 const OpenBlock& item = items[first + i];
                 const int entries = update(builder, item, movedSince(item.since), first + i);
+                entriesOf[first + i] = entries;
                 if (entries == 0) continue;
                 changed[begin / grain_] += std::uint64_t(entries);
                 RowTable::listBlockers(set_, item.row, item.block, table_[item.row][item.block],
@@ -199,6 +237,8 @@ std::span<const OpenBlock> RowUpdates::work(std::size_t effort, double enough, c
         for (std::uint64_t n : changed) entriesChanged_ += n;
         for (const auto& some : notes) table_.note(some);
     }
+    for (std::size_t i = 0; i < items.size(); ++i)
+        if (items[i].anew == 0) open_.learn(items[i], float(entriesOf[i]) / PatchSet::kBlock);
     for (RowBuilder& builder : builders_) rays_ += builder.takeRayCount();
     blocksVisited_ += items.size();
     if (open_.count() == 0) moved_.clear(), movedWhen_.clear();

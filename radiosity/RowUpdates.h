@@ -1,6 +1,7 @@
 // Bringing rows up to date, a bounded piece of work at a time.
 #pragma once
 
+#include "radiosity/ChangeLook.h"
 #include "radiosity/OpenWork.h"
 #include "radiosity/PatchSet.h"
 #include "radiosity/RowBuilder.h"
@@ -49,12 +50,15 @@ public:
     /// changed for it.
     using Update = std::function<int(RowBuilder& builder, const OpenBlock& item,
                                      std::span<const MovedObject> moved, std::size_t index)>;
+    /// Says what to expect of a block, if the order asks for it; called on several threads.
+    using Expect = std::function<ExpectedFactor(ChangeLook& look, const OpenBlock& item,
+                                                std::span<const MovedObject> moved)>;
     /// Does a piece of about `effort` rays' worth: finds what edits concern, or works on it.
     /// \param enough what may stay open, see OpenWork::take()
     /// \param update called for each item on several threads; `index` counts from 0
     /// \return the items that were worked on, valid until the next call
     std::span<const OpenBlock> work(std::size_t effort, double enough, const Facts& facts,
-                                    const Update& update);
+                                    const Update& update, const Expect& expect = {});
     /// Most items that work() returns for an effort.
     std::size_t mostItems(std::size_t effort) const { return effort / visitCost_ + 1; }
 
@@ -79,6 +83,8 @@ private:
     };
     void find(std::size_t effort, const Facts& facts);
     void allFound();
+    void choose(std::size_t effort, double enough, const Expect& expect);
+    std::size_t lookAt(const Expect& expect);
     /// What is looked through at a time: all of a row, or some blocks of one with very many.
     struct Look {
         std::uint32_t row = 0;
@@ -106,8 +112,9 @@ private:
     std::vector<MovedObject> moved_;       ///< since open work was opened; the last moved last
     std::vector<std::uint32_t> movedWhen_; ///< the last edit that moved each of them
     OpenWork open_;
-    std::vector<OpenBlock> items_;
+    std::vector<OpenBlock> items_, unseen_; ///< to be worked on; to be looked at
     std::vector<RowBuilder> builders_;
+    std::vector<ChangeLook> looks_;
     RayCount rays_;
     std::uint64_t blocksVisited_ = 0, entriesChanged_ = 0;
     std::size_t toDo_ = 0; ///< blocks that were open when the last edit had been found

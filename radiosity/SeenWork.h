@@ -18,24 +18,28 @@ namespace penumbra {
 class SeenWork {
 public:
     /// All must outlive this and the order.
-    SeenWork(const PatchSet& patches, const RayScene& rays, const DirectLight& light,
-             const Attention& attention);
+    SeenWork(const PatchSet& patches, const RayScene& rays, const DirectLight& light);
 
     /// Objects were placed anew, hidden or shown.
     void follow(std::span<const ObjectId> objects) { places_.follow(objects); }
     /// What the viewer sees now. To take effect, the queue is to be keyed anew.
-    void attend(const Attention& attention) { order_->attend(attention); }
+    /// \param attention an adaptation of 0 is found from what is in view
+    /// \param ambient about what indirect light adds everywhere [lux]
+    void attend(const Attention& attention, double ambient);
 
     std::shared_ptr<const OrderOfWork> order() const { return order_; }
     std::uint64_t rays() const { return rayCount_; } ///< to the eye, so far
 
 private:
     ImportanceOrder::Sight look(std::uint32_t place);
+    WorkPlace placeNow(std::uint32_t place) const;
+    double adaptationTo(const Viewpoint& viewpoint) const;
 
     const RayScene& rays_;
     const DirectLight& light_;
     VertexPlaces places_;
     std::shared_ptr<ImportanceOrder> order_;
+    double ambient_ = 0; ///< [lux]
     std::uint64_t rayCount_ = 0;
 };
 

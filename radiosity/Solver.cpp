@@ -37,26 +37,38 @@ Solver::Solver(const PatchSet& patches, const RayScene& rays, const SolverOption
         indirect_ = std::make_unique<IndirectLight>(patches, rays, direct_, options.rowMemory,
                                                     options.flatPatches);
     if (indirect_ && options.detail) detail_ = std::make_unique<DetailGather>(patches);
-    if (options.order != UpdateOrder::plain) return;
-    setOrder(std::make_shared<PlainOrder>());
-    if (indirect_) indirect_->setOrder(std::make_shared<PlainOrder>());
+    if (options.order != UpdateOrder::importance) setOrder(options.order);
 }
 
 Solver::~Solver() = default;
 
 void Solver::attend(const Attention& attention) {
-    if (options_.order == UpdateOrder::plain) return;
+    attention_ = attention;
+    if (options_.order != UpdateOrder::importance) return;
+    const double ambient = meanRadiosity();
     if (seen_) {
-        seen_->attend(attention);
+        seen_->attend(attention, ambient);
         direct_.rekey();
     } else {
-        seen_ = std::make_unique<SeenWork>(set_, rays_, direct_, attention);
+        seen_ = std::make_unique<SeenWork>(set_, rays_, direct_);
+        seen_->attend(attention, ambient);
         direct_.setOrder(seen_->order());
     }
 }
 
-void Solver::setOrder(std::shared_ptr<const OrderOfWork> order) {
+void Solver::setOrder(UpdateOrder order) {
+    options_.order = order;
+    std::shared_ptr<const OrderOfWork> all = std::make_shared<BoundOrder>();
+    if (order == UpdateOrder::plain) all = std::make_shared<PlainOrder>();
+    if (order == UpdateOrder::random) all = std::make_shared<RandomOrder>(1);
+    setDirectOrder(all);
+    if (indirect_) indirect_->setOrder(all);
+    if (attention_) attend(*attention_);
+}
+
+void Solver::setDirectOrder(std::shared_ptr<const OrderOfWork> order) {
     direct_.setOrder(std::move(order));
+    seen_.reset();
 }
 
 void Solver::apply(const SceneChange& change) {

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,9 +25,10 @@ namespace penumbra {
 class SeenWork;
 
 /// Which of the open work comes first; never what comes out.
-enum class UpdateOrder {
-    bound, ///< what may change most; what a viewer sees of it first, if one is known
-    plain, ///< sender by sender: the original method, and the yardstick
+enum class UpdateOrder : std::uint8_t {
+    importance, ///< what the viewer gains most from; if there is none, what may change most
+    plain,      ///< sender by sender: the original method, and the yardstick
+    random      ///< the same each time
 };
 
 struct SolverOptions {
@@ -36,7 +38,7 @@ struct SolverOptions {
     /// with.
     double residual = 0;
     bool directOnly = false;
-    UpdateOrder order = UpdateOrder::bound;
+    UpdateOrder order = UpdateOrder::importance;
     bool detail = true; ///< shadows of indirect light finer than patches, see DetailGather
     /// 0: no limit if `residual` is given, else what keeps a scene of very many patches to minutes.
     std::uint64_t mostShots = 0;
@@ -105,11 +107,14 @@ public:
     /// Takes note that light which ends in a box or crosses it [m, world] is to be evaluated anew.
     void invalidate(const Bounds& region);
 
-    /// What the viewer sees now, and the object being moved: open work on direct light is done in
-    /// the order of what the viewer gains from it, from now on. Nothing in the plain order.
+    /// What the viewer sees now, and the object being moved: in the order of importance, open work
+    /// on direct light is done in that of what the viewer gains from it, from now on. Without an
+    /// adaptation, that is found from what is in view.
     void attend(const Attention& attention);
-    /// Another order for the work on direct light, as for measurements.
-    void setOrder(std::shared_ptr<const OrderOfWork> order);
+    /// Another order for what is open and for what comes.
+    void setOrder(UpdateOrder order);
+    /// Another order for the work on direct light alone, as for measurements.
+    void setDirectOrder(std::shared_ptr<const OrderOfWork> order);
 
     /// Works for `budget` seconds, or until everything is settled, and returns whether it is. What
     /// it leaves undone it goes on with at the next call.
@@ -180,7 +185,8 @@ private:
     const RayScene& rays_;
     SolverOptions options_;
     DirectLight direct_;
-    std::unique_ptr<SeenWork> seen_;          ///< once a viewer is known
+    std::optional<Attention> attention_;      ///< of the viewer, if there is one
+    std::unique_ptr<SeenWork> seen_;          ///< in the order of importance
     std::unique_ptr<IndirectLight> indirect_; ///< null: direct light only
     std::unique_ptr<DetailGather> detail_;
     bool handedOver_ = false; ///< whether the indirect light knows of the direct light as it is

@@ -18,7 +18,8 @@ VertexPlaces::VertexPlaces(const PatchSet& patches, std::size_t most) : patches_
     std::vector<std::uint32_t> objects;
     for (std::uint32_t b = 0; b < blocks.size(); ++b) {
         objects.push_back(patches.vertexBlockObject[b].value);
-        blocks[b].box.add(patches.vertices[b * kBlock].position);
+        if (b < patches.firstPrivate / kBlock) // others are of any surface, here and there
+            blocks[b].box.add(patches.vertices[b * kBlock].position);
     }
     clusters_ = clusterBlocks(blocks, objects, most);
     firstBlock_.assign(size(), 0);
@@ -89,18 +90,23 @@ WorkPlace VertexPlaces::at(std::uint32_t index, std::span<const Rgb> light) cons
     return place;
 }
 
-VertexPlaces::Sight VertexPlaces::sight(std::uint32_t place, const RayScene& rays,
-                                        glm::vec3 eye) const {
+VertexPlaces::Sight VertexPlaces::sight(std::uint32_t index, const RayScene& rays,
+                                        const Viewpoint& viewpoint) const {
+    const glm::vec3 eye(*viewpoint.eye());
+    const float area = clusters_.places[index].area;
     Sight sight;
-    int seen = 0, count = 0;
-    forSome(place, kSightSamples, [&](std::size_t v) {
+    float count = 0;
+    forSome(index, kSightSamples, [&](std::size_t v) {
         const Receiver& receiver = patches_.vertices[v].receiver;
+        const Bounds point{receiver.position, receiver.position};
         ++count;
         if (glm::dot(eye - receiver.position, receiver.normal) <= 0) return;
-        seen += !rays.occluded(receiver.position, eye);
+        if (viewpoint.regionOf(point) != Viewpoint::Region::picture) return;
         ++sight.rays;
+        if (rays.occluded(receiver.position, eye)) return;
+        sight.pixels += float(viewpoint.pixelsOf(point, receiver.normal, area));
     });
-    if (count > 0) sight.share = float(seen) / float(count);
+    if (count > 0) sight.pixels /= count;
     return sight;
 }
 

@@ -29,15 +29,18 @@ public:
     /// that came later.
     const std::vector<std::uint32_t>& placeOf() const { return clusters_.placeOf; }
 
+    /// A place as it stands; its luminance is not known.
+    const WorkPlace& known(std::uint32_t place) const { return clusters_.places[place]; }
     /// A place as it is now. \param light illuminance of the vertices [lux]
     WorkPlace at(std::uint32_t place, std::span<const Rgb> light) const;
     /// How much of a place can be seen from somewhere.
     struct Sight {
-        float share = 0; ///< in [0, 1]
-        int rays = 0;    ///< that this cost
+        float pixels = 0; ///< that an average block of it covers
+        int rays = 0;     ///< that this cost
     };
-    /// By a ray to each of up to eight vertices spread over it; what is turned away is not seen.
-    Sight sight(std::uint32_t place, const RayScene& rays, glm::vec3 eye) const;
+    /// By a ray to each of up to eight vertices spread over it; what is turned away or not in the
+    /// picture is not seen. \pre the viewpoint is in the scene
+    Sight sight(std::uint32_t place, const RayScene& rays, const Viewpoint& viewpoint) const;
 
 private:
     void measure();

@@ -26,7 +26,7 @@ namespace {
 
 struct CompareCommand {
     SolveSettings solve;
-    std::string output, json, camera, orders;
+    std::string output, json, camera, cutFrom, orders;
     int width = 480, height = 0;
     double looks = 1.25;
     int filmFrame = 0;
@@ -48,6 +48,11 @@ Playback playbackOf(const CompareCommand& command, LoadedScene& loaded) {
         return viewOf(placed, loaded.scene->upAxis, command.camera, command.solve.scene,
                       command.width, command.height);
     };
+    if (!command.cutFrom.empty())
+        playback.viewBefore = [&command, &loaded](const PlacedScene& placed) {
+            return viewOf(placed, loaded.scene->upAxis, command.cutFrom, command.solve.scene,
+                          command.width, command.height);
+        };
     return playback;
 }
 
@@ -55,6 +60,7 @@ ComparisonOptions optionsOf(const CompareCommand& command, const LoadedScene& lo
     ComparisonOptions options;
     options.meshing = command.solve.meshing;
     options.solving = command.solve.solver;
+    if (options.solving.residual == 0) options.solving.residual = loaded.scene->residual;
     if (options.meshing.patchSize == 0) options.meshing.patchSize = float(loaded.scene->patchSize);
     options.width = command.width;
     options.height = command.height;
@@ -99,6 +105,8 @@ ReportOptions reportOptions(const CompareCommand& command, const ComparisonResul
         {"scene", name},
         {"frames", command.solve.frames},
         {"camera", command.camera.empty() ? "the first one" : command.camera},
+        {"cut",
+         command.cutFrom.empty() ? "none" : "from " + command.cutFrom + " after 10 % of the work"},
         {"pictures", fmt::format("{} x {} pixels, {:.1f} pixels per degree", command.width,
                                  command.height, result.pixelsPerDegree)},
         {"elements", std::to_string(result.elements)},
@@ -158,10 +166,14 @@ void addCompareCommand(CLI::App& app) {
         "compare", "How soon the picture is right under each order of work: an HTML report.\n"
                    "Example: penumbra compare scenes/office-seat.usda --frames 1:8 -o seat.html");
     addSolveOptions(*compare, command->solve);
+    compare->remove_option(compare->get_option("--order")); // several are compared
     compare->add_option("-o,--output", command->output, "HTML file to write")->required();
     compare->add_option("--json", command->json,
                         "All figures as JSON (default: beside the HTML file)");
     compare->add_option("--camera", command->camera, "Path of the camera (default: the first one)");
+    compare->add_option("--cut-from", command->cutFrom,
+                        "Camera the viewer looks through first: after a tenth of the work, they\n"
+                        "look through --camera, in which the error is measured all the time");
     compare->add_option("--width", command->width, "Of the pictures that are compared [pixels]")
         ->capture_default_str()
         ->check(CLI::Range(16, 4096));
@@ -176,8 +188,8 @@ void addCompareCommand(CLI::App& app) {
         ->check(CLI::Range(1.01, 10.0));
     compare->add_option(
         "--orders", command->orders,
-        "Orders to compare, with commas: plain, importance, random, bound, oracle,\n"
-        "or importance without one of its factors, as 'no-occlusion'\n"
+        "Orders to compare, with commas: plain, importance, random (random2 ... random5),\n"
+        "bound, geometry, oracle, or importance without one of its factors, as 'no-occlusion'\n"
         "(default: plain,importance,random,bound,oracle)");
     compare->add_option("--film", command->filmFrame,
                         "Frame of the film strip (default: the second one)");

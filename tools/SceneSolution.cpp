@@ -58,6 +58,15 @@ void addSolveOptions(CLI::App& command, SolveSettings& settings) {
     command.add_flag("--direct-only", settings.solver.directOnly,
                      "Light straight from the emitters, no interreflection");
     command
+        .add_option("--order", settings.order,
+                    "What is worked on first after an edit: what the viewer gains most from\n"
+                    "(importance), sender by sender (plain), or anything (random).\n"
+                    "Changes what is right when, not what comes out (default: importance)")
+        ->transform(CLI::CheckedTransformer(
+            std::map<std::string, UpdateOrder>{{"importance", UpdateOrder::importance},
+                                               {"plain", UpdateOrder::plain},
+                                               {"random", UpdateOrder::random}}));
+    command
         .add_option("--frame", settings.frame,
                     "Time code of the file's animation to show (default: its start)")
         ->check(number);
@@ -176,6 +185,8 @@ void SceneSolution::mesh(const MeshingOptions& meshing) {
         try {
             SolverOptions solving = settings_.solver;
             if (solving.residual == 0) solving.residual = loaded_.scene->residual;
+            if (loaded_.scene->order == "plain") solving.order = UpdateOrder::plain;
+            if (settings_.order) solving.order = *settings_.order;
             lit_ = std::make_unique<LitScene>(placed_, meshing, solving);
         } catch (const Error& error) {
             progress_.clear();

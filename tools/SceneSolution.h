@@ -31,6 +31,7 @@ struct SolveSettings {
     bool fromScratch = false;
     MeshingOptions meshing;
     SolverOptions solver;
+    std::optional<UpdateOrder> order; ///< none: what the file asks for, or importance
     unsigned threads = 0;
     std::string stats;
     bool verbose = false;

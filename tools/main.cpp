@@ -10,9 +10,10 @@ int main(int argc, char** argv) {
     // A full disk or a closed pipe is told by the failing write, not by a signal.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
-    CLI::App app{"Penumbra: soft, physically right light for scenes in which things move.\n"
-                 "Reads USD text (.usda), solves radiosity, shows it in a window or writes lit frames.\n",
-                 "penumbra"};
+    CLI::App app{
+        "Penumbra: soft, physically right light for scenes in which things move.\n"
+        "Reads USD text (.usda), solves radiosity, shows it in a window or writes lit frames.\n",
+        "penumbra"};
     app.set_version_flag("--version", "penumbra " PENUMBRA_VERSION);
     app.require_subcommand(1);
     app.footer(

@@ -12,6 +12,7 @@ namespace penumbra {
 namespace {
 
 constexpr const char* kTriggers[] = {"on grab and release", "on demand (U)", "continuously"};
+constexpr const char* kOrders[] = {"what is seen first", "lamp by lamp", "at random"};
 
 void drawCertificate(const PanelState& state) {
     const RadiosityState& light = state.light;
@@ -43,6 +44,9 @@ void drawLightPanel(PanelState& state) {
     int trigger = int(state.trigger);
     if (ImGui::Combo("update", &trigger, kTriggers, int(std::size(kTriggers))))
         state.trigger = Trigger(trigger);
+    int order = int(state.order);
+    if (ImGui::Combo("order", &order, kOrders, int(std::size(kOrders))))
+        state.order = UpdateOrder(order);
     if (light.held > 0) {
         ImGui::Text("%zu edits held back", light.held);
         ImGui::SameLine();

@@ -49,6 +49,7 @@ struct PanelState {
     ToneStyle tone = ToneStyle::agx;
     Overlay overlay = Overlay::none;
     Trigger trigger = Trigger::continuous;
+    UpdateOrder order = UpdateOrder::importance;
     RadiosityState light;
     InteractiveStatistics drawn;
     History frameMilliseconds; ///< from frame to frame

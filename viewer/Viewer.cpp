@@ -109,6 +109,7 @@ Viewer::Viewer(const ViewerOptions& options)
     state_.showPanels = settings_.panels;
     state_.trigger = settings_.trigger;
     state_.exposure.setCompensation(settings_.compensation);
+    state_.order = options.light.solving.order;
     state_.patchSize = options.light.meshing.patchSize;
     state_.elementSize = options.light.meshing.elementSize;
 }
@@ -172,6 +173,8 @@ void Viewer::openScene(ReadyScene ready) {
     if (!again && !options_.record.empty())
         session_.emplace(*walk_, options_.scene, options_.record);
     state_.recording = session_.has_value();
+    if (!again && optionsOf(walk_->scene()).solving.order == UpdateOrder::plain)
+        state_.order = UpdateOrder::plain;
     lightScene();
     stale_ = kAfterglow;
 }
@@ -180,7 +183,7 @@ void Viewer::lightScene() {
     RadiosityOptions how = options_.light;
     how.trigger = state_.trigger;
     const RadiosityOptions asked = optionsOf(walk_->scene());
-    how.order = asked.order;
+    how.solving.order = state_.order;
     how.meshing.patchSize = state_.patchSize > 0 ? state_.patchSize : asked.meshing.patchSize;
     how.meshing.elementSize =
         state_.elementSize > 0 ? state_.elementSize : asked.meshing.elementSize;
@@ -265,6 +268,7 @@ void Viewer::doAsAsked() {
     if (std::exchange(state_.wantsReload, false)) reload();
     if (std::exchange(state_.wantsRestart, false) && walk_) lightScene();
     if (light_) light_->setTrigger(state_.trigger);
+    if (light_) light_->setOrder(state_.order);
 }
 
 void Viewer::takeEvents() {

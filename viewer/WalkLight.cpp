@@ -14,7 +14,7 @@ WalkLight::WalkLight(const Walkthrough& walk, const RadiosityOptions& options,
                      std::unique_ptr<LightingLink> link, const BlendOptions& blend)
     : scene_(*walk.scene().root),
       node_(std::make_shared<RadiosityNode>("lit", options, std::move(link))), blend_(blend),
-      trigger_(options.trigger) {
+      trigger_(options.trigger), order_(options.solving.order) {
     node_->add(walk.scene().root);
 }
 
@@ -40,6 +40,10 @@ void WalkLight::chooseLamps(const Walkthrough& walk) {
         if (l < lights.size() && lights[l].node == walk.placed().lights[l].node)
             paths.push_back(lights[l].path);
     blend_.want(std::move(paths));
+}
+
+void WalkLight::setOrder(UpdateOrder order) {
+    if (std::exchange(order_, order) != order) node_->setOrder(order);
 }
 
 bool WalkLight::update(const Walkthrough& walk, const View& view) {

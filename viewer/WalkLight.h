@@ -32,6 +32,7 @@ public:
     bool update(const Walkthrough& walk, const View& view);
 
     void setTrigger(Trigger trigger);
+    void setOrder(UpdateOrder order);
     void requestUpdate() { node_->requestUpdate(); }
 
     /// What is to be drawn in a view: the lit surfaces, and the meshes and lights of objects that
@@ -64,6 +65,7 @@ private:
     ObjectId lampsFor_;         ///< the object, that live lamps were chosen for
     std::shared_ptr<const Transform> inHand_;
     Trigger trigger_;
+    UpdateOrder order_;
     glm::dmat4 seenFrom_{0.0};
     std::uint64_t blocks_ = 0;
     RadiosityState::Phase phase_ = RadiosityState::Phase::off;

@@ -20,7 +20,6 @@ void write(ByteWriter& out, const LightingTask& task, const GraphImage& scene) {
     out.put(mostShots);
     out.put(std::uint64_t(rowMemory));
     out.put(std::uint64_t(flatPatches));
-    out.put(std::uint8_t(task.order));
     write(out, scene);
 }
 
@@ -37,17 +36,15 @@ std::optional<LightingTask> readLightingTask(ByteReader& in) {
     task.solving.samples = in.get<std::int32_t>();
     task.solving.residual = in.get<double>();
     task.solving.directOnly = in.get<std::uint8_t>() != 0;
-    const auto solverOrder = in.get<std::uint8_t>();
-    task.solving.order = UpdateOrder(solverOrder);
+    const auto order = in.get<std::uint8_t>();
+    task.solving.order = UpdateOrder(order);
     task.solving.detail = in.get<std::uint8_t>() != 0;
     task.solving.mostShots = in.get<std::uint64_t>();
     task.solving.rowMemory = in.get<std::uint64_t>();
     task.solving.flatPatches = in.get<std::uint64_t>();
-    const auto order = in.get<std::uint8_t>();
-    task.order = WorkPlan(order);
     if (task.solving.samples < 1 || task.solving.samples > 64 ||
         !std::isfinite(task.solving.residual) || task.solving.residual < 0 ||
-        order > std::uint8_t(WorkPlan::plain) || solverOrder > std::uint8_t(UpdateOrder::plain))
+        order > std::uint8_t(UpdateOrder::random))
         return std::nullopt;
     auto scene = readGraphImage(in);
     if (!scene) return std::nullopt;

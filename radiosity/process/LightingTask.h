@@ -11,7 +11,6 @@ namespace penumbra {
 struct LightingTask {
     MeshingOptions meshing;
     SolverOptions solving;
-    WorkPlan order = WorkPlan::importance;
     GraphImage scene;
 };
 

@@ -107,14 +107,16 @@ void LightingWorker::take(MessageKind kind, ByteReader& message) {
         stopped_ = true;
         break;
     case MessageKind::camera:
-        camera_ = message.get<View>();
+        viewer_.setCamera(message.get<View>());
         break;
-    case MessageKind::grab:
-        grabbed_.insert(message.get<std::uint32_t>());
+    case MessageKind::order: {
+        const auto order = message.get<std::uint32_t>();
+        if (order > std::uint32_t(UpdateOrder::random)) senseless("an order of work");
+        viewer_.setOrder(UpdateOrder(order));
         break;
+    }
+    case MessageKind::grab: // what is in a hand is known by its moving
     case MessageKind::release:
-        grabbed_.erase(message.get<std::uint32_t>());
-        break;
     case MessageKind::trigger: // what is held back is held by the node
     case MessageKind::update:
         message.get<std::uint32_t>();
@@ -134,6 +136,7 @@ void LightingWorker::takeScene(const std::string& name) {
     ByteReader reader(region->bytes());
     task_ = readLightingTask(reader);
     if (!task_) senseless("a scene");
+    viewer_.setOrder(task_->solving.order);
     graph_ = std::make_unique<GraphCopy>(std::move(task_->scene));
     publisher_.reset();
     lit_.reset();
@@ -157,6 +160,12 @@ void LightingWorker::followScene() {
     const LitScene::Followed followed = lit_->follow(placed);
     for (const Bounds& box : std::exchange(invalid_, {})) lit_->invalidate(box);
     if (followed.rebuilt) return build();
+    std::optional<Bounds> moved;
+    for (ObjectId object : followed.change.objects) {
+        if (!moved) moved.emplace();
+        moved->add(boundsOf(lit_->patches(), object));
+    }
+    viewer_.setMoved(moved);
     publisher_->follow(followed.change);
     if (publisher_->outgrown()) requestStore();
 }
@@ -171,6 +180,7 @@ void LightingWorker::build() {
     publisher_.reset();
     invalid_.clear();
     if (!lit_) lit_ = std::make_unique<LitScene>(placed, task_->meshing, task_->solving);
+    viewer_.solverIsNew();
     objectFrames_.clear();
     for (const Object& object : placed.objects) objectFrames_.push_back(object.toWorld);
     publisher_ = std::make_unique<LightPublisher>(*lit_);
@@ -236,6 +246,7 @@ void LightingWorker::solve(double budget) {
         directDone_ |= std::strcmp(phase, "direct light") != 0;
     };
     Solver& solver = lit_->solver();
+    viewer_.tell(solver, seconds());
     bool done = false; // this much
     if (!settled_)
         done = settled_ = solver.stepUntilReady(budget, progress);

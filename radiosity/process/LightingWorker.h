@@ -6,13 +6,13 @@
 #include "radiosity/process/GraphCopy.h"
 #include "radiosity/process/LightPublisher.h"
 #include "radiosity/process/LightingTask.h"
+#include "radiosity/process/ViewerAttention.h"
 #include "scenegraph/Camera.h"
 
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
-#include <unordered_set>
 #include <vector>
 
 namespace penumbra {
@@ -65,8 +65,7 @@ private:
     std::unique_ptr<LightPublisher> publisher_;
     std::vector<glm::dmat4> objectFrames_; ///< when it was meshed
     std::vector<Bounds> invalid_;
-    std::optional<View> camera_;                ///< from where it is seen
-    std::unordered_set<std::uint32_t> grabbed_; ///< nodes of the graph in someone's hand
+    ViewerAttention viewer_;
     std::uint32_t lampSet_ = 0;
     std::vector<std::string> lamps_;
     bool marked_ = false; ///< stale blocks of live lamps are known, if not yet published

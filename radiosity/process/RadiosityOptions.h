@@ -16,17 +16,10 @@ enum class Trigger {
     continuous ///< at once, while it is being dragged as well
 };
 
-/// Which open work comes first.
-enum class WorkPlan {
-    importance, ///< what is seen most
-    plain       ///< sender by sender
-};
-
 struct RadiosityOptions {
     MeshingOptions meshing{};
     SolverOptions solving{};
     Trigger trigger = Trigger::implicit;
-    WorkPlan order = WorkPlan::importance;
     unsigned threads = 0; ///< 0: one a core, but one is left to the renderer
     int niceness = 5;     ///< of a process, see nice(1)
     /// Nothing heard from the other side for so long: it hangs [s].

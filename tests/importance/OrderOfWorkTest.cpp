@@ -93,19 +93,21 @@ protected:
 };
 
 TEST_F(TwoPlaces, ImportanceTakesWhatTheViewerSees) {
-    ImportanceOrder order({0, 1}, sight, looking(0));
+    ImportanceOrder order({0, 1}, sight);
+    order.attend(looking(0));
     // Sender 1 may change 8 times as much on what is behind the viewer; it comes last all the same.
     EXPECT_THAT(sorted(order, kWork), ElementsAre(0, 2, 1, 3));
     order.attend(looking(180));
     EXPECT_THAT(sorted(order, kWork), ElementsAre(1, 3, 0, 2));
 }
 
-TEST_F(TwoPlaces, ImportanceLeavesWhatHasNoPlaceForLast) {
-    const ImportanceOrder order({PlaceClusters::kNowhere, 1}, sight, looking(0));
+TEST_F(TwoPlaces, ImportanceCountsWhatHasNoPlaceAsSomethingInView) {
+    ImportanceOrder order({PlaceClusters::kNowhere, 1}, sight);
+    order.attend(looking(0));
     EXPECT_THAT(sorted(order, {{.row = 0, .block = 0, .bound = 99, .cost = 1},
                                {.row = 0, .block = 7, .bound = 9, .cost = 1},
                                {.row = 0, .block = 1, .bound = 1, .cost = 1}}),
-                ElementsAre(2, 0, 1));
+                ElementsAre(0, 1, 2));
 }
 
 } // namespace

@@ -27,10 +27,10 @@ Ids takeAll(WorkQueue& queue, double now = 0) {
 
 TEST(WorkQueue, TakesTheMostValuableFirst) {
     WorkQueue queue;
-    queue.add({.place = 0, .id = 10, .change = 1});
-    queue.add({.place = 1, .id = 11, .change = 3});
-    queue.add({.place = 0, .id = 12, .change = 2});
-    queue.add({.place = 1, .id = 13, .change = 2, .cost = 4});
+    queue.add({.place = 0, .id = 10, .worth = {.change = 1}});
+    queue.add({.place = 1, .id = 11, .worth = {.change = 3}});
+    queue.add({.place = 0, .id = 12, .worth = {.change = 2}});
+    queue.add({.place = 1, .id = 13, .worth = {.change = 2, .cost = 4}});
     queue.rekey([](std::uint32_t) { return weight(1); });
     EXPECT_THAT(takeAll(queue), ElementsAre(11, 12, 10, 13));
 }
@@ -38,7 +38,7 @@ TEST(WorkQueue, TakesTheMostValuableFirst) {
 TEST(WorkQueue, OfEqualsTakesTheOldest) {
     WorkQueue queue;
     for (std::uint64_t id = 0; id < 6; ++id)
-        queue.add({.place = std::uint32_t(5 - id) % 3, .id = id, .change = 1});
+        queue.add({.place = std::uint32_t(5 - id) % 3, .id = id, .worth = {.change = 1}});
     queue.rekey([](std::uint32_t) { return weight(1); });
     EXPECT_THAT(takeAll(queue), ElementsAre(0, 1, 2, 3, 4, 5));
 }
@@ -47,7 +47,7 @@ TEST(WorkQueue, FollowsTheViewerAtOnce) {
     WorkQueue queue;
     for (std::uint32_t place = 0; place < 4; ++place)
         for (std::uint64_t i = 0; i < 2; ++i)
-            queue.add({.place = place, .id = 10 * place + i, .change = 1});
+            queue.add({.place = place, .id = 10 * place + i, .worth = {.change = 1}});
     queue.rekey([](std::uint32_t place) { return weight(place); });
     EXPECT_EQ(queue.take(0)->id, 30u);
     queue.rekey([](std::uint32_t place) { return weight(4.0 - place); });
@@ -57,7 +57,7 @@ TEST(WorkQueue, FollowsTheViewerAtOnce) {
 TEST(WorkQueue, OnePlaceCanBeKeyedByItself) {
     WorkQueue queue;
     for (std::uint32_t place = 0; place < 3; ++place)
-        queue.add({.place = place, .id = place, .change = 1});
+        queue.add({.place = place, .id = place, .worth = {.change = 1}});
     queue.rekey([](std::uint32_t place) { return weight(3.0 - place); });
     queue.rekey(0, weight(0.5));
     EXPECT_THAT(takeAll(queue), ElementsAre(1, 2, 0));
@@ -65,24 +65,56 @@ TEST(WorkQueue, OnePlaceCanBeKeyedByItself) {
 
 TEST(WorkQueue, WorkThatComesAfterTheViewerMovedIsWorthWhatItIsNow) {
     WorkQueue queue;
-    queue.add({.place = 0, .id = 0, .change = 1});
-    queue.add({.place = 1, .id = 1, .change = 1});
+    queue.add({.place = 0, .id = 0, .worth = {.change = 1}});
+    queue.add({.place = 1, .id = 1, .worth = {.change = 1}});
     queue.rekey([](std::uint32_t place) { return weight(place == 1 ? 9 : 1); });
     EXPECT_EQ(queue.take(0)->id, 1u); // nothing is open at place 1 now
     queue.rekey([](std::uint32_t place) { return weight(place == 1 ? 0.5 : 1); });
-    queue.add({.place = 1, .id = 2, .change = 1});
-    queue.add({.place = 7, .id = 3, .change = 1.5});
+    queue.add({.place = 1, .id = 2, .worth = {.change = 1}});
+    queue.add({.place = 7, .id = 3, .worth = {.change = 1.5}});
     EXPECT_THAT(takeAll(queue), ElementsAre(3, 0, 2));
 }
 
 TEST(WorkQueue, WorkAddedLaterTakesItsRank) {
     WorkQueue queue;
-    queue.add({.place = 0, .id = 0, .change = 1});
-    queue.add({.place = 0, .id = 1, .change = 3});
+    queue.add({.place = 0, .id = 0, .worth = {.change = 1}});
+    queue.add({.place = 0, .id = 1, .worth = {.change = 3}});
     queue.rekey([](std::uint32_t) { return weight(1); });
     EXPECT_EQ(queue.take(0)->id, 1u);
-    queue.add({.place = 0, .id = 2, .change = 2});
+    queue.add({.place = 0, .id = 2, .worth = {.change = 2}});
     EXPECT_THAT(takeAll(queue), ElementsAre(2, 0));
+}
+
+TEST(WorkQueue, RanksATaskAnewWithoutMakingItYounger) {
+    WorkQueue queue;
+    const auto first = queue.add({.place = 0, .id = 0, .worth = {.change = 1}, .since = 1});
+    queue.add({.place = 1, .id = 1, .worth = {.change = 2}, .since = 2});
+    queue.rekey([](std::uint32_t) { return weight(1); });
+    queue.rank(first, {.change = 3});
+    EXPECT_EQ(queue.oldest(9), 1);
+    EXPECT_THAT(takeAll(queue), ElementsAre(0, 1));
+}
+
+TEST(WorkQueue, WhatIsChosenToBeLookedAtComesBackWhereItBelongs) {
+    WorkQueue queue;
+    for (std::uint64_t id = 0; id < 3; ++id)
+        queue.add({.place = 0, .id = id, .worth = {.change = float(9 - id)}});
+    queue.rekey([](std::uint32_t) { return weight(1); });
+    const auto looked = queue.choose(0);
+    EXPECT_EQ(looked->task.id, 0u);
+    EXPECT_EQ(queue.choose(0)->task.id, 1u); // not the same again
+    EXPECT_EQ(queue.size(), 3u);
+    queue.rank(looked->handle, {.change = 1, .share = 0.5f});
+    EXPECT_THAT(takeAll(queue), ElementsAre(2, 0));
+}
+
+TEST(WorkQueue, CountsChangesByTheShareOfThePlaceThatChanges) {
+    WorkQueue queue;
+    queue.add({.place = 0, .id = 0, .worth = {.change = 4, .share = 0.25f}});
+    queue.add({.place = 0, .id = 1, .worth = {.change = 4, .share = 0.5f}});
+    queue.add({.place = 1, .id = 2, .worth = {.change = 4, .share = 0.125f}});
+    queue.rekey([](std::uint32_t) { return weight(1); });
+    EXPECT_THAT(takeAll(queue), ElementsAre(1, 0, 2));
 }
 
 /// What an overdue test needs: much work that is worth more coming all the time.
@@ -91,7 +123,7 @@ struct Dragging {
     double done = 0, now = 0; ///< cost
 
     void keepBusy(std::uint64_t id) {
-        queue.add({.place = 1, .id = id, .change = 10, .since = now});
+        queue.add({.place = 1, .id = id, .worth = {.change = 10}, .since = now});
         queue.rekey(1, weight(100));
     }
 };
@@ -100,13 +132,13 @@ TEST(WorkQueue, NothingStarvesWhileNewWorkIsWorthMore) {
     Dragging drag;
     constexpr double kHidden = 40; // tasks of cost 1 that nobody sees
     for (std::uint64_t id = 0; id < kHidden; ++id)
-        drag.queue.add({.place = 0, .id = id, .change = 1, .since = 0});
+        drag.queue.add({.place = 0, .id = id, .worth = {.change = 1}, .since = 0});
     drag.queue.rekey([](std::uint32_t) { return weight(1e-3); });
     double lastHidden = 0;
     for (std::uint64_t id = 1000; drag.now < 1000; ++id) {
         drag.keepBusy(id);
         const auto task = drag.queue.take(drag.now);
-        drag.now += task->cost;
+        drag.now += task->worth.cost;
         if (task->id < kHidden) {
             EXPECT_GE(drag.now, 100); // not before their time
             lastHidden = drag.now;
@@ -117,11 +149,30 @@ TEST(WorkQueue, NothingStarvesWhileNewWorkIsWorthMore) {
     EXPECT_GE(lastHidden, 100 + 40 / 0.25 - 4); // and no more than its share is spent on it
 }
 
+TEST(WorkQueue, WorkThatIsRankedAgainAndAgainIsDoneInTime) {
+    // Dragging without end: hidden work is told of the drag each time, and keeps its age.
+    Dragging drag;
+    const auto hidden =
+        drag.queue.add({.place = 0, .id = 7, .worth = {.change = 1}, .since = drag.now});
+    drag.queue.rekey([](std::uint32_t) { return weight(1e-3); });
+    for (std::uint64_t id = 1000; drag.now < 1000; ++id) {
+        drag.keepBusy(id);
+        const auto task = drag.queue.take(drag.now);
+        drag.now += task->worth.cost;
+        if (task->id == 7) break;
+        drag.queue.rank(hidden, {.change = float(id % 3)});
+    }
+    EXPECT_GE(drag.now, 100);
+    EXPECT_LE(drag.now, 100 + 1 / 0.25 + 2);
+}
+
 TEST(WorkQueue, PatienceChangesNoOrderBeforeItEnds) {
     WorkQueue patient, fair{{.patience = 50, .reserve = 0.5}};
     for (WorkQueue* queue : {&patient, &fair}) {
         for (std::uint64_t id = 0; id < 30; ++id)
-            queue->add({.place = std::uint32_t(id % 7), .id = id, .change = float(id * 13 % 11)});
+            queue->add({.place = std::uint32_t(id % 7),
+                        .id = id,
+                        .worth = {.change = float(id * 13 % 11)}});
         queue->rekey([](std::uint32_t place) { return weight(place + 1); });
     }
     EXPECT_EQ(takeAll(patient, 49), takeAll(fair, 49));
@@ -130,8 +181,8 @@ TEST(WorkQueue, PatienceChangesNoOrderBeforeItEnds) {
 TEST(WorkQueue, KnowsItsOldestWork) {
     WorkQueue queue;
     EXPECT_EQ(queue.oldest(7), 7);
-    queue.add({.place = 0, .id = 0, .change = 9, .since = 1});
-    queue.add({.place = 0, .id = 1, .change = 1, .since = 3});
+    queue.add({.place = 0, .id = 0, .worth = {.change = 9}, .since = 1});
+    queue.add({.place = 0, .id = 1, .worth = {.change = 1}, .since = 3});
     queue.rekey([](std::uint32_t) { return weight(1); });
     EXPECT_EQ(queue.oldest(7), 1);
     queue.take(7);
@@ -154,10 +205,10 @@ RC_GTEST_PROP(WorkQueue, TakesWhatASortedListWouldHaveFirst, ()) {
     for (int step = 0; step < steps; ++step) {
         const int what = draw(8);
         if (what < 4) {
-            const WorkQueue::Task task{.place = std::uint32_t(draw(6)),
-                                       .id = age,
-                                       .change = float(draw(5)),
-                                       .cost = float(1 + draw(3))};
+            const WorkQueue::Task task{
+                .place = std::uint32_t(draw(6)),
+                .id = age,
+                .worth = {.change = float(draw(5)), .cost = float(1 + draw(3))}};
             queue.add(task);
             list.push_back({task, age++});
         } else if (what == 4) {
@@ -172,8 +223,10 @@ RC_GTEST_PROP(WorkQueue, TakesWhatASortedListWouldHaveFirst, ()) {
             RC_ASSERT(task.has_value() == !list.empty());
             if (!task) continue;
             const auto better = [&](const Open& a, const Open& b) {
-                const double va = workValue(values[a.task.place], a.task.change, a.task.cost);
-                const double vb = workValue(values[b.task.place], b.task.change, b.task.cost);
+                const double va =
+                    workValue(values[a.task.place], a.task.worth.change, a.task.worth.cost);
+                const double vb =
+                    workValue(values[b.task.place], b.task.worth.change, b.task.worth.cost);
                 return va != vb ? va > vb : a.age < b.age;
             };
             const auto best = std::min_element(list.begin(), list.end(), better);

@@ -35,7 +35,7 @@ TEST(Orders, ComeToTheSameLight) {
         std::string said;
         for (int i = 0; i < 3; ++i) {
             for (LitScene* lit : {&plain, &bound}) lit->solver().settle();
-            random.solver().setOrder(std::make_shared<RandomOrder>(seed));
+            random.solver().setDirectOrder(std::make_shared<RandomOrder>(seed));
             random.solver().settle();
             seen.solver().attend(looking(seen, i));
             for (int turns = 0; !seen.solver().step(1e-4); ++turns) // looks around meanwhile

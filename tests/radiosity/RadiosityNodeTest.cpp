@@ -83,6 +83,10 @@ TEST(RadiosityNode, IsInTheEndAsIfSolvedFromScratchWhateverWasDone) {
         std::string done;
         for (int edit = 0; edit < 12; ++edit) {
             done += room.edit() + "; ";
+            node->setOrder(UpdateOrder(edit % 3));
+            glm::dmat4 camera(1.0);
+            camera[3] = {0.1 * edit, 0, 1, 1};
+            node->setCamera(makeView({}, camera, 160, 90));
             node->update(); // some of them are taken in together, some are not
         }
         ASSERT_TRUE(updateUntilSettled(*node))

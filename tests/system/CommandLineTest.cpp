@@ -23,7 +23,7 @@ TEST(CommandLine, HelpOfACommandSaysItsOptions) {
     EXPECT_EQ(render.exitCode, 0);
     for (const char* word :
          {"--output", "--patch-size", "--element-size", "--samples", "--residual", "--direct-only",
-          "--threads", "--frame", "--camera", "--stats", "--quality", "--png"})
+          "--threads", "--frame", "--order", "--camera", "--stats", "--quality", "--png"})
         EXPECT_THAT(render.out, HasSubstr(word));
     const Outcome solve = runPenumbra({"solve", "--help"});
     EXPECT_EQ(solve.exitCode, 0);
@@ -52,6 +52,7 @@ TEST(CommandLine, ThatIsWrongExitsWithTwoAndPrintsNothingToStandardOutput) {
         {"solve", room, "--residual", "nan"},
         {"solve", room, "--patch-size", "nan"},
         {"solve", room, "--threads", "0"},
+        {"solve", room, "--order", "oracle"},
         {"solve", room, "--sensors", "a.csv"}, // no --values
         {"solve", room, "--gather"},           // no --sensors
         {"solve", room, "--no-such-option"},

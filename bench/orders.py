@@ -1,0 +1,169 @@
+#!/usr/bin/env python3
+"""Compares orders of work by a fixed script of moves and cameras.
+
+Usage: bench/orders.py PROGRAM [--element-size M] [--orders A,B]
+                       [--all-light] [--cameras NAMES] [--out FOLDER]
+
+In the office, for each camera, `penumbra compare` plays three moves of the seat (20 cm, 1.2 m,
+3.3 m); figures are means over moves and cameras. The dirty set is that of bounding shafts: blocks
+whose shaft to the lamp meets the moved object's box, those in which it was a blocker, and its own.
+The settled solution of the same mesh is the truth. Writes a report (HTML, JSON) for each camera to
+FOLDER and a table to standard output."""
+import argparse
+import json
+import math
+import pathlib
+import subprocess
+
+SCENES = pathlib.Path(__file__).resolve().parent.parent / "scenes"
+
+# What moves, and where it stands at frames 1 to 4 [m].
+MOVES = {
+    "office": ("Seat", [(2.79, 2.21, 0), (2.97, 2.12, 0), (3.9, 1.35, 0), (1.0, 1.9, 0)]),
+}
+
+# Cameras: place [m], turns [degrees]. "dark" is the first one with the ceiling lamps at 1/1000.
+CAMERAS = {
+    "office": {
+        "on-screen": ((0.55, 0.42, 1.62), (75, 0, -49.25)),
+        "part-hidden": ((6.6, 4.9, 1.2), (82, 0, 128)),
+        "off-screen": ((3.6, 2.4, 1.6), (84, 0, 20)),
+        "dark": ((0.55, 0.42, 1.62), (75, 0, -49.25)),
+    },
+}
+DIMMED = {"office": ["CeilingLamp1", "CeilingLamp2", "CeilingLamp3"]}
+
+
+def samples(name, kind, values):
+    lines = ",\n".join(f"            {i + 1}: {v}" for i, v in enumerate(values))
+    return f"        {kind} {name}.timeSamples = {{\n{lines}\n        }}\n"
+
+
+def layer(scene, camera):
+    thing, places = MOVES[scene]
+    at, turn = CAMERAS[scene][camera]
+    text = f"""#usda 1.0
+(
+    defaultPrim = "World"
+    endTimeCode = {len(places)}
+    metersPerUnit = 1
+    startTimeCode = 1
+    subLayers = [
+        @{SCENES / (scene + ".usda")}@
+    ]
+    upAxis = "Z"
+)
+
+over "World"
+{{
+    over "{thing}"
+    {{
+"""
+    text += samples("xformOp:translate", "double3", places) + "    }\n"
+    if camera == "dark":
+        for lamp in DIMMED[scene]:
+            text += f"""    over "{lamp}"
+    {{
+        over "Panel"
+        {{
+            float inputs:intensity = 2.4
+        }}
+    }}
+"""
+    text += f"""    def Camera "Judge"
+    {{
+        float2 clippingRange = (0.02, 200)
+        float focalLength = 21
+        float horizontalAperture = 36
+        float verticalAperture = 20.25
+        float3 xformOp:rotateXYZ = {turn}
+        double3 xformOp:translate = {at}
+        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
+    }}
+}}
+"""
+    return text
+
+
+def area(samples, last):
+    """Mean error as a share of what it was at first, until work `last`."""
+    first = samples[0]["mean_jnd"]
+    total = 0
+    for here, after in zip(samples, samples[1:] + [None]):
+        until = min(after["work"] if after else last, last)
+        total += max(0, until - min(here["work"], last)) * here["mean_jnd"]
+    return total / (first * last)
+
+
+def when_below(samples, share, key):
+    limit = share * samples[0]["mean_jnd"]
+    last = [i for i, s in enumerate(samples) if s["mean_jnd"] > limit]
+    at = last[-1] + 1 if last else 0
+    return samples[at][key] if at < len(samples) else samples[-1][key]
+
+
+def mean(values):
+    values = list(values)
+    return sum(values) / len(values) if values else math.nan
+
+
+def figures(reports):
+    """One row an order: means over all edits that are seen at all."""
+    names = [o["order"] for o in reports[0]["orders"]]
+    rows = {name: [] for name in names}
+    for report in reports:
+        orders = {o["order"]: o["edits"] for o in report["orders"]}
+        for i in range(len(orders[names[0]])):
+            runs = {n: orders[n][i]["samples"] for n in names}
+            if runs[names[0]][0]["mean_jnd"] < 1e-3:
+                continue
+            last = max(r[-1]["work"] for r in runs.values())
+            slowest = runs.get("plain", runs[names[0]])
+            for name, run in runs.items():
+                rows[name].append({
+                    "area": area(run, last),
+                    "work90": when_below(run, 0.1, "work") / last,
+                    "time90": when_below(run, 0.1, "seconds") / slowest[-1]["seconds"],
+                    "against": when_below(run, 0.1, "seconds")
+                    / max(1e-9, when_below(slowest, 0.1, "seconds")),
+                    "total": run[-1]["seconds"] / slowest[-1]["seconds"],
+                    "work": run[-1]["work"] / slowest[-1]["work"],
+                })
+    return rows
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("--scene", default="office", choices=sorted(CAMERAS))
+    parser.add_argument("--element-size", default="0.051")
+    parser.add_argument("--cameras", default="")
+    parser.add_argument("--orders", default="plain,random,bound,geometry,importance,oracle")
+    parser.add_argument("--all-light", action="store_true", help="indirect light as well")
+    parser.add_argument("--looks", default="1.15")
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("orders"))
+    args = parser.parse_args()
+    args.out.mkdir(parents=True, exist_ok=True)
+    reports = []
+    for camera in args.cameras.split(",") if args.cameras else CAMERAS[args.scene]:
+        scene = args.out / f"{args.scene}-{camera}.usda"
+        scene.write_text(layer(args.scene, camera))
+        report = args.out / f"{args.scene}-{camera}.html"
+        command = [args.program, "compare", scene, "--frames", f"1:{len(MOVES[args.scene][1])}",
+                   "--camera", "/World/Judge", "--element-size", args.element_size,
+                   "--orders", args.orders, "--looks", args.looks, "--width", "320", "-o", report,
+                   "--quiet"]
+        subprocess.run(command + ([] if args.all_light else ["--direct-only"]), check=True)
+        reports.append(json.loads(report.with_suffix(".json").read_text()))
+    print("| order | area | work to -90 % | time to -90 % of plain's total | of plain's to -90 % |"
+          " total time / plain | total work / plain |")
+    print("| --- | ---: | ---: | ---: | ---: | ---: | ---: |")
+    for name, rows in figures(reports).items():
+        columns = [mean(r[k] for r in rows)
+                   for k in ("area", "work90", "time90", "against", "total", "work")]
+        print(f"| {name} | " + " | ".join(f"{c:.3f}" for c in columns) + " |")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,43 @@
+#include "radiosity/process/ViewerAttention.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace penumbra {
+
+Attention attentionFor(const View& view, const std::optional<Bounds>& moved, int height) {
+    const double shape = std::abs(view.projection[1][1] / view.projection[0][0]);
+    const double width = std::isfinite(shape) ? std::clamp(height * shape, 1.0, 1e5) : height;
+    const Viewpoint from(view, int(width), height);
+    GazeHints hints;
+    if (moved) hints.dragged = glm::dvec3(moved->centre());
+    Attention attention{from, Gaze(from, hints), 0, moved, {}};
+    return attention;
+}
+
+void ViewerAttention::setOrder(UpdateOrder order) {
+    orderStale_ |= std::exchange(order_, order) != order;
+}
+
+void ViewerAttention::setCamera(const View& view) {
+    camera_ = view;
+    stale_ = true;
+}
+
+void ViewerAttention::setMoved(const std::optional<Bounds>& box) {
+    if (!box) return;
+    moved_ = box;
+    stale_ = true;
+}
+
+void ViewerAttention::tell(Solver& solver, double now) {
+    constexpr double kOften = 0.03; // [s]
+    if (std::exchange(orderStale_, false)) solver.setOrder(order_);
+    if (!stale_ || !camera_ || now - told_ < kOften) return;
+    solver.attend(attentionFor(*camera_, moved_));
+    stale_ = false;
+    told_ = now;
+}
+
+} // namespace penumbra

@@ -1,0 +1,131 @@
+// What a few rays say of work, against what comes of it.
+#include "radiosity/ChangeLook.h"
+
+#include "tests/support/Scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace penumbra {
+
+namespace {
+
+constexpr std::uint32_t kBlock = PatchSet::kBlock;
+
+/// A floor of 4 x 4 m with a lamp over it, and a box that stands in its light.
+struct Stage {
+    Scene scene;
+    std::shared_ptr<Transform> box = movable(
+        "box",
+        {std::make_shared<Mesh>("mesh", boxData({-0.3f, -0.3f, 0}, {0.3f, 0.3f, 0.6f}, false))});
+    Stage() {
+        scene.root->add(object("floor", floorData(-2, 2, -2, 2, 0)));
+        scene.root->add(ceilingLamp({0, 0, 3}, 1, 1, Rgb(100)));
+        scene.root->add(box);
+        stand(moved(-1, 0, 0));
+    }
+    void stand(const glm::dmat4& at) { box->setMatrix(at); }
+};
+
+using Factors = std::array<float, kBlock>;
+Factors factorsOf(const RowBlock& block) {
+    Factors factors{};
+    block.forEach([&](int r, float factor) { factors[std::size_t(r)] = factor; });
+    return factors;
+}
+
+/// What was expected of a block, and what came: means of |change of F V| over its receivers.
+struct Outcome {
+    std::string object;
+    double expected = 0, came = 0;
+    ExpectedFactor said;
+};
+
+/// Moves the box, looks at every block of the lamp's row, and settles.
+std::vector<Outcome> outcomes(Stage& stage, const glm::dmat4& to) {
+    LitScene lit(placeScene(stage.scene), {.patchSize = 0.5f, .elementSize = 0.0625f},
+                 {.directOnly = true});
+    lit.solver().settle();
+    stage.stand(to);
+    EXPECT_FALSE(lit.follow(placeScene(stage.scene)).rebuilt);
+    const PatchSet& set = lit.patches();
+    const EmitterSender sender(set.emitters[0], 16, 64);
+    std::vector<MovedObject> moved;
+    for (std::uint32_t o = 0; o < set.objects.size(); ++o)
+        if (set.objects[o].path == "/box") moved.push_back({o, true, boundsOf(set, {o})});
+    ChangeLook look(lit.rays());
+    std::vector<Outcome> result;
+    std::vector<Factors> before;
+    const std::size_t blocks = set.firstPrivate / kBlock;
+    for (std::uint32_t b = 0; b < blocks; ++b) {
+        std::vector<Receiver> receivers;
+        for (std::uint32_t v = b * kBlock; v < (b + 1) * kBlock; ++v)
+            receivers.push_back(set.vertices[v].receiver);
+        const bool own = set.vertexBlockObject[b].value == moved[0].object;
+        const RowBlock& row = lit.solver().emitterRows()[0][b];
+        const ExpectedFactor said = look.at(sender, {receivers, ~std::uint64_t(0), 0},
+                                            own ? ~std::uint64_t(0) : 0, moved, row);
+        result.push_back({set.objects[set.vertexBlockObject[b].value].path,
+                          double(said.factor * said.share), 0, said});
+        before.push_back(factorsOf(row));
+    }
+    EXPECT_LE(look.takeRayCount().total(), 16 * blocks);
+    lit.solver().settle();
+    for (std::uint32_t b = 0; b < blocks; ++b) {
+        const Factors now = factorsOf(lit.solver().emitterRows()[0][b]);
+        int count = 0;
+        for (std::size_t r = 0; r < kBlock; ++r) {
+            count += !isPadding(set.vertices[b * kBlock + r].receiver);
+            result[b].came += std::abs(now[r] - before[b][r]);
+        }
+        if (count > 0) result[b].came /= count;
+    }
+    return result;
+}
+
+TEST(ChangeLook, KnowsHowMuchAndWhereAShadowMoves) {
+    Stage stage;
+    double expected = 0, came = 0, missed = 0, inVain = 0;
+    for (const Outcome& block : outcomes(stage, moved(-0.5, 0.2, 0))) {
+        if (block.object != "/floor") continue;
+        expected += block.expected;
+        came += block.came;
+        if (block.expected < 0.1 * block.came) missed += block.came;
+        if (block.came < 0.1 * block.expected) inVain += block.expected;
+    }
+    ASSERT_GT(came, 0);
+    EXPECT_NEAR(expected, came, 0.3 * came);
+    EXPECT_LT(missed, 0.03 * came);
+    EXPECT_LT(inVain, 0.15 * came); // mostly what is expected of every block, whatever is seen
+}
+
+TEST(ChangeLook, ExpectsWhatGoesDarkToChangeAsMuchAsItWasLit) {
+    Stage stage;
+    glm::dmat4 over(1.0); // half a turn about x: the top faces the floor
+    over[1][1] = over[2][2] = -1;
+    over[3] = {-1, 0, 0.7, 1};
+    double expected = 0, came = 0;
+    for (const Outcome& block : outcomes(stage, over)) {
+        if (block.object != "/box") continue;
+        expected += block.expected;
+        came += block.came;
+        if (block.came > 0.02) EXPECT_GT(block.said.share, 0.5f);
+    }
+    ASSERT_GT(came, 0);
+    EXPECT_NEAR(expected, came, 0.3 * came);
+}
+
+TEST(ChangeLook, ExpectsLittleWhereNothingMoves) {
+    Stage stage;
+    for (const Outcome& block : outcomes(stage, moved(-1, 0, 1e-7))) {
+        if (block.object != "/floor") continue;
+        EXPECT_LE(block.said.share, 0.2f);
+        EXPECT_GT(block.said.share, 0); // but never nothing
+    }
+}
+
+} // namespace
+
+} // namespace penumbra
