@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <set>
+#include <utility>
 
 namespace penumbra {
 
@@ -59,14 +59,16 @@ void LightFade::followTopology(const LitGeometry& geometry) {
 }
 
 void LightFade::findBorders(const LitMeshData& data) {
-    std::set<std::pair<std::uint32_t, std::uint32_t>> pairs; // vertex, other block
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs; // vertex, other block
     for (std::size_t t = 0; t < data.indices.size(); t += 3)
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t j = 0; j < 3; ++j) {
                 const std::uint32_t v = data.indices[t + i];
                 const std::uint32_t block = data.indices[t + j] / kBlock;
-                if (block != v / kBlock) pairs.emplace(v, block);
+                if (block != v / kBlock) pairs.emplace_back(v, block);
             }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     borderFirst_.assign(data.positions.size() + 1, 0);
     borders_.clear();
     for (const auto& [vertex, block] : pairs) {
