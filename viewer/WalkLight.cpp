@@ -14,7 +14,8 @@ WalkLight::WalkLight(const Walkthrough& walk, const RadiosityOptions& options,
                      std::unique_ptr<LightingLink> link, const BlendOptions& blend)
     : scene_(*walk.scene().root),
       node_(std::make_shared<RadiosityNode>("lit", options, std::move(link))), blend_(blend),
-      trigger_(options.trigger), order_(options.solving.order) {
+      mostLamps_(std::min(blend.lamps, kMostLampsDrawnLive)), trigger_(options.trigger),
+      order_(options.solving.order) {
     node_->add(walk.scene().root);
 }
 
