@@ -138,6 +138,8 @@ TEST_F(WalkLightTest, WhatIsInTheHandIsHeldBackUntilItIsLetGo) {
         light.update(walk, viewOf(walk));
     }
     ASSERT_TRUE(walk.inHand());
+    EXPECT_EQ(light.node().liveLamps().size(), 1u) << "the lamp that matters to the box";
+    EXPECT_TRUE(light.live().active()) << "is drawn live as soon as it moves";
     EXPECT_GT(light.state().held, 0u);
     EXPECT_EQ(light.state().updates, updates);
     walk.take(ButtonEvent{.button = MouseButton::left, .down = false, .position = {48, 24}},
