@@ -3,6 +3,7 @@
 #include "importance/ContrastSensitivity.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <numbers>
 
@@ -39,7 +40,10 @@ PlaceValue PlainOrder::value(std::uint32_t place) const {
 }
 
 WorkQueue::Task BoundOrder::rank(const BlockOfWork& work) const {
-    return taskFor(0, work.bound, work.cost);
+    // Worths of about the same size make a place, so that few tasks need be sorted at a time:
+    // exponent and first two bits of the fraction.
+    const auto worth = float(work.bound / work.cost);
+    return taskFor(std::bit_cast<std::uint32_t>(worth) >> 21, work.bound, work.cost);
 }
 PlaceValue BoundOrder::value(std::uint32_t) const {
     return kLinear;
@@ -47,7 +51,8 @@ PlaceValue BoundOrder::value(std::uint32_t) const {
 
 WorkQueue::Task RandomOrder::rank(const BlockOfWork& work) const {
     const std::uint64_t key = std::uint64_t(work.row) << 32 | work.block;
-    return taskFor(0, double(mixed(key ^ std::uint64_t(seed_) << 16) >> 8), 1);
+    const std::uint32_t lot = mixed(key ^ std::uint64_t(seed_) << 16) >> 8;
+    return taskFor(lot >> 16, double(lot), 1); // places as of BoundOrder
 }
 PlaceValue RandomOrder::value(std::uint32_t) const {
     return kLinear;

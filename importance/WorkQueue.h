@@ -141,7 +141,7 @@ private:
     std::uint32_t rekeys_ = 0;
     std::vector<Place> places_;
     std::vector<std::uint32_t> heap_; ///< places with open work, the one with the largest key first
-    std::vector<Slot> slots_;
+    std::deque<Slot> slots_; ///< grows without being copied: that would take longer than a step
     std::vector<std::uint32_t> free_;
     std::deque<Age> ages_; ///< in the order of serials; some are taken already
     std::uint64_t serial_ = 0;
