@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <fstream>
+#include <stdexcept>
+#include <string>
 
 namespace penumbra {
 
@@ -12,13 +15,17 @@ namespace {
 class FileWatcherTest : public testing::Test {
 protected:
     void SetUp() override { touch(0); }
-    void TearDown() override { std::filesystem::remove(file); }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+    static std::filesystem::path newFolder() { // tests may run side by side
+        std::string name = testing::TempDir() + "penumbra-watched-XXXXXX";
+        if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+        return name;
+    }
     void touch(int seconds) {
         std::ofstream(file) << seconds;
         std::filesystem::last_write_time(file, start + std::chrono::seconds(seconds));
     }
-    const std::filesystem::path file =
-        std::filesystem::path(testing::TempDir()) / "penumbra-watched.usda";
+    const std::filesystem::path folder = newFolder(), file = folder / "scene.usda";
     const std::filesystem::file_time_type start = std::filesystem::file_time_type::clock::now();
 };
 
