@@ -1,6 +1,7 @@
 // Our visible difference against other people's: Butteraugli (Debian: libjxl-devtools) and FLIP.
 #include "Flip.h"
 #include "importance/VisibleDifference.h"
+#include "tests/support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
@@ -167,15 +168,13 @@ double butteraugli(const std::string& reference, const std::string& test) {
 TEST_F(OtherMetrics, ButteraugliRanksTheSameFaultsAlike) {
     if (std::system("command -v butteraugli_main >/dev/null") != 0)
         GTEST_SKIP() << "no butteraugli_main in PATH (Debian: libjxl-devtools)";
-    std::string folder = (std::filesystem::temp_directory_path() / "penumbraXXXXXX").string();
-    ASSERT_TRUE(mkdtemp(folder.data()));
-    writePfm(folder + "/truth.pfm", truth);
+    const TemporaryFolder folder;
+    writePfm(folder.file("truth.pfm"), truth);
     std::vector<double> theirs;
     for (const Fault& fault : all) {
-        writePfm(folder + "/fault.pfm", fault.picture);
-        theirs.push_back(butteraugli(folder + "/truth.pfm", folder + "/fault.pfm"));
+        writePfm(folder.file("fault.pfm"), fault.picture);
+        theirs.push_back(butteraugli(folder.file("truth.pfm"), folder.file("fault.pfm")));
     }
-    std::filesystem::remove_all(folder);
     ASSERT_GE(*std::min_element(theirs.begin(), theirs.end()), 0);
     const std::vector<double> mine = ours(&DifferenceSummary::cubicMean);
     for (std::size_t i = 0; i < all.size(); ++i)

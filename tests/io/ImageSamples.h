@@ -1,7 +1,8 @@
-// A folder for a test's files and a small picture to put there.
+// A small picture, and a disk that is full.
 #pragma once
 
 #include "io/Image.h"
+#include "tests/support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
@@ -14,27 +15,6 @@
 #include <string>
 
 namespace penumbra {
-
-/// A fresh folder that goes with the test.
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        std::string pattern = testing::TempDir() + "penumbra-test-XXXXXX";
-        path_ = mkdtemp(pattern.data());
-    }
-    ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    std::string file(const std::string& name) const { return (path_ / name).string(); }
-    const std::filesystem::path& path() const { return path_; }
-    std::ptrdiff_t fileCount() const {
-        return std::distance(std::filesystem::directory_iterator(path_), {});
-    }
-
-private:
-    std::filesystem::path path_;
-};
 
 /// No file may grow beyond `bytes` while this exists: a disk that is full, without one.
 class FileSizeLimit {

@@ -4,6 +4,7 @@
 #include "io/UsdLayerText.h"
 #include "scenegraph/Mesh.h"
 #include "scenegraph/Objects.h"
+#include "tests/support/TemporaryFolder.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -81,12 +82,9 @@ def Xform "World"
 class UsdRecordingTest : public testing::Test {
 protected:
     void SetUp() override {
-        folder = std::filesystem::path(testing::TempDir()) /
-                 testing::UnitTest::GetInstance()->current_test_info()->name();
         std::filesystem::create_directories(folder / "takes");
         open(kRoom);
     }
-    void TearDown() override { std::filesystem::remove_all(folder); }
 
     void open(const std::string& text) {
         std::ofstream(folder / "room.usda") << text;
@@ -126,7 +124,8 @@ protected:
         return loaded;
     }
 
-    std::filesystem::path folder;
+    const TemporaryFolder temporary;
+    const std::filesystem::path folder = temporary.path();
     LoadedScene scene;
     std::unique_ptr<UsdRecording> recording;
 };

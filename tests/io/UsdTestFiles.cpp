@@ -4,30 +4,10 @@
 #include "scenegraph/Visitor.h"
 
 #include <cstdlib>
-#include <fstream>
-#include <random>
 
 namespace penumbra {
 
 namespace fs = std::filesystem;
-
-TemporaryFolder::TemporaryFolder() {
-    std::random_device random;
-    do path_ = fs::temp_directory_path() / ("penumbra-test-" + std::to_string(random()));
-    while (!fs::create_directory(path_));
-}
-
-TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-}
-
-fs::path TemporaryFolder::write(const std::string& name, const std::string& text) const {
-    const fs::path file = path_ / name;
-    fs::create_directories(file.parent_path());
-    std::ofstream(file, std::ios::binary) << text;
-    return file;
-}
 
 std::optional<fs::path> sharedFolder() {
     const char* named = std::getenv("PENUMBRA_SHARED");

@@ -5,6 +5,7 @@
 #include "scenegraph/Camera.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Mesh.h"
+#include "tests/support/TemporaryFolder.h"
 
 #include <glm/glm.hpp>
 
@@ -14,22 +15,6 @@
 #include <string>
 
 namespace penumbra {
-
-/// A folder that lives as long as this object.
-class TemporaryFolder {
-public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    /// Writes a file, subfolders included, and returns its path.
-    std::filesystem::path write(const std::string& name, const std::string& text) const;
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
 
 /// The scenes that are not in the project: $PENUMBRA_SHARED, or `shared` beside the source folder.
 /// Nothing if they are not there: the test then skips.

@@ -51,25 +51,13 @@ Outcome runPenumbra(const std::vector<std::string>& arguments, const RunLimits& 
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readFile(out), readFile(err)};
 }
 
-Workplace::Workplace() {
-    std::string name = (std::filesystem::temp_directory_path() / "penumbra-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("can't make a temporary folder");
-    folder_ = name;
-}
-
-Workplace::~Workplace() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-}
-
 std::string Workplace::write(const std::string& name, const std::string& text) const {
-    std::ofstream(path(name), std::ios::binary) << text;
-    return path(name);
+    return folder_.write(name, text).string();
 }
 
 std::vector<std::string> Workplace::files() const {
     std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
         names.push_back(entry.path().filename().string());
     std::sort(names.begin(), names.end());
     return names;

@@ -1,7 +1,8 @@
 // The program as people run it: a process of its own, in a folder of its own.
 #pragma once
 
-#include <filesystem>
+#include "tests/support/TemporaryFolder.h"
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,20 +27,15 @@ Outcome runPenumbra(const std::vector<std::string>& arguments, const RunLimits& 
 /// A folder that lives as long as this object.
 class Workplace {
 public:
-    Workplace();
-    ~Workplace();
-    Workplace(const Workplace&) = delete;
-    Workplace& operator=(const Workplace&) = delete;
-
     /// Path of a file here, whether there is one or not.
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    std::string path(const std::string& name) const { return folder_.file(name); }
     /// Writes a file and returns its path.
     std::string write(const std::string& name, const std::string& text) const;
     /// Names of all files, sorted.
     std::vector<std::string> files() const;
 
 private:
-    std::filesystem::path folder_;
+    TemporaryFolder folder_;
 };
 
 std::string readFile(const std::string& path);

@@ -1,12 +1,11 @@
 // Noticing that somebody has saved a file again.
 #include "viewer/FileWatcher.h"
 
+#include "tests/support/TemporaryFolder.h"
+
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
-#include <stdexcept>
-#include <string>
 
 namespace penumbra {
 
@@ -15,17 +14,12 @@ namespace {
 class FileWatcherTest : public testing::Test {
 protected:
     void SetUp() override { touch(0); }
-    void TearDown() override { std::filesystem::remove_all(folder); }
-    static std::filesystem::path newFolder() { // tests may run side by side
-        std::string name = testing::TempDir() + "penumbra-watched-XXXXXX";
-        if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-        return name;
-    }
     void touch(int seconds) {
         std::ofstream(file) << seconds;
         std::filesystem::last_write_time(file, start + std::chrono::seconds(seconds));
     }
-    const std::filesystem::path folder = newFolder(), file = folder / "scene.usda";
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.file("scene.usda");
     const std::filesystem::file_time_type start = std::filesystem::file_time_type::clock::now();
 };
 

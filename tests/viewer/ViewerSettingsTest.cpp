@@ -1,6 +1,8 @@
 // What the walkthrough remembers.
 #include "viewer/ViewerSettings.h"
 
+#include "tests/support/TemporaryFolder.h"
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -38,7 +40,8 @@ TEST(ViewerSettings, WhatIsGarbledKeepsItsDefault) {
 }
 
 TEST(ViewerSettings, LieWhereXdgSays) {
-    const std::string folder = testing::TempDir() + "penumbra-settings";
+    const TemporaryFolder parent;
+    const std::string folder = parent.file("settings");
     setenv("XDG_CONFIG_HOME", folder.c_str(), 1);
     EXPECT_EQ(settingsFile(), folder + "/penumbra/viewer.conf");
     EXPECT_TRUE(saveSettings(unusual()));

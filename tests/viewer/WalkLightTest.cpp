@@ -2,6 +2,7 @@
 #include "viewer/WalkLight.h"
 
 #include "LitScenes.h"
+#include "tests/support/TemporaryFolder.h"
 #include "viewer/PictureSaver.h"
 #include "viewer/Replay.h"
 #include "viewer/SessionFile.h"
@@ -57,14 +58,8 @@ def Camera "Eye"
 
 class WalkLightTest : public WithContext {
 protected:
-    void SetUp() override {
-        folder = std::filesystem::path(testing::TempDir()) /
-                 testing::UnitTest::GetInstance()->current_test_info()->name();
-        std::filesystem::create_directories(folder);
-        std::ofstream(file()) << kRoom;
-    }
-    void TearDown() override { std::filesystem::remove_all(folder); }
-    std::string file(const char* name = "room.usda") const { return (folder / name).string(); }
+    void SetUp() override { folder.write("room.usda", kRoom); }
+    std::string file(const char* name = "room.usda") const { return folder.file(name); }
 
     static ReadyScene load(const std::string& path) {
         SceneLoader loader(path);
@@ -96,7 +91,7 @@ protected:
         throw std::runtime_error("no box");
     }
 
-    std::filesystem::path folder;
+    const TemporaryFolder folder;
 };
 
 RadiosityOptions coarse(Trigger trigger = Trigger::continuous) {
