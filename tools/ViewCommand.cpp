@@ -22,7 +22,7 @@ void run(ViewCommand& command) {
     options.frame = command.solve.frame;
     options.light.meshing = command.solve.meshing;
     options.light.solving = command.solve.solver;
-    if (command.solve.order) options.light.solving.order = *command.solve.order;
+    options.order = command.solve.order;
     options.light.threads = command.solve.threads;
     options.said = [&](const std::vector<Diagnostic>& diagnostics) {
         if (!command.solve.quiet) reportDiagnostics(diagnostics, command.solve.verbose);

@@ -109,7 +109,6 @@ Viewer::Viewer(const ViewerOptions& options)
     state_.showPanels = settings_.panels;
     state_.trigger = settings_.trigger;
     state_.exposure.setCompensation(settings_.compensation);
-    state_.order = options.light.solving.order;
     state_.patchSize = options.light.meshing.patchSize;
     state_.elementSize = options.light.meshing.elementSize;
 }
@@ -173,8 +172,7 @@ void Viewer::openScene(ReadyScene ready) {
     if (!again && !options_.record.empty())
         session_.emplace(*walk_, options_.scene, options_.record);
     state_.recording = session_.has_value();
-    if (!again && optionsOf(walk_->scene()).solving.order == UpdateOrder::plain)
-        state_.order = UpdateOrder::plain;
+    if (!again) state_.order = options_.order.value_or(optionsOf(walk_->scene()).solving.order);
     lightScene();
     stale_ = kAfterglow;
 }
