@@ -16,11 +16,12 @@ int main(int argc, char** argv) try {
     const LoadedScene loaded = loadUsdScene(argc > 1 ? argv[1] : "scenes/cornell.usda");
     auto shelf = std::make_shared<Transform>("shelf"); // something of our own that moves
     shelf->setMovable(true);
-    MeshData board{.points = {{0.1, 0.1, 0}, {0.3, 0.1, 0}, {0.3, 0.3, 0}, {0.1, 0.3, 0}},
-                   .faceVertexCounts = {4},
-                   .faceVertexIndices = {0, 1, 2, 3},
-                   .doubleSided = true,
-                   .materials = {std::make_shared<Material>("wood")}};
+    MeshData board;
+    board.points = {{0.1, 0.1, 0}, {0.3, 0.1, 0}, {0.3, 0.3, 0}, {0.1, 0.3, 0}};
+    board.faceVertexCounts = {4};
+    board.faceVertexIndices = {0, 1, 2, 3};
+    board.doubleSided = true;
+    board.materials = {std::make_shared<Material>("wood")};
     shelf->add(std::make_shared<Mesh>("board", std::move(board)));
 
     RadiosityOptions options = optionsOf(*loaded.scene); // what the file says of its light

@@ -111,7 +111,9 @@ TEST(ChangeLook, ExpectsWhatGoesDarkToChangeAsMuchAsItWasLit) {
         if (block.object != "/box") continue;
         expected += block.expected;
         came += block.came;
-        if (block.came > 0.02) EXPECT_GT(block.said.share, 0.5f);
+        if (block.came > 0.02) {
+            EXPECT_GT(block.said.share, 0.5f);
+        }
     }
     ASSERT_GT(came, 0);
     EXPECT_NEAR(expected, came, 0.3 * came);

@@ -39,9 +39,10 @@ TEST(DetailRays, ThoseThatMeetSomethingElseAfterAMoveAreAmongTheAffectedAndThese
     Moving scene;
     const PatchSet& set = scene.lit.patches();
     std::vector<DetailRays::Hits> before(set.nodes.size());
-    for (std::size_t n = 0; n < set.nodes.size(); ++n)
-        if (!isPadding(set.nodes[n]))
-            EXPECT_EQ(scene.rays.follow(set.nodes[n], DetailRays::kAllRays, true, before[n]), 64);
+    for (std::size_t n = 0; n < set.nodes.size(); ++n) {
+        if (isPadding(set.nodes[n])) continue;
+        EXPECT_EQ(scene.rays.follow(set.nodes[n], DetailRays::kAllRays, true, before[n]), 64);
+    }
     const DetailRays::Moved moved = scene.move();
     int affected = 0, changed = 0, all = 0;
     const Range walls = set.objects[0].nodes;
