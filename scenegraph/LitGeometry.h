@@ -47,6 +47,9 @@ struct LitMeshData {
     std::vector<std::uint32_t> indices;          ///< three a triangle
     std::vector<std::uint32_t> triangleMaterial; ///< index into materials, one a triangle
     std::vector<LitMaterial> materials;
+    /// Which patch a triangle is part of: any number, the same for those of one patch. As long as
+    /// triangleMaterial; empty: nobody knows.
+    std::vector<std::uint32_t> trianglePatch = {};
     std::vector<LampShare> lamps = {}; ///< of the live lamps, if there are any
 };
 

@@ -90,8 +90,7 @@ const std::vector<std::uint64_t>& blockRevisionsOf(const LitGeometry& geometry,
 GpuGeometry::GpuGeometry(const LitGeometry& geometry, const ShownLight* shown)
     : vertexArray_(makeVertexArray()), shown_(shown), revision_(revisionOf(geometry, shown)),
       topologyRevision_(geometry.topologyRevision()),
-      blockRevisions_(blockRevisionsOf(geometry, shown)),
-      blockTimes_(blockRevisions_.size(), -1e6f) {
+      blockRevisions_(blockRevisionsOf(geometry, shown)) {
     const LitMeshData& mesh = geometry.data();
     assert(mesh.direct.size() == mesh.positions.size());
     assert(mesh.indirect.size() == mesh.positions.size());
@@ -141,7 +140,7 @@ std::size_t GpuGeometry::copyBlocks(const ShownLight* shown, const LitGeometry& 
     return bytes;
 }
 
-std::size_t GpuGeometry::refresh(const LitGeometry& geometry, const ShownLight* shown, double now) {
+std::size_t GpuGeometry::refresh(const LitGeometry& geometry, const ShownLight* shown) {
     const std::uint64_t newest = revisionOf(geometry, shown);
     const bool otherLight = std::exchange(shown_, shown) != shown;
     if (std::exchange(revision_, newest) == newest && !otherLight) return 0;
@@ -152,10 +151,7 @@ std::size_t GpuGeometry::refresh(const LitGeometry& geometry, const ShownLight* 
     std::size_t bytes = 0;
     for (std::size_t block = 0; block < latest.size(); ++block) {
         const std::size_t begin = block;
-        while (block < latest.size() && blockRevisions_[block] != latest[block]) {
-            blockTimes_[block] = float(now);
-            ++block;
-        }
+        while (block < latest.size() && blockRevisions_[block] != latest[block]) ++block;
         if (block == begin) continue;
         const std::size_t first = begin * LitGeometry::kBlock;
         const std::size_t count = std::min(block * LitGeometry::kBlock, vertices) - first;
@@ -173,8 +169,7 @@ void GpuGeometry::bind() const {
     glBindVertexArray(vertexArray_.name());
 }
 
-void GeometryCache::dropDead(double now) {
-    now_ = now;
+void GeometryCache::dropDead() {
     std::erase_if(entries_, [](const auto& entry) { return entry.second.alive.expired(); });
 }
 
@@ -195,7 +190,7 @@ const GpuGeometry& GeometryCache::get(const LitGeometry& geometry, const ShownLi
     if (found != entries_.end() && !found->second.gpu.sameTopology(geometry)) {
         entries_.erase(found);
     } else if (found != entries_.end()) {
-        const std::size_t bytes = found->second.gpu.refresh(geometry, shown, now_);
+        const std::size_t bytes = found->second.gpu.refresh(geometry, shown);
         lightUploads_ += bytes > 0;
         lightBytes_ += bytes;
         return found->second.gpu;

@@ -39,8 +39,7 @@ public:
     GpuGeometry(const LitGeometry& geometry, const ShownLight* shown);
 
     /// Copies the light of those blocks again that were edited since; returns how many bytes.
-    /// \param now [s]
-    std::size_t refresh(const LitGeometry& geometry, const ShownLight* shown, double now);
+    std::size_t refresh(const LitGeometry& geometry, const ShownLight* shown);
 
     /// Whether its triangles are still those of the geometry.
     bool sameTopology(const LitGeometry& geometry) const;
@@ -49,8 +48,6 @@ public:
     const std::vector<MaterialRange>& ranges() const { return ranges_; }
     /// All triangles in their order, cut into runs of one range that lie together.
     const std::vector<TriangleChunk>& chunks() const { return chunks_; }
-    /// When the light of each block was copied last, by the time given to refresh() [s].
-    const std::vector<float>& blockTimes() const { return blockTimes_; }
 
 private:
     std::size_t copyBlocks(const ShownLight* shown, const LitGeometry& geometry, std::size_t first,
@@ -64,7 +61,6 @@ private:
     const ShownLight* shown_ = nullptr; ///< what light is in the buffers; only to be compared
     std::uint64_t revision_ = 0, topologyRevision_ = 0;
     std::vector<std::uint64_t> blockRevisions_; ///< of the light that is in the buffers
-    std::vector<float> blockTimes_;
 };
 
 /// Uploads each geometry once, and afterwards only its light when that has changed. A geometry that
@@ -72,8 +68,8 @@ private:
 /// for free.
 class GeometryCache {
 public:
-    /// Drops what no longer exists. To be called before each frame. \param now its time [s]
-    void dropDead(double now = 0);
+    /// Drops what no longer exists.
+    void dropDead();
 
     /// The geometry with its present light.
     const GpuGeometry& get(const DrawItem& item);
@@ -98,7 +94,6 @@ private:
     std::size_t uploads_ = 0;
     std::size_t lightUploads_ = 0;
     std::size_t lightBytes_ = 0;
-    double now_ = 0;
 };
 
 } // namespace penumbra

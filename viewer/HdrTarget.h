@@ -30,6 +30,9 @@ public:
     /// Name of the texture with the averages: good after resolve().
     unsigned texture() const { return colour_.name(); }
 
+    /// Name of the renderbuffer with the depths of the samples.
+    unsigned depth() const { return depth_.name(); }
+
     /// The averages, lower row first.
     std::vector<Rgb> read() const;
 

@@ -9,6 +9,8 @@
 #include "viewer/LitItem.h"
 #include "viewer/LivePass.h"
 #include "viewer/LuminanceMeter.h"
+#include "viewer/OverlayPass.h"
+#include "viewer/OverlayTarget.h"
 #include "viewer/PreviewGeometry.h"
 #include "viewer/Shaders.h"
 #include "viewer/TonePass.h"
@@ -54,6 +56,7 @@ struct InteractiveRenderer::Impl {
     void drawUnlit(const std::vector<UnlitItem>& items, const View& view,
                    const PreviewLighting& lighting);
     void drawUnlitItem(const UnlitItem& item, const View& view);
+    void drawOverlay(const std::vector<LitItem>& items);
 
     InteractiveOptions options;
     bool reversed = canReverseDepth();
@@ -66,14 +69,14 @@ struct InteractiveRenderer::Impl {
     LuminanceMeter meter;
     TonePass tonePass;
     OverlayPass overlayPass;
-    Overlay overlay = Overlay::none;
-    float overlayGrey = 1;
-    double now = 0;
+    OverlayPicture overlay;
+    std::optional<OverlayTarget> overlayTarget; ///< while there is an overlay
     InteractiveStatistics statistics;
 };
 
 void InteractiveRenderer::Impl::requireTarget(int width, int height) {
     if (target && target->width() == width && target->height() == height) return;
+    overlayTarget.reset();
     target.reset(); // first: two may be more than the card can hold
     target.emplace(width, height, options.samples, options.precision);
 }
@@ -145,6 +148,17 @@ void InteractiveRenderer::Impl::drawUnlitItem(const UnlitItem& item, const View&
     if (doubleSided) glEnable(GL_CULL_FACE);
 }
 
+void InteractiveRenderer::Impl::drawOverlay(const std::vector<LitItem>& items) {
+    if (overlay.empty()) {
+        overlayTarget.reset();
+        return;
+    }
+    if (!overlayTarget) overlayTarget.emplace(*target);
+    overlayTarget->begin();
+    overlayPass.draw(overlay, items, reversed);
+    overlayTarget->resolve();
+}
+
 InteractiveRenderer::InteractiveRenderer(const InteractiveOptions& options)
     : impl_(std::make_unique<Impl>(options)) {}
 
@@ -156,7 +170,7 @@ void InteractiveRenderer::drawScene(const DrawList& list, const View& view,
     assert(width > 0 && height > 0);
     Impl& impl = *impl_;
     impl.requireTarget(width, height);
-    impl.litCache.dropDead(impl.now);
+    impl.litCache.dropDead();
     impl.overlayPass.dropDead();
     const std::size_t lightBytes = impl.litCache.lightBytes();
     impl.previewCache.dropDead();
@@ -175,7 +189,7 @@ void InteractiveRenderer::drawScene(const DrawList& list, const View& view,
         else
             impl.drawLit(lit);
         impl.drawUnlit(list.unlit, view, preview);
-        impl.overlayPass.draw(impl.overlay, lit, impl.overlayGrey, impl.now, impl.reversed);
+        impl.drawOverlay(lit);
     }
     impl.target->resolve();
     impl.meter.measure(impl.target->texture());
@@ -188,17 +202,16 @@ void InteractiveRenderer::drawScene(const DrawList& list, const View& view,
                        live.active() ? impl.livePass->statistics().maps : 0};
 }
 
-void InteractiveRenderer::setOverlay(Overlay overlay, float middleGrey, double now) {
-    impl_->overlay = overlay;
-    impl_->overlayGrey = middleGrey;
-    impl_->now = now;
+void InteractiveRenderer::setOverlay(OverlayPicture overlay) {
+    impl_->overlay = std::move(overlay);
 }
 
 void InteractiveRenderer::show(unsigned framebuffer, float middleGrey, ToneStyle style) {
     assert(impl_->target);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, impl_->target->width(), impl_->target->height());
-    impl_->tonePass.draw(impl_->target->texture(), middleGrey, style);
+    impl_->tonePass.draw(impl_->target->texture(), middleGrey, style,
+                         impl_->overlayTarget ? impl_->overlayTarget->texture() : 0);
 }
 
 std::optional<std::vector<float>> InteractiveRenderer::luminances(bool wait) {

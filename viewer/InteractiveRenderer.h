@@ -6,7 +6,7 @@
 #include "viewer/HdrTarget.h"
 #include "viewer/LiveLight.h"
 #include "viewer/LiveShaders.h"
-#include "viewer/OverlayPass.h"
+#include "viewer/Overlay.h"
 #include "viewer/PreviewLighting.h"
 #include "viewer/ToneCurve.h"
 
@@ -56,12 +56,11 @@ public:
     void drawScene(const DrawList& list, const View& view, const PreviewLighting& preview,
                    int width, int height, const LiveLight& live = {});
 
-    /// What drawScene() draws over the lit surfaces. \param middleGrey as for show()
-    /// \param now time that only grows [s]: what the age of light counts by
-    void setOverlay(Overlay overlay, float middleGrey, double now);
+    /// What show() lays over the lit surfaces of the pictures that drawScene() draws from now on.
+    void setOverlay(OverlayPicture overlay);
 
-    /// Shows what was drawn last in `framebuffer` (0: the window), whose lower left corner it
-    /// fills.
+    /// Shows what was drawn last, and what lies over it, in `framebuffer` (0: the window), whose
+    /// lower left corner it fills.
     void show(unsigned framebuffer, float middleGrey, ToneStyle style);
 
     /// Reflected luminances [nit] of a frame drawn not long ago, once; see LuminanceMeter.

@@ -1,12 +1,12 @@
 #include "viewer/OverlayPass.h"
 
+#include "viewer/ColourMap.h"
 #include "viewer/DrawState.h"
+#include "viewer/MeshLines.h"
 #include "viewer/Shaders.h"
 
 #include <epoxy/gl.h>
 
-#include <algorithm>
-#include <set>
 #include <string>
 
 namespace penumbra {
@@ -18,131 +18,116 @@ layout(location = 0) in vec3 position;
 uniform mat4 localToClip;
 void main() {
     gl_Position = localToClip * vec4(position, 1.0);
-    gl_Position.z += nearer * gl_Position.w;
+    gl_Position = nearer(gl_Position, 2e-3); // more than a surface is deep from pixel to pixel
 }
 )";
 
-const char* const kPlainFragmentShader = R"(#version 330 core
-uniform vec4 colour;                     // nit, opacity
-layout(location = 0) out vec4 beauty;
-void main() { beauty = colour; }
+const char* const kLineFragmentShader = R"(#version 330 core
+uniform vec4 colour;
+layout(location = 0) out vec4 shown;
+void main() { shown = vec4(colour.rgb * colour.a, colour.a); }
 )";
 
-/// Light that has just arrived glows and cools down within seconds.
-const char* const kAgeVertexShader = R"(#version 330 core
+const char* const kBlockVertexShader = R"(#version 330 core
 layout(location = 0) in vec3 position;
 uniform mat4 localToClip;
-uniform samplerBuffer times;             // of each block of 64 vertices [s]
-uniform float now;
-flat out float age;
+uniform samplerBuffer colours;           // of each block of 64 vertices
+flat out vec4 colour;
 void main() {
     gl_Position = localToClip * vec4(position, 1.0);
-    gl_Position.z += nearer * gl_Position.w;
-    age = now - texelFetch(times, gl_VertexID / 64).r;
+    gl_Position = nearer(gl_Position, 1e-5);
+    colour = texelFetch(colours, gl_VertexID / 64);
 }
 )";
 
-const char* const kAgeFragmentShader = R"(#version 330 core
-flat in float age;
-uniform vec4 colour;                     // middle grey [nit]
-layout(location = 0) out vec4 beauty;
+const char* const kBlockFragmentShader = R"(#version 330 core
+flat in vec4 colour;
+layout(location = 0) out vec4 shown;
 void main() {
-    float fresh = exp2(-2.0 * max(age, 0.0)), recent = exp2(-0.5 * max(age, 0.0));
-    vec3 heat = vec3(4.0 * recent, 2.5 * fresh, 0.6 * fresh * fresh);
-    beauty = vec4(colour.rgb * heat, 0.15 + 0.6 * recent);
+    if (colour.a == 0.0) discard;
+    shown = vec4(colour.rgb * colour.a, colour.a);
 }
 )";
+static_assert(LitGeometry::kBlock == 64);
 
-/// A hair nearer to the eye than the surface itself, whichever way depth runs.
+/// With a function that brings a point nearer to the eye by some share of its distance, whichever
+/// way depth runs: it is as 1 / distance from what lies at infinity.
 std::string withDepth(const char* source, bool reversed) {
+    const std::string version = "#version 330 core\n";
     std::string text = source;
-    const std::string line = "#version 330 core\n";
-    return line + "const float nearer = " + (reversed ? "1e-6" : "-1e-5") + ";\n" +
-           text.substr(line.size());
+    text.insert(version.size(),
+                reversed ? "    return vec4(p.xy, p.z * (1.0 + share), p.w);\n}\n"
+                         : "    return vec4(p.xy, p.w - (p.w - p.z) * (1.0 + share), p.w);\n}\n");
+    text.insert(version.size(), "vec4 nearer(vec4 p, float share) {\n");
+    return text;
 }
 
 } // namespace
 
-std::vector<std::uint32_t> elementEdges(const LitMeshData& mesh) {
-    const std::size_t triangles = mesh.indices.size() / 3;
-    const auto corner = [&](std::size_t triangle, std::size_t k) {
-        return mesh.indices[3 * triangle + k % 3];
-    };
-    // a quadrilateral (a, b, c, d) is cut into (a, b, c), (a, c, d)
-    const auto cutHere = [&](std::size_t triangle) {
-        return triangle + 1 < triangles && corner(triangle, 0) == corner(triangle + 1, 0) &&
-               corner(triangle, 2) == corner(triangle + 1, 1);
-    };
-    std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
-    const auto add = [&](std::uint32_t a, std::uint32_t b) { edges.insert(std::minmax(a, b)); };
-    for (std::size_t t = 0; t < triangles; ++t) {
-        const bool first = cutHere(t), second = !first && t > 0 && cutHere(t - 1);
-        if (!second) add(corner(t, 0), corner(t, 1));
-        add(corner(t, 1), corner(t, 2));
-        if (!first) add(corner(t, 2), corner(t, 0));
-    }
-    std::vector<std::uint32_t> indices;
-    for (const auto& [a, b] : edges) indices.insert(indices.end(), {a, b});
-    return indices;
-}
-
 OverlayPass::OverlayPass()
-    : lineProgram_(withDepth(kLineVertexShader, canReverseDepth()).c_str(), kPlainFragmentShader),
-      ageProgram_(withDepth(kAgeVertexShader, canReverseDepth()).c_str(), kAgeFragmentShader),
-      ageBuffer_(makeBuffer()), ageTexture_(makeTexture()) {}
+    : lineProgram_(withDepth(kLineVertexShader, canReverseDepth()).c_str(), kLineFragmentShader),
+      blockProgram_(withDepth(kBlockVertexShader, canReverseDepth()).c_str(), kBlockFragmentShader),
+      blockBuffer_(makeBuffer()), blockTexture_(makeTexture()) {}
 
 void OverlayPass::dropDead() {
-    std::erase_if(edges_, [](const auto& entry) { return entry.second.alive.expired(); });
+    std::erase_if(lines_, [](const auto& entry) { return entry.second.alive.expired(); });
 }
 
-const OverlayPass::Edges& OverlayPass::edgesOf(const LitItem& item) {
-    Edges& edges = edges_[item.geometry];
-    if (edges.topology == item.geometry->topologyRevision() && !edges.alive.expired()) return edges;
-    const std::vector<std::uint32_t> indices = elementEdges(item.geometry->data());
-    edges.alive = item.owner;
-    edges.topology = item.geometry->topologyRevision();
-    edges.count = indices.size();
-    edges.vertexArray = makeVertexArray();
-    edges.positions = makeBuffer();
-    edges.indices = makeBuffer();
-    const auto& positions = item.geometry->data().positions;
-    glBindVertexArray(edges.vertexArray.name());
-    glBindBuffer(GL_ARRAY_BUFFER, edges.positions.name());
-    glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(positions.size() * sizeof(glm::vec3)),
-                 positions.data(), GL_STATIC_DRAW);
+const OverlayPass::Lines& OverlayPass::linesOf(const LitItem& item) {
+    Lines& lines = lines_[item.geometry];
+    const LitMeshData& mesh = item.geometry->data();
+    if (lines.triangles == mesh.triangleMaterial.size() && !lines.alive.expired()) return lines;
+    const MeshLines found = meshLines(mesh);
+    std::vector<std::uint32_t> indices = found.patches;
+    indices.insert(indices.end(), found.elements.begin(), found.elements.end());
+    lines.alive = item.owner;
+    lines.triangles = mesh.triangleMaterial.size();
+    lines.patches = found.patches.size();
+    lines.elements = found.elements.size();
+    lines.vertexArray = makeVertexArray();
+    lines.positions = makeBuffer();
+    lines.indices = makeBuffer();
+    glBindVertexArray(lines.vertexArray.name());
+    glBindBuffer(GL_ARRAY_BUFFER, lines.positions.name());
+    glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(mesh.positions.size() * sizeof(glm::vec3)),
+                 mesh.positions.data(), GL_STATIC_DRAW);
     glVertexAttribPointer(kPosition, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
     glEnableVertexAttribArray(kPosition);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, edges.indices.name());
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, lines.indices.name());
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indices.size() * sizeof(std::uint32_t)),
                  indices.data(), GL_STATIC_DRAW);
-    return edges;
+    return lines;
 }
 
-void OverlayPass::drawElements(const std::vector<LitItem>& items, float middleGrey) {
+void OverlayPass::drawLines(const std::vector<LitItem>& items) {
     lineProgram_.use();
-    lineProgram_.set("colour", glm::vec4(glm::vec3(0.1f, 0.5f, 1.0f) * (3 * middleGrey), 0.45f));
     for (const LitItem& item : items) {
         setPlace(lineProgram_, item.place);
-        const Edges& edges = edgesOf(item);
-        glBindVertexArray(edges.vertexArray.name());
-        glDrawElements(GL_LINES, GLsizei(edges.count), GL_UNSIGNED_INT, nullptr);
+        const Lines& lines = linesOf(item);
+        glBindVertexArray(lines.vertexArray.name());
+        lineProgram_.set("colour", glm::vec4(kindColour(kElementKind), 0.3f));
+        glDrawElements(GL_LINES, GLsizei(lines.elements), GL_UNSIGNED_INT,
+                       reinterpret_cast<const void*>(lines.patches * sizeof(std::uint32_t)));
+        lineProgram_.set("colour", glm::vec4(kindColour(kPatchKind), 0.9f));
+        glDrawElements(GL_LINES, GLsizei(lines.patches), GL_UNSIGNED_INT, nullptr);
     }
 }
 
-void OverlayPass::drawAge(const std::vector<LitItem>& items, float middleGrey, double now) {
-    ageProgram_.use();
-    ageProgram_.set("colour", glm::vec4(glm::vec3(middleGrey), 1));
-    ageProgram_.set("now", float(now));
-    ageProgram_.set("times", 0);
+void OverlayPass::drawBlocks(const BlockColours& colours, const std::vector<LitItem>& items) {
+    blockProgram_.use();
+    blockProgram_.set("colours", 0);
     glActiveTexture(GL_TEXTURE0);
     for (const LitItem& item : items) {
-        setPlace(ageProgram_, item.place);
-        const std::vector<float>& times = item.gpu->blockTimes();
-        glBindBuffer(GL_TEXTURE_BUFFER, ageBuffer_.name());
-        glBufferData(GL_TEXTURE_BUFFER, GLsizeiptr(times.size() * sizeof(float)), times.data(),
-                     GL_STREAM_DRAW);
-        glBindTexture(GL_TEXTURE_BUFFER, ageTexture_.name());
-        glTexBuffer(GL_TEXTURE_BUFFER, GL_R32F, ageBuffer_.name());
+        const auto found = colours.find(item.geometry);
+        if (found == colours.end() ||
+            found->second.size() != item.geometry->blockRevisions().size())
+            continue;
+        setPlace(blockProgram_, item.place);
+        glBindBuffer(GL_TEXTURE_BUFFER, blockBuffer_.name());
+        glBufferData(GL_TEXTURE_BUFFER, GLsizeiptr(found->second.size() * sizeof(glm::u8vec4)),
+                     found->second.data(), GL_STREAM_DRAW);
+        glBindTexture(GL_TEXTURE_BUFFER, blockTexture_.name());
+        glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA8, blockBuffer_.name());
         item.gpu->bind();
         for (const MaterialRange& range : item.gpu->ranges()) drawRange(range);
     }
@@ -150,17 +135,14 @@ void OverlayPass::drawAge(const std::vector<LitItem>& items, float middleGrey, d
     glBindBuffer(GL_TEXTURE_BUFFER, 0);
 }
 
-void OverlayPass::draw(Overlay overlay, const std::vector<LitItem>& items, float middleGrey,
-                       double now, bool reversed) {
-    if (overlay == Overlay::none) return;
+void OverlayPass::draw(const OverlayPicture& picture, const std::vector<LitItem>& items,
+                       bool reversed) {
     glDepthFunc(reversed ? GL_GEQUAL : GL_LEQUAL);
     glDepthMask(GL_FALSE);
+    if (!picture.blocks.empty()) drawBlocks(picture.blocks, items);
     glEnable(GL_BLEND);
-    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE); // alpha: as it is
-    if (overlay == Overlay::elements)
-        drawElements(items, middleGrey);
-    else
-        drawAge(items, middleGrey, now);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); // premultiplied
+    if (picture.mesh) drawLines(items);
     glDisable(GL_BLEND);
     glDepthMask(GL_TRUE);
 }

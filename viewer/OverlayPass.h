@@ -1,55 +1,48 @@
-// What is otherwise not seen of the lit surfaces: their elements, the age of their light.
+// Draws overlays over surfaces.
 #pragma once
 
 #include "scenegraph/LitGeometry.h"
 #include "viewer/GlObject.h"
 #include "viewer/LitItem.h"
+#include "viewer/Overlay.h"
 #include "viewer/ShaderProgram.h"
 
 #include <cstdint>
 #include <memory>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 namespace penumbra {
 
-enum class Overlay { none, elements, age };
-inline constexpr const char* kOverlayNames[] = {"none", "element mesh", "age of the light"};
-
-/// The edges of the elements: those of all triangles, but not the diagonals that cut quadrilaterals
-/// into two consecutive triangles; each once. Pairs of vertices.
-std::vector<std::uint32_t> elementEdges(const LitMeshData& mesh);
-
-/// Draws an overlay over surfaces that have just been drawn, into the same framebuffer, with its
-/// depth test.
+/// Draws an overlay over surfaces whose depths are in the framebuffer: display colours with
+/// premultiplied alpha, see OverlayTarget.
 class OverlayPass {
 public:
+    /// Of lines, see kindColour().
+    static constexpr std::size_t kPatchKind = 3, kElementKind = 1;
+
     OverlayPass();
 
-    /// \param middleGrey luminance that is shown as 18 % grey [nit]: overlays look alike in all
-    ///                   light
-    /// \param now        the time by which GpuGeometry::blockTimes() counts [s]
-    void draw(Overlay overlay, const std::vector<LitItem>& items, float middleGrey, double now,
-              bool reversedDepth);
+    void draw(const OverlayPicture& picture, const std::vector<LitItem>& items, bool reversedDepth);
     /// Drops what belongs to geometries that are gone.
     void dropDead();
 
 private:
-    struct Edges {
+    /// Vertices don't move within a geometry: lines stay, but for new triangles.
+    struct Lines {
         std::weak_ptr<const Node> alive;
-        std::uint64_t topology = 0;
+        std::size_t triangles = 0;
         GlObject vertexArray, positions, indices;
-        std::size_t count = 0;
+        std::size_t patches = 0, elements = 0; ///< indices, first those of patches
     };
 
-    const Edges& edgesOf(const LitItem& item);
-    void drawElements(const std::vector<LitItem>& items, float middleGrey);
-    void drawAge(const std::vector<LitItem>& items, float middleGrey, double now);
+    const Lines& linesOf(const LitItem& item);
+    void drawLines(const std::vector<LitItem>& items);
+    void drawBlocks(const BlockColours& colours, const std::vector<LitItem>& items);
 
-    ShaderProgram lineProgram_, ageProgram_;
-    GlObject ageBuffer_, ageTexture_;
-    std::unordered_map<const LitGeometry*, Edges> edges_;
+    ShaderProgram lineProgram_, blockProgram_;
+    GlObject blockBuffer_, blockTexture_;
+    std::unordered_map<const LitGeometry*, Lines> lines_;
 };
 
 } // namespace penumbra

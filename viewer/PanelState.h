@@ -5,6 +5,7 @@
 #include "radiosity/process/RadiosityState.h"
 #include "viewer/AutoExposure.h"
 #include "viewer/InteractiveRenderer.h"
+#include "viewer/Legend.h"
 #include "viewer/ToneCurve.h"
 #include "viewer/Walkthrough.h"
 
@@ -48,6 +49,7 @@ struct PanelState {
     AutoExposure exposure;
     ToneStyle tone = ToneStyle::agx;
     Overlay overlay = Overlay::none;
+    Legend legend; ///< of the overlay
     Trigger trigger = Trigger::continuous;
     UpdateOrder order = UpdateOrder::importance;
     RadiosityState light;

@@ -15,6 +15,8 @@ void drawTimePanel(PanelState& state);      ///< frame times and what was drawn
 
 /// What is always there: the line at the bottom, and what there is to say.
 void drawStatusLine(PanelState& state);
+/// What the colours of the overlay mean.
+void drawLegend(const PanelState& state);
 /// The box around the selected object.
 void drawSelectionBox(const PanelState& state);
 /// All keys.

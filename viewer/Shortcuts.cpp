@@ -31,7 +31,7 @@ constexpr std::array kHelp = std::to_array<HelpLine>({
     {"View", "[  ]", "darker, brighter (exposure)"},
     {"View", "\\", "exposure by itself, or fixed"},
     {"View", "T", "next tone curve: AgX, ACES, sRGB"},
-    {"View", "O", "next overlay: element mesh, age of the light"},
+    {"View", "O  Shift+O", "next, previous overlay: patch mesh, age of the light"},
     {"View", "N", "panels on, off"},
     {"View", "F11", "full screen"},
     {"View", "?", "this help"},
@@ -92,7 +92,7 @@ std::optional<Command> ofLetter(char letter, Modifiers modifiers) {
     case 'N':
         return Command{Action::panels};
     case 'O':
-        return Command{Action::nextOverlay};
+        return Command{shift ? Action::previousOverlay : Action::nextOverlay};
     case 'P':
         return Command{Action::play};
     case 'U':

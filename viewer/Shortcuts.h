@@ -34,6 +34,7 @@ enum class Action {
     autoExposure,
     nextTone,
     nextOverlay,
+    previousOverlay,
     update,
     play,
     save,

@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include <cstdint>
 #include <vector>
 
 namespace penumbra {
@@ -12,6 +13,7 @@ const char* const kFragmentShader = R"(#version 330 core
 in vec2 place;
 uniform sampler2D luminances;            // nit
 uniform sampler2D table;                 // the tone curve over the logarithm
+uniform sampler2D overlay;               // sRGB, premultiplied
 uniform mat3 inset, outset;
 uniform float scale;                     // nit to the curve's unit
 uniform vec4 range;                      // log2 of the table's first and last entry, its size
@@ -35,14 +37,23 @@ void main() {
     colour = outset * vec3(curve(colour.r), curve(colour.g), curve(colour.b));
     colour = clamp(colour, 0.0, 1.0);
     float dither = 0.0005 + 0.999 * noise(floor(gl_FragCoord.xy));
-    vec3 level = 255.0 * vec3(encoded(colour.r), encoded(colour.g), encoded(colour.b));
+    vec4 over = texture(overlay, place);
+    vec3 under = vec3(encoded(colour.r), encoded(colour.g), encoded(colour.b));
+    vec3 level = 255.0 * (over.rgb + (1.0 - over.a) * under);
     signal = vec4(floor(level + dither) / 255.0, 1.0);
 }
 )";
 
 } // namespace
 
-TonePass::TonePass() : pass_(kFragmentShader), table_(makeTexture()) {}
+TonePass::TonePass() : pass_(kFragmentShader), table_(makeTexture()), nothing_(makeTexture()) {
+    const std::uint8_t clear[4] = {0, 0, 0, 0};
+    glBindTexture(GL_TEXTURE_2D, nothing_.name());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, clear);
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
+    glBindTexture(GL_TEXTURE_2D, 0);
+}
 
 void TonePass::load(ToneStyle style) {
     glBindTexture(GL_TEXTURE_2D, table_.name());
@@ -58,7 +69,9 @@ void TonePass::load(ToneStyle style) {
         glTexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
 }
 
-void TonePass::draw(unsigned texture, float middleGrey, ToneStyle style) {
+void TonePass::draw(unsigned texture, float middleGrey, ToneStyle style, unsigned overlay) {
+    glActiveTexture(GL_TEXTURE2);
+    glBindTexture(GL_TEXTURE_2D, overlay != 0 ? overlay : nothing_.name());
     glActiveTexture(GL_TEXTURE1);
     load(style);
     glActiveTexture(GL_TEXTURE0);
@@ -67,6 +80,7 @@ void TonePass::draw(unsigned texture, float middleGrey, ToneStyle style) {
     program.use();
     program.set("luminances", 0);
     program.set("table", 1);
+    program.set("overlay", 2);
     program.set("inset", curve_.inset());
     program.set("outset", curve_.outset());
     program.set("scale", kMiddleGrey / middleGrey);
@@ -74,7 +88,7 @@ void TonePass::draw(unsigned texture, float middleGrey, ToneStyle style) {
                                    float(ToneCurve::kTableSize), 0));
     glDisable(GL_FRAMEBUFFER_SRGB);
     pass_.draw();
-    for (const GLenum unit : {GL_TEXTURE1, GL_TEXTURE0}) {
+    for (const GLenum unit : {GL_TEXTURE2, GL_TEXTURE1, GL_TEXTURE0}) {
         glActiveTexture(unit);
         glBindTexture(GL_TEXTURE_2D, 0);
     }

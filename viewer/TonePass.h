@@ -17,14 +17,17 @@ public:
 
     /// \param texture    of linear Rec. 709 luminances
     /// \param middleGrey luminance that is shown as 18 % grey [nit]
+    /// \param overlay    texture of what lies over the picture: display colours with premultiplied
+    ///                   alpha; 0: nothing
     /// Draws into the framebuffer that is bound, over its viewport.
-    void draw(unsigned texture, float middleGrey, ToneStyle style);
+    void draw(unsigned texture, float middleGrey, ToneStyle style, unsigned overlay = 0);
 
 private:
     void load(ToneStyle style);
 
     ScreenPass pass_;
-    GlObject table_; ///< the curve, one row
+    GlObject table_;   ///< the curve, one row
+    GlObject nothing_; ///< an overlay of one transparent texel
     std::optional<ToneStyle> loaded_;
     ToneCurve curve_{ToneStyle::srgb};
 };

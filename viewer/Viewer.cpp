@@ -5,6 +5,7 @@
 #include "viewer/FileWatcher.h"
 #include "viewer/GuiLayer.h"
 #include "viewer/InteractiveRenderer.h"
+#include "viewer/OverlayViews.h"
 #include "viewer/PanelState.h"
 #include "viewer/Panels.h"
 #include "viewer/PictureSaver.h"
@@ -67,6 +68,8 @@ private:
     void save();
     void tellTitle();
     bool changing() const;
+    bool overlayChanging() const;
+    OverlayView overlayView() const;
 
     const ViewerOptions& options_;
     const std::string name_; ///< of the scene's file
@@ -231,7 +234,10 @@ void Viewer::perform(const Command& command) {
         state_.tone = ToneStyle((int(state_.tone) + 1) % int(kToneStyleNames.size()));
         break;
     case Action::nextOverlay:
-        state_.overlay = Overlay((int(state_.overlay) + 1) % int(std::size(kOverlayNames)));
+        state_.overlay = after(state_.overlay, 1);
+        break;
+    case Action::previousOverlay:
+        state_.overlay = after(state_.overlay, -1);
         break;
     case Action::update:
         state_.wantsUpdate = true;
@@ -288,7 +294,26 @@ void Viewer::takeEvents() {
 
 bool Viewer::changing() const {
     return stale_ > 0 || !state_.exposure.settled() || (walk_ && walk_->moving()) ||
-           (replay_ && replay_->playing()) || gui_->busy() || state_.overlay == Overlay::age;
+           (replay_ && replay_->playing()) || gui_->busy() || overlayChanging();
+}
+
+/// Whether the overlay goes on changing by itself.
+bool Viewer::overlayChanging() const {
+    return state_.overlay == Overlay::age && light_ &&
+           walk_->time() - light_->ages().newest() < kAgeScale.first;
+}
+
+OverlayView Viewer::overlayView() const {
+    if (!light_) return {};
+    switch (state_.overlay) {
+    case Overlay::none:
+        break;
+    case Overlay::mesh:
+        return meshView();
+    case Overlay::age:
+        return ageView(light_->objects(), light_->ages(), walk_->time());
+    }
+    return {};
 }
 
 void Viewer::save() {
@@ -346,6 +371,7 @@ void Viewer::drawPanelsOver() {
     gui_->begin();
     drawSelectionBox(state_);
     drawPanels(state_);
+    drawLegend(state_);
     drawStatusLine(state_);
     drawHelp(state_);
     gui_->end();
@@ -355,7 +381,9 @@ void Viewer::draw(double seconds) {
     const glm::ivec2 size = window_.pixels();
     const View view = walk_ ? walk_->rig().view(size.x, size.y) : View{};
     const Frustum frustum(view.worldToClip());
-    renderer_.setOverlay(state_.overlay, state_.exposure.middleGrey(), state_.time);
+    OverlayView overlay = overlayView();
+    state_.legend = std::move(overlay.legend);
+    renderer_.setOverlay(std::move(overlay.picture));
     renderer_.drawScene(light_ ? light_->listVisible(frustum) : listVisible(nothing_, frustum),
                         view, preview_, size.x, size.y, light_ ? light_->live() : LiveLight());
     if (const auto luminances = renderer_.luminances(!state_.exposure.measured() && walk_))

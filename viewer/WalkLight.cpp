@@ -59,6 +59,7 @@ bool WalkLight::update(const Walkthrough& walk, const View& view) {
     node_->update();
     chooseLamps(walk);
     blend_.advance(*node_, walk.time());
+    ages_.advance(node_->objects(), walk.time());
     const RadiosityState& state = node_->state();
     const bool news = blend_.changing() || blocks_ != state.blocksTaken || phase_ != state.phase ||
                       unlit_ != node_->unlit().size();

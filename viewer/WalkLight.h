@@ -4,10 +4,12 @@
 #include "radiosity/RadiosityNode.h"
 #include "radiosity/process/LightingLink.h"
 #include "scenegraph/Frustum.h"
+#include "viewer/BlockAges.h"
 #include "viewer/DrawList.h"
 #include "viewer/LightBlend.h"
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -49,6 +51,9 @@ public:
     /// Whether all that is visible has light.
     bool complete() const;
 
+    std::span<const LitObject> objects() const { return node_->objects(); }
+    /// When the light of blocks was published, at the walkthrough's time.
+    const BlockAges& ages() const { return ages_; }
     RadiosityNode& node() { return *node_; }
     const RadiosityState& state() const { return node_->state(); }
     /// One line each, once, for people.
@@ -60,6 +65,7 @@ private:
     const Group& scene_;
     std::shared_ptr<RadiosityNode> node_;
     LightBlend blend_;
+    BlockAges ages_;
     std::size_t mostLamps_;     ///< drawn live
     std::uint64_t lampsOf_ = 0; ///< revision of the walkthrough, and
     ObjectId lampsFor_;         ///< the object, that live lamps were chosen for

@@ -59,15 +59,17 @@ void writeVertices(ByteWriter& out, const PatchSet& set, const ObjectPart& part,
 void writeElements(ByteWriter& out, const PatchSet& set, std::uint32_t object,
                    std::span<const std::uint32_t> elements) {
     std::vector<std::array<std::uint32_t, 4>> corners;
-    std::vector<std::uint32_t> materials;
+    std::vector<std::uint32_t> materials, patches;
     for (std::uint32_t e : elements) {
         std::array<std::uint32_t, 4> local = set.uncoveredElements[e].vertices;
         for (std::uint32_t& v : local) v -= set.objects[object].vertices.first;
         corners.push_back(local);
         materials.push_back(set.elements[e].material);
+        patches.push_back(set.uncoveredElements[e].patch);
     }
     out.list(corners);
     out.list(materials);
+    out.list(patches);
 }
 
 } // namespace
@@ -117,6 +119,7 @@ std::optional<LitMeshObject> LitMeshReader::next() {
     object.normals = reader_.list<glm::vec3>();
     object.elements = reader_.list<std::array<std::uint32_t, 4>>();
     object.elementMaterial = reader_.list<std::uint32_t>();
+    object.elementPatch = reader_.list<std::uint32_t>();
     if (!reader_.ok() || !sound(object)) {
         reader_.fail();
         return std::nullopt;
@@ -138,6 +141,7 @@ bool LitMeshReader::sound(const LitMeshObject& object) const {
                           vertices / kBlock <= blocks_ - object.firstBlock);
     return vertices % kBlock == 0 && place && object.normals.size() == vertices &&
            object.elementMaterial.size() == object.elements.size() &&
+           object.elementPatch.size() == object.elements.size() &&
            std::all_of(object.positions.begin(), object.positions.end(), finite) &&
            std::all_of(object.normals.begin(), object.normals.end(), finite) &&
            std::all_of(object.elements.begin(), object.elements.end(),

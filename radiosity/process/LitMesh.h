@@ -27,6 +27,7 @@ struct LitMeshObject {
     std::vector<glm::vec3> positions, normals;
     std::vector<std::array<std::uint32_t, 4>> elements; ///< see Element; of this object's vertices
     std::vector<std::uint32_t> elementMaterial;
+    std::vector<std::uint32_t> elementPatch; ///< any number, the same for those of one patch
 };
 
 /// Where a colour comes from: numbers of the graph image, kNone if there is none.

@@ -87,6 +87,7 @@ void LitObjects::takeObject(const Colour& colour) {
         part.firstIndex.push_back(std::uint32_t(part.data.indices.size()));
         part.data.indices.resize(part.data.indices.size() + indexCount(part.base[e]));
         part.data.triangleMaterial.resize(part.data.indices.size() / 3, object->elementMaterial[e]);
+        part.data.trianglePatch.resize(part.data.indices.size() / 3, object->elementPatch[e]);
         part.changed.push_back(e);
     }
     part.missing = std::uint32_t(vertices / kBlock);

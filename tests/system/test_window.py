@@ -164,6 +164,43 @@ def walk_about(display):
     check("compensation = 1\n" in settings and "panels = 0" in settings, "it remembers settings")
 
 
+def spread(rows, box):
+    """The colours in a box (left, top, right, bottom), on a grid [pixel]."""
+    left, top, right, bottom = box
+    return [tuple(rows[y][3 * x:3 * x + 3]) for y in range(top, bottom, 4)
+            for x in range(left, right, 4)]
+
+
+def overlays(display):
+    """O lays one overlay after the other over the picture, each with its legend."""
+    view = View(display, SCENES / "cornell.usda", "--patch-size", "0.2", "--quiet")
+    view.lit()
+    display.hands("type", "[[[")  # as walk_about() left it, and dark enough for lines to be seen
+    plain = view.rest()
+    legend, middle = (10, 10, 300, 60), (340, 100, 940, 700)
+    display.hands("key", "o")
+    mesh = view.rest()
+    view.shot("overlay-mesh")
+    check(spread(plain, legend) != spread(mesh, legend), "O: a legend comes with the patch mesh")
+    lines = [p != m for p, m in zip(spread(plain, middle), spread(mesh, middle))]
+    check(0.02 < sum(lines) / len(lines) < 0.7, "lines are drawn, and the picture is between them")
+    display.hands("key", "o")
+    time.sleep(1)
+    age = display.pixels()
+    view.shot("overlay-age")
+    bluish = sum(b > r for r, _, b in spread(age, middle))
+    check(bluish > 0.9 * len(spread(age, middle)), "O: light of seconds ago is blue")
+    display.hands("type", "]]]")
+    time.sleep(1)
+    bright = display.pixels()
+    check(max(abs(p - q) for a, b in zip(spread(age, middle), spread(bright, middle))
+              for p, q in zip(a, b)) < 64, "exposure leaves the overlay as it is")
+    display.hands("key", "shift+o", "shift+o")
+    display.hands("type", "[[[")
+    check(xwindow.difference(plain, view.rest()) < 0.5, "Shift+O goes back to the picture alone")
+    check(view.program.end() == 0, "SIGTERM ends it with exit code 0")
+
+
 def orange(rows):
     """The middle of what is orange like the seat in the office, left of the panels [pixel]."""
     places = [(x, y) for y, row in enumerate(rows) for x in range(0, 900, 2)
@@ -264,6 +301,7 @@ def main():
     OUTPUT.mkdir(parents=True)
     with xwindow.Display() as display:
         walk_about(display)
+        overlays(display)
         take, last = office_session(display)
         replayed(take, last)
         replay_in_the_window(display, take)

@@ -1,9 +1,11 @@
-// What is otherwise not seen: OverlayPass, and the block-wise uploads that the age of light goes
-// by.
+// What lies over the picture, and the block-wise uploads below it.
 #include "viewer/OverlayPass.h"
 
 #include "LitScenes.h"
+#include "viewer/ColourMap.h"
 #include "viewer/InteractiveRenderer.h"
+
+#include <epoxy/gl.h>
 
 #include <algorithm>
 
@@ -15,13 +17,35 @@ class OverlayPassTest : public WithContext {
 protected:
     static constexpr int kSize = 64;
 
-    std::vector<Rgb> draw(InteractiveRenderer& interactive, Overlay overlay, double now) {
+    /// What the display shows, lower row first.
+    std::vector<glm::u8vec4> show(InteractiveRenderer& interactive, OverlayPicture overlay,
+                                  float middleGrey = 10) {
         const View view = viewFrom(1, kSize, kSize);
-        interactive.setOverlay(overlay, 10, now);
+        interactive.setOverlay(std::move(overlay));
         interactive.drawScene(listVisible(root, Frustum(view.worldToClip())), view, {}, kSize,
                               kSize);
-        return interactive.readLuminances();
+        if (colour_.name() == 0) {
+            colour_ = makeRenderbuffer();
+            framebuffer_ = makeFramebuffer();
+            glBindRenderbuffer(GL_RENDERBUFFER, colour_.name());
+            glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, kSize, kSize);
+            glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+            glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                                      colour_.name());
+        }
+        interactive.show(framebuffer_.name(), middleGrey, ToneStyle::srgb);
+        std::vector<glm::u8vec4> pixels(kSize * kSize);
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
+        glReadPixels(0, 0, kSize, kSize, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+        return pixels;
     }
+
+    static glm::u8vec4 at(const std::vector<glm::u8vec4>& pixels, int x) {
+        return pixels[std::size_t(kSize / 2 * kSize + x)];
+    }
+
+private:
+    GlObject colour_, framebuffer_;
 };
 
 const InteractiveOptions kExact{.samples = 1, .precision = HdrTarget::Precision::single};
@@ -46,42 +70,108 @@ LitMeshData strip(int count) {
     return data;
 }
 
-TEST_F(OverlayPassTest, ElementsHaveTheirEdgesButNoDiagonals) {
-    const std::vector<std::uint32_t> edges = elementEdges(litSquare());
-    EXPECT_EQ(edges, (std::vector<std::uint32_t>{0, 1, 0, 3, 1, 2, 2, 3}));
-    LitMeshData triangle = litSquare();
-    triangle.indices = {0, 1, 2};
-    EXPECT_EQ(elementEdges(triangle).size(), 6u);
+int farthest(glm::u8vec4 a, glm::u8vec4 b) {
+    const glm::ivec4 d = glm::abs(glm::ivec4(a) - glm::ivec4(b));
+    return std::max({d.r, d.g, d.b});
 }
 
 TEST_F(OverlayPassTest, TheMeshIsDrawnOnTheSurfaceAndNowhereElse) {
-    root.add(litNode(strip(4)));
+    LitMeshData data = strip(4);
+    data.trianglePatch = {0, 0, 0, 0, 1, 1, 1, 1};
+    root.add(litNode(data));
     InteractiveRenderer interactive(kExact);
-    const std::vector<Rgb> plain = draw(interactive, Overlay::none, 0);
-    const std::vector<Rgb> lined = draw(interactive, Overlay::elements, 0);
-    std::size_t changed = 0;
-    for (std::size_t i = 0; i < plain.size(); ++i) changed += !(plain[i] == lined[i]);
-    EXPECT_GE(changed, 3u * (kSize - 2)) << "three inner edges";
-    EXPECT_LT(changed, plain.size() / 4);
-    EXPECT_EQ(draw(interactive, Overlay::none, 0), plain);
+    OverlayPicture mesh;
+    mesh.mesh = true;
+    const std::vector<glm::u8vec4> plain = show(interactive, {});
+    const std::vector<glm::u8vec4> lined = show(interactive, mesh);
+    std::size_t strong = 0, weak = 0;
+    const auto inside = [](std::size_t place) { return place >= 2 && place < kSize - 2; };
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+        if (!inside(i % kSize) || !inside(i / kSize)) continue; // the strip ends there
+        const int change = farthest(plain[i], lined[i]);
+        strong += change > 60;
+        weak += change > 1 && change <= 60;
+    }
+    EXPECT_EQ(strong, kSize - 4u) << "between the patches";
+    EXPECT_EQ(weak, 2u * (kSize - 4)) << "within each";
+    EXPECT_EQ(show(interactive, {}), plain);
 }
 
-TEST_F(OverlayPassTest, OnlyChangedBlocksAreUploadedAndTheseGlow) {
+TEST_F(OverlayPassTest, ColoursOfBlocksAreThoseOfTheDisplayWhateverTheExposure) {
     const auto geometry = litNode(strip(40)); // 160 vertices: blocks of 64, 64 and 32
     root.add(geometry);
+    const glm::u8vec4 red(200, 10, 30, 255), blue(0, 40, 250, 255);
+    OverlayPicture overlay;
+    overlay.blocks[geometry.get()] = {red, {0, 0, 0, 0}, blue};
+    for (const int samples : {1, 4}) {
+        InteractiveRenderer interactive({.samples = samples});
+        const std::vector<glm::u8vec4> plain = show(interactive, {});
+        const std::vector<glm::u8vec4> over = show(interactive, overlay);
+        const std::vector<glm::u8vec4> darker = show(interactive, overlay, 1000);
+        EXPECT_LE(farthest(at(over, 3), red), 1);
+        EXPECT_LE(farthest(at(darker, 3), red), 1);
+        EXPECT_LE(farthest(at(over, kSize - 3), blue), 1);
+        EXPECT_EQ(at(over, kSize / 2), at(plain, kSize / 2)) << "no colour: the picture";
+        EXPECT_GT(farthest(at(darker, kSize / 2), at(plain, kSize / 2)), 20);
+    }
+}
+
+TEST_F(OverlayPassTest, ALittleOfThePictureIsSeenThrough) {
+    const auto geometry = litNode(strip(4));
+    root.add(geometry);
+    OverlayPicture overlay;
+    overlay.blocks[geometry.get()] = {{255, 255, 255, 51}};
     InteractiveRenderer interactive(kExact);
-    draw(interactive, Overlay::age, 0);
+    const glm::vec4 plain(at(show(interactive, {}), 20));
+    const glm::vec4 over(at(show(interactive, overlay), 20));
+    EXPECT_NEAR(over.g, 51 + 0.8f * plain.g, 2.0f);
+}
+
+TEST_F(OverlayPassTest, ExposureDoesNotMeasureTheOverlay) {
+    const auto geometry = litNode(strip(4));
+    root.add(geometry);
+    OverlayPicture overlay;
+    overlay.blocks[geometry.get()] = {{255, 255, 255, 255}};
+    InteractiveRenderer interactive(kExact);
+    show(interactive, {});
+    const std::optional<std::vector<float>> plain = interactive.luminances(true);
+    show(interactive, overlay);
+    EXPECT_EQ(interactive.luminances(true), plain);
+}
+
+TEST_F(OverlayPassTest, WhatStandsInFrontHidesTheOverlay) {
+    const auto geometry = litNode(strip(4));
+    root.add(geometry);
+    root.add(placed(moved(0, 0, 0.1), litNode(litSquare(), 8)));
+    InteractiveRenderer interactive(kExact);
+    const std::vector<glm::u8vec4> plain = show(interactive, {});
+    OverlayPicture overlay;
+    overlay.blocks[geometry.get()] = {{255, 0, 0, 255}};
+    EXPECT_EQ(show(interactive, overlay), plain);
+}
+
+TEST_F(OverlayPassTest, ColoursForAnotherNumberOfBlocksAreNotDrawn) {
+    const auto geometry = litNode(strip(4));
+    root.add(geometry);
+    InteractiveRenderer interactive(kExact);
+    const std::vector<glm::u8vec4> plain = show(interactive, {});
+    OverlayPicture overlay;
+    overlay.blocks[geometry.get()] = {{255, 0, 0, 255}, {255, 0, 0, 255}};
+    EXPECT_EQ(show(interactive, overlay), plain);
+}
+
+TEST_F(OverlayPassTest, OnlyBlocksWithNewLightAreUploaded) {
+    const auto geometry = litNode(strip(40));
+    root.add(geometry);
+    InteractiveRenderer interactive(kExact);
+    show(interactive, {});
     EXPECT_EQ(interactive.statistics().lightBytes, 0u);
-    const std::vector<Rgb> before = draw(interactive, Overlay::age, 100);
     geometry->setBlock(2, [](LitMeshData& data) {
         for (std::size_t v = 128; v < 160; ++v) data.direct[v] = data.direct[v] * 1.0001f;
     });
-    const std::vector<Rgb> after = draw(interactive, Overlay::age, 100.05);
+    show(interactive, {});
     EXPECT_EQ(interactive.statistics().lightUploads, 1u);
     EXPECT_EQ(interactive.statistics().lightBytes, 32u * 2 * sizeof(Rgb));
-    const std::size_t row = std::size_t(kSize / 2) * kSize;
-    EXPECT_GT(after[row + kSize - 3].r, 2 * before[row + kSize - 3].r) << "the last block";
-    EXPECT_NEAR(after[row + 3].r, before[row + 3].r, 1e-3f) << "the first one";
 }
 
 } // namespace

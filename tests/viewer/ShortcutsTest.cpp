@@ -40,6 +40,11 @@ TEST(Shortcuts, WalkingKeysAndHeldKeysAreNoCommands) {
     EXPECT_FALSE(commandOf(KeyEvent{.key = Key::tab, .down = false}));
 }
 
+TEST(Shortcuts, OGoesThroughTheOverlaysAndShiftOBack) {
+    EXPECT_EQ(stroke(key('O'), 'O')->action, Action::nextOverlay);
+    EXPECT_EQ(stroke(key('O'), 'O', {.shift = true})->action, Action::previousOverlay);
+}
+
 TEST(Shortcuts, EveryLineOfTheHelpSaysSomething) {
     EXPECT_GT(helpLines().size(), 10u);
     for (const HelpLine& line : helpLines()) {
