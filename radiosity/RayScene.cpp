@@ -5,6 +5,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstring>
@@ -20,14 +21,19 @@ namespace {
 struct QueryContext {
     RTCIntersectContext context;      // first, so that Embree's pointer is ours
     std::uint32_t* blocker = nullptr; // where to note who is in the way
-    bool frontOnly = false;
-    float nearest = -1; // what was accepted last: its distance, and its object and triangle
-    std::pair<std::uint32_t, std::uint32_t> nearestTriangle;
+    NearestHit* nearest = nullptr;    // who judges what is met
+    float slack = 0; // how much farther Embree has to go on than the nearest [of the direction]
     std::vector<RayHit>* all = nullptr; // where to note every hit; none ends the ray
 
     QueryContext() {
         rtcInitIntersectContext(&context);
     } // incoherent: COHERENT is slower everywhere
+};
+
+/// The triangles of a geometry; it has a pointer to this.
+struct Triangles {
+    const glm::vec3* vertices = nullptr;
+    const std::array<std::uint32_t, 3>* corners = nullptr;
 };
 
 /// Notes the object of the hit that ends each ray; the hit itself is accepted.
@@ -41,44 +47,35 @@ void noteBlocker(const RTCFilterFunctionNArguments* args) {
     }
 }
 
-/// Rejects backs if only fronts are asked for, and of equally near hits all but the first in order,
-/// whatever the order in which Embree finds them. Queries for the nearest hit are of single rays.
-void chooseNearest(const RTCFilterFunctionNArguments* args, QueryContext& context) {
-    const unsigned n = args->N;
-    assert(n == 1);
-    const float facing = RTCRayN_dir_x(args->ray, n, 0) * RTCHitN_Ng_x(args->hit, n, 0) +
-                         RTCRayN_dir_y(args->ray, n, 0) * RTCHitN_Ng_y(args->hit, n, 0) +
-                         RTCRayN_dir_z(args->ray, n, 0) * RTCHitN_Ng_z(args->hit, n, 0);
-    const float distance = RTCRayN_tfar(args->ray, n, 0);
-    const std::pair<std::uint32_t, std::uint32_t> triangle(RTCHitN_geomID(args->hit, n, 0),
-                                                           RTCHitN_primID(args->hit, n, 0));
-    if ((context.frontOnly && facing >= 0) ||
-        (distance == context.nearest && context.nearestTriangle < triangle)) {
+RayHit hitOf(const RTCFilterFunctionNArguments* args) {
+    RayHit hit;
+    hit.distance = RTCRayN_tfar(args->ray, 1, 0);
+    hit.object.value = RTCHitN_geomID(args->hit, 1, 0);
+    hit.triangle = RTCHitN_primID(args->hit, 1, 0);
+    hit.u = RTCHitN_u(args->hit, 1, 0);
+    hit.v = RTCHitN_v(args->hit, 1, 0);
+    hit.normal = {RTCHitN_Ng_x(args->hit, 1, 0), RTCHitN_Ng_y(args->hit, 1, 0),
+                  RTCHitN_Ng_z(args->hit, 1, 0)};
+    return hit;
+}
+
+/// Hands a hit to whom it concerns. Queries for hits are of single rays.
+void chooseHits(const RTCFilterFunctionNArguments* args) {
+    assert(args->N == 1);
+    auto& context = *reinterpret_cast<QueryContext*>(args->context);
+    const RayHit hit = hitOf(args);
+    if (context.all) {
+        context.all->push_back(hit);
         args->valid[0] = 0;
         return;
     }
-    context.nearest = distance;
-    context.nearestTriangle = triangle;
-}
-
-/// Rejects what the query does not ask for.
-void chooseHits(const RTCFilterFunctionNArguments* args) {
-    auto* const context = reinterpret_cast<QueryContext*>(args->context);
-    if (context->all) {
-        for (unsigned i = 0; i < args->N; ++i) {
-            if (args->valid[i] == 0) continue;
-            RayHit hit;
-            hit.distance = RTCRayN_tfar(args->ray, args->N, i);
-            hit.object.value = RTCHitN_geomID(args->hit, args->N, i);
-            hit.triangle = RTCHitN_primID(args->hit, args->N, i);
-            hit.normal = {RTCHitN_Ng_x(args->hit, args->N, i), RTCHitN_Ng_y(args->hit, args->N, i),
-                          RTCHitN_Ng_z(args->hit, args->N, i)};
-            context->all->push_back(hit);
-            args->valid[i] = 0;
-        }
-        return;
-    }
-    chooseNearest(args, *context);
+    const Triangles& of = *static_cast<const Triangles*>(args->geometryUserPtr);
+    const auto [a, b, c] = of.corners[hit.triangle];
+    const std::array corners{of.vertices[a], of.vertices[b], of.vertices[c]};
+    if (context.nearest->take(corners, hit))
+        RTCRayN_tfar(args->ray, 1, 0) = float(context.nearest->distance()) + context.slack;
+    else
+        args->valid[0] = 0;
 }
 
 } // namespace
@@ -87,12 +84,13 @@ struct RayScene::Impl {
     /// An object's geometry is part of the whole scene and of one of its own, made on demand.
     struct Member {
         RTCGeometry geometry = nullptr;
+        Triangles triangles;
         RTCScene alone = nullptr;
         bool moved = false;
     };
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
-    std::vector<Member> members; // one an object
+    std::vector<Member> members; // one an object; geometries point to them
 
     Impl() {
         // Embree builds on oneTBB's threads. A number of threads given here would limit the whole
@@ -139,6 +137,9 @@ struct RayScene::Impl {
                     mesh.triangles.size() * 3 * sizeof(std::uint32_t));
         rtcSetGeometryOccludedFilterFunction(geometry, noteBlocker);
         rtcSetGeometryIntersectFilterFunction(geometry, chooseHits);
+        members[id].triangles = {static_cast<const glm::vec3*>(vertices),
+                                 static_cast<const std::array<std::uint32_t, 3>*>(indices)};
+        rtcSetGeometryUserData(geometry, &members[id].triangles);
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(scene, geometry, id);
         members[id].geometry = geometry;
@@ -271,22 +272,22 @@ void RayScene::all(glm::vec3 origin, glm::vec3 direction, std::vector<RayHit>& h
 }
 
 RayHit RayScene::nearest(glm::vec3 origin, glm::vec3 direction, float reach, Faces faces) const {
-    RTCRayHit query{};
-    query.ray = {origin.x,    origin.y, origin.z, 0,           direction.x, direction.y,
-                 direction.z, 0,        reach,    0xffffffffu, 0,           0};
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    QueryContext context;
-    context.frontOnly = faces == Faces::front;
-    rtcIntersect1(impl_->scene, &context.context, &query);
-    RayHit hit;
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
-    hit.distance = query.ray.tfar;
-    hit.object.value = query.hit.geomID;
-    hit.triangle = query.hit.primID;
-    hit.u = query.hit.u;
-    hit.v = query.hit.v;
-    hit.normal = {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
-    return hit;
+    constexpr int kTimes = 4;        // corners may need several
+    const float hair = margin_ / 20; // many times what Embree rounds [m]
+    for (int time = 1;; ++time) {
+        RTCRayHit query{};
+        query.ray = {origin.x,    origin.y, origin.z, 0,           direction.x, direction.y,
+                     direction.z, 0,        reach,    0xffffffffu, 0,           0};
+        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        NearestHit nearest(origin, direction, faces == Faces::front);
+        QueryContext context;
+        context.nearest = &nearest;
+        context.slack = hair / glm::length(direction);
+        rtcIntersect1(impl_->scene, &context.context, &query);
+        if (!nearest.inDoubt(margin_ / glm::length(direction))) return nearest.hit();
+        if (time == kTimes) return nearest.doubt();
+        direction = nearest.aside(hair);
+    }
 }
 
 } // namespace penumbra

@@ -1,6 +1,7 @@
 // Rays, by Embree.
 #pragma once
 
+#include "radiosity/NearestHit.h"
 #include "radiosity/PatchSet.h"
 #include "scenegraph/ObjectId.h"
 
@@ -32,17 +33,6 @@ struct alignas(64) ShadowRays {
     }
 };
 
-/// What a ray met first.
-struct RayHit {
-    float distance = 0; ///< in units of the ray's direction
-    ObjectId object;    ///< not valid: nothing was met
-    std::uint32_t triangle = 0;
-    float u = 0, v = 0; ///< barycentric, of the triangle's second and third corner
-    glm::vec3 normal{}; ///< of the triangle's front, not unit
-
-    bool met() const { return object.valid(); }
-};
-
 /// The objects of a scene, each one geometry of its own in one flat Embree scene, so that an object
 /// can be moved by refitting, and traced alone. Tracing is thread-safe, changes are not.
 class RayScene {
@@ -70,8 +60,7 @@ public:
     void occludedBy(ObjectId object, ShadowRays& rays) const;
     enum class Faces { both, front };
     /// The nearest triangle, up to `reach` times the length of `direction`; on request only of
-    /// those that show their front. Of several at the same distance it is that of the first object,
-    /// and the first of its triangles.
+    /// those that show their front. The same however the scene came to be, as NearestHit says.
     RayHit nearest(glm::vec3 origin, glm::vec3 direction, float reach,
                    Faces faces = Faces::both) const;
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <utility>
 
 namespace penumbra {
 
@@ -48,6 +49,55 @@ TEST(RayScene, OfEquallyNearTrianglesMeetsTheFirst) {
         // On the diagonal that both triangles share, too.
         EXPECT_EQ(scene.nearest({x, x, 0.5f}, {0, 0, -1}, 10).triangle, 0u);
     }
+}
+
+TEST(RayScene, MeetsTheSameAtTheEdgesOfAnObjectThatWasMovedThereAndThatWasMadeThere) {
+    // Cubes in many triangles, one turned there from elsewhere, with its hierarchy; rays towards
+    // points of its edges, along planes that two faces share alike, and past its silhouette.
+    const auto cube = [](const glm::mat3& turn, glm::vec3 offset) {
+        RayMesh mesh;
+        for (const glm::vec3 normal : {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1)})
+            for (float side : {-1.0f, 1.0f}) {
+                const glm::vec3 u(normal.z, normal.x, normal.y), v = side * glm::cross(normal, u);
+                for (int j = 0; j < 4; ++j)
+                    for (int i = 0; i < 4; ++i) {
+                        const auto first = std::uint32_t(mesh.vertices.size());
+                        for (const auto& [k, l] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+                            mesh.vertices.push_back(
+                                offset + turn * (side * normal + (0.5f * float(i + k) - 1) * u +
+                                                 (0.5f * float(j + l) - 1) * v));
+                        mesh.triangles.push_back({first, first + 1, first + 2});
+                        mesh.triangles.push_back({first, first + 2, first + 3});
+                    }
+            }
+        return mesh;
+    };
+    const glm::mat3 turn(0, 1, 0, 0, 0, 1, 1, 0, 0);
+    const glm::vec3 offset(0.3f, 0.7f, 0.1f);
+    const RayMesh there = cube(turn, offset);
+    const RayMesh wall = square(-3);
+    const RayScene made(std::array{there, wall}, 10);
+    RayScene moved(std::array{cube(glm::mat3(1), {-2, 0.5f, 3}), wall}, 10);
+    moved.move({0}, there.vertices);
+    moved.commit();
+    int rays = 0;
+    for (glm::vec3 eye : {offset + glm::vec3(2), offset + glm::vec3(1.0024f, 1.0024f, 3),
+                          offset + glm::vec3(0, 1, 4), glm::vec3(0.1f, 0.2f, 4)})
+        for (std::size_t v = 0; v < there.vertices.size(); ++v) {
+            const std::size_t next = v % 4 == 3 ? v - 3 : v + 1; // along an edge of its square
+            const glm::vec3 middle = 0.5f * (there.vertices[v] + there.vertices[next]);
+            for (float along : {0.5f, 1.0f, 1.001f}) {
+                const glm::vec3 to = glm::mix(offset + glm::vec3(1), middle, along);
+                const RayHit one = made.nearest(eye, to - eye, 1e30f, RayScene::Faces::front);
+                const RayHit other = moved.nearest(eye, to - eye, 1e30f, RayScene::Faces::front);
+                EXPECT_EQ(one.met(), other.met());
+                EXPECT_EQ(one.object, other.object);
+                EXPECT_EQ(one.triangle, other.triangle);
+                EXPECT_EQ(one.distance, other.distance);
+                rays += one.met();
+            }
+        }
+    EXPECT_GT(rays, 100);
 }
 
 TEST(RayScene, DoesNotTakeTheTargetForAnObstacle) {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <map>
 #include <sstream>
+#include <cstdio>
+#include "radiosity/HemisphereRays.h"
+#include "radiosity/DrawnSurface.h"
 
 namespace penumbra {
 
@@ -117,6 +120,18 @@ void compareDetail(Comparison& with, const DetailHits& a, const DetailHits& b, c
                                         one->inside == other->inside &&
                                         sameHits(a.hits(groupOf(va), *one),
                                                  b.hits(groupOf(vb), *other), elements);
+            if (!same && one && other) { 
+              auto own=[&](std::uint32_t e){ for (auto& o: with.a.objects) if (o.elements.contains(e)) return o.path; return std::string("?"); };
+              auto pp=with.a.vertices[va].receiver; fprintf(stderr," at %.9g %.9g %.9g n %g %g %g slit %d same %d\n", pp.position.x,pp.position.y,pp.position.z,pp.normal.x,pp.normal.y,pp.normal.z, one->slit, with.b.vertices[vb].receiver.position==pp.position);
+              auto ha=a.hits(groupOf(va), *one), hb=b.hits(groupOf(vb), *other);
+              for (int r=0;r<64;++r) if (!sameHits(ha.subspan(r,1),hb.subspan(r,1),elements)) {
+fprintf(stderr," ray %d %u (as %u) %u\n", r, ha[r], ha[r]==Element::kNone?ha[r]:elements[ha[r]&0x7fffffff], hb[r]); 
+            DrawnSurface sa(with.a), sb(with.b); HemisphereRays h(64); 
+            auto d=h.direction(r,pp.normal); auto h1=sa.nearest(pp.position,d,1e30f); auto h2=sb.nearest(pp.position,d,1e30f);
+            fprintf(stderr," fresh: a %u at %.9g, b %u at %.9g\n", h1.element,h1.distance,h2.element,h2.distance);
+            fprintf(stderr, " owners %s %s dir %.9g %.9g %.9g\n", own(ha[r]).c_str(), own(h1.element).c_str(), d.x,d.y,d.z);
+            for (auto e : {ha[r], h1.element}) for (auto v : with.a.uncoveredElements[e].vertices) { auto q=with.a.vertices[v].position; fprintf(stderr,"   el %u v %.9g %.9g %.9g\n", e,q.x,q.y,q.z);}
+              }}
             with.expect(same, pa.path, " element ", i, " corner ", k,
                         " gathers other indirect light");
         }

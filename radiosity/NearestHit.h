@@ -1,0 +1,64 @@
+// What a ray meets first, whatever the order in which triangles are tried.
+#pragma once
+
+#include "scenegraph/ObjectId.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+namespace penumbra {
+
+/// What a ray met first.
+struct RayHit {
+    float distance = 0; ///< in units of the ray's direction
+    ObjectId object;    ///< not valid: nothing was met
+    std::uint32_t triangle = 0;
+    float u = 0, v = 0; ///< barycentric, of the triangle's second and third corner
+    glm::vec3 normal{}; ///< of the triangle's front, not unit
+
+    bool met() const { return object.valid(); }
+};
+
+/// Judges the triangles that Embree offers for a ray, in any order. At an edge it offers one
+/// triangle or the other, both or none, by rounding and by what else lies in the same leaf of its
+/// hierarchy; here the answer depends on the triangles alone. Edges are judged in double precision,
+/// and of several triangles at the same distance the first object's first one is met. What passes
+/// beside a triangle that was offered has to be asked again, a hair farther aside: there it meets
+/// the neighbour if there is one, and else what lies behind. (Where it runs into the very corner of
+/// several triangles, which of them it meets may still depend on what is offered.)
+class NearestHit {
+public:
+    /// \param origin, direction of the ray [m, world; the direction need not be unit]
+    /// \param frontOnly those that show their back are not met
+    NearestHit(glm::vec3 origin, glm::vec3 direction, bool frontOnly)
+        : origin_(origin), direction_(direction), frontOnly_(frontOnly) {
+        doubt_.distance = std::numeric_limits<float>::infinity();
+    }
+
+    /// \param corners of the triangle, its front is where they go round counter-clockwise
+    /// \param hit     what it is called, where Embree thinks that it is met, and its normal
+    /// \return whether the ray meets it, nearer than all before or as near
+    bool take(std::span<const glm::vec3, 3> corners, const RayHit& hit);
+
+    double distance() const { return distance_; } ///< of what is met first; infinity: nothing
+    const RayHit& hit() const { return hit_; }
+
+    /// Whether the ray passes by a triangle that was offered, with nothing behind it up to `slack`.
+    bool inDoubt(float slack) const { return doubt_.distance + slack < distance_; }
+    const RayHit& doubt() const { return doubt_; } ///< the triangle that was offered
+    /// The direction of a ray that passes the triangle a hair [m] farther aside.
+    glm::vec3 aside(float hair) const;
+
+private:
+    glm::dvec3 origin_, direction_;
+    bool frontOnly_;
+    double distance_ = std::numeric_limits<double>::infinity();
+    RayHit hit_;
+    RayHit doubt_;
+    glm::dvec3 middle_{}; ///< of that triangle, as seen from the origin
+};
+
+} // namespace penumbra
