@@ -31,7 +31,8 @@ struct RadiosityNode::Impl {
           client(std::move(link), wanted, [this](ByteWriter& out) { writeTask(out); }) {}
 
     void writeTask(ByteWriter& out) const;
-    void look(const Group& root);
+    void look();
+    void place(const Group& root);
     void send(std::vector<GraphEdit> edits);
     void takeLight();
     void showObjects(Group& lit, bool moved);
@@ -46,7 +47,7 @@ struct RadiosityNode::Impl {
     LightingClient client;
     PlacedScene placed;
     std::unordered_map<std::string, std::size_t> byPath; ///< into placed.objects
-    bool placedAnew = true, recolour = false;
+    bool toPlace = true, recolour = false;
 
     std::unique_ptr<LitObjects> shown, incoming;
     std::shared_ptr<StoreReader> store;
@@ -77,14 +78,9 @@ void RadiosityNode::Impl::writeTask(ByteWriter& out) const {
 }
 
 /// Finds edits, and sends those that are due.
-void RadiosityNode::Impl::look(const Group& root) {
+void RadiosityNode::Impl::look() {
     GraphTable::Change change = table.look();
-    if (change.any() || placedAnew) {
-        placed = placeBelow(root);
-        byPath.clear();
-        for (std::size_t o = 0; o < placed.objects.size(); ++o) byPath[placed.objects[o].path] = o;
-        placedAnew = true;
-    }
+    toPlace |= change.any();
     for (GraphEdit& edit : change.edits) {
         recolour |=
             std::holds_alternative<SetMaterial>(edit) || std::holds_alternative<SetLuminance>(edit);
@@ -98,6 +94,12 @@ void RadiosityNode::Impl::look(const Group& root) {
     } else {
         send(std::move(due));
     }
+}
+
+void RadiosityNode::Impl::place(const Group& root) {
+    placed = placeBelow(root);
+    byPath.clear();
+    for (std::size_t o = 0; o < placed.objects.size(); ++o) byPath[placed.objects[o].path] = o;
 }
 
 void RadiosityNode::Impl::send(std::vector<GraphEdit> edits) {
@@ -200,10 +202,12 @@ void RadiosityNode::accept(Visitor& visitor) const {
 }
 
 void RadiosityNode::update() {
-    impl_->look(*this);
-    impl_->client.turn();
+    impl_->look();
+    impl_->client.turn(); // the worker begins while things are placed here
+    const bool moved = std::exchange(impl_->toPlace, false);
+    if (moved) impl_->place(*this);
     impl_->takeLight();
-    impl_->showObjects(*lit_, std::exchange(impl_->placedAnew, false));
+    impl_->showObjects(*lit_, moved);
     impl_->state = impl_->client.state();
     impl_->state.held = impl_->gate.held();
     impl_->state.updates = impl_->updates;
@@ -232,7 +236,7 @@ void RadiosityNode::start() {
 }
 
 void RadiosityNode::setTrigger(Trigger trigger) {
-    impl_->look(*this); // edits so far belong to the trigger so far
+    impl_->look(); // edits so far belong to the trigger so far
     impl_->gate.setTrigger(trigger);
     impl_->client.send(MessageKind::trigger, std::uint32_t(trigger));
 }
@@ -243,12 +247,12 @@ void RadiosityNode::setOrder(UpdateOrder order) {
 }
 
 void RadiosityNode::setTrigger(const Node& node, std::optional<Trigger> trigger) {
-    impl_->look(*this);
+    impl_->look();
     if (const auto number = impl_->table.numberOf(node)) impl_->gate.setTrigger(*number, trigger);
 }
 
 void RadiosityNode::grab(const Node& node) {
-    impl_->look(*this);
+    impl_->look();
     const auto number = impl_->table.numberOf(node);
     if (!number) return;
     impl_->gate.grab(*number);
@@ -256,7 +260,7 @@ void RadiosityNode::grab(const Node& node) {
 }
 
 void RadiosityNode::release(const Node& node) {
-    impl_->look(*this);
+    impl_->look();
     const auto number = impl_->table.numberOf(node);
     if (!number) return;
     impl_->gate.release(*number);
@@ -264,7 +268,7 @@ void RadiosityNode::release(const Node& node) {
 }
 
 void RadiosityNode::requestUpdate() {
-    impl_->look(*this);
+    impl_->look();
     impl_->send(impl_->gate.takeAll());
     impl_->client.send(MessageKind::update, 0);
 }

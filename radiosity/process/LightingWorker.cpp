@@ -154,6 +154,7 @@ void LightingWorker::takeLamps(ByteReader& message) {
 void LightingWorker::followScene() {
     edited_ = false;
     settled_ = complete_ = marked_ = shown_ = false;
+    nextLook_ = seconds() + kTurn; // its direct light comes first
     if (!graph_) return;
     if (!lit_) return build();
     const PlacedScene placed = placeScene(graph_->scene());
