@@ -143,7 +143,7 @@ void IndirectLight::updateReach() {
         if (const std::uint64_t differs = now[b] ^ reached_[b]) masks.push_back({b, differs});
     reached_ = now;
     updateSendersReached();
-    if (masks.empty() || shots_ == 0) return;
+    if (masks.empty()) return;
     residualsChanged();
     if (rowsMissing_) restart();
     updates_.add({}, std::move(masks));

@@ -89,6 +89,13 @@ TEST(Incremental, EqualsFromScratchWhereAReceiverLiesInThePlaneOfASender) {
     EXPECT_EQ(differsAfterOverlappingEdits(followed, kSeed, 11), "") << followed.said;
 }
 
+TEST(Incremental, EqualsFromScratchWhereAReceiverLiesInThePlaneOfAFaceInBetween) {
+    // And so does the middle of a quarter of the sender, for all of them stand on round numbers.
+    constexpr std::uint32_t kSeed = 4115628356;
+    FollowedRoom followed(kSeed);
+    EXPECT_EQ(differsAfterOverlappingEdits(followed, kSeed, 6), "") << followed.said;
+}
+
 TEST(Incremental, EqualsFromScratchWhereRaysPassByAnEdge) {
     // A box touches a lamp, and another one a pebble, so that rays run into an edge of the box:
     // which of the two faces they met depended on how the hierarchy of its triangles came to be.
@@ -98,6 +105,13 @@ TEST(Incremental, EqualsFromScratchWhereRaysPassByAnEdge) {
         FollowedRoom followed(seed);
         EXPECT_EQ(differsAfterOverlappingEdits(followed, seed, edits), "") << followed.said;
     }
+}
+
+TEST(Incremental, EqualsFromScratchWhereNoLampShines) {
+    // What is lit is found last then, after the rows of what light may come to reach.
+    constexpr std::uint32_t kSeed = 2163954167;
+    FollowedRoom followed(kSeed);
+    EXPECT_EQ(differsAfterOverlappingEdits(followed, kSeed, 9), "") << followed.said;
 }
 
 } // namespace
