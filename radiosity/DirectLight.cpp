@@ -21,7 +21,7 @@ EmitterSender sender(const Emitter& emitter, int samples) {
 
 DirectLight::DirectLight(const PatchSet& set, const RayScene& rays, int samples)
     : set_(set), samples_(samples), walls_(set), table_(set.emitters.size()),
-      updates_(set, rays, table_, 256), patchTouched_(set.patches.size()),
+      updates_(set, rays, table_, set.vertexBlockObject, 256), patchTouched_(set.patches.size()),
       patches_(set.patches.size()), patchLit_(set.patches.size()) {
     for (const Emitter& emitter : set.emitters) emitters_.push_back(sender(emitter, samples));
     blockPatches_.resize(set.firstPrivate / kBlock);
@@ -163,6 +163,9 @@ bool DirectLight::updateRows(std::size_t effort, double enough) {
         const Emitter& emitter = set_.emitters[row];
         RowUpdates::RowFacts known{true, emitters_[row].box(), emitter.object, {}, {}, {}};
         known.area = float(emitter.area);
+        known.hidden = [this, row](const Bounds& box) {
+            return walls_.between(emitters_[row].box(), box).valid();
+        };
         return known;
     };
     const auto receiversFor = [&](const OpenBlock& item) {
@@ -185,6 +188,7 @@ bool DirectLight::updateRows(std::size_t effort, double enough) {
     };
     for (const OpenBlock& item : updates_.work(effort, enough, facts, update, expect))
         touchBlock(item.block);
+    for (std::uint32_t block : updates_.takeHidden()) touchBlock(block);
     return true;
 }
 

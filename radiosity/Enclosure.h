@@ -24,6 +24,11 @@ public:
     /// For each closed surface whether it has a lamp inside, as the objects stand now. Lamps that
     /// are dark or hidden count as well, those that were removed do not.
     std::vector<bool> lit(const PatchSet& set) const;
+    /// Whether that is no longer so, now that some objects were moved or removed. Only what may
+    /// stand in or around these is looked at.
+    /// \param lit of lit(), before
+    bool changed(const PatchSet& set, std::span<const ObjectId> objects,
+                 const std::vector<bool>& lit) const;
 
 private:
     struct Closed {
@@ -34,6 +39,10 @@ private:
         ObjectId object;
         glm::vec3 point;
     };
+    template <class Counts>
+    std::vector<glm::vec3> places(const PatchSet& set, const Counts& counts) const;
+    bool holds(const PatchSet& set, const Closed& closed, std::span<const glm::vec3> lights) const;
+
     std::vector<Closed> closed_;
     std::vector<Light> lights_;
 };

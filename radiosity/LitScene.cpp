@@ -100,21 +100,22 @@ bool LitScene::followColours(SceneChange& change) {
     return true;
 }
 
-/// \return whether lamps may be in other closed things than before
-bool LitScene::followObjects(const PlacedScene& now, SceneChange& change) {
+/// \return objects that were moved or removed: lamps may be in other closed things than before
+std::vector<ObjectId> LitScene::followObjects(const PlacedScene& now, SceneChange& change) {
     PatchSet& set = built_.patches;
     std::unordered_map<std::string, const Object*> objects;
     for (const Object& object : now.objects) objects[object.path] = &object;
     std::vector<Bounds> before;
-    bool removals = false;
+    std::vector<ObjectId> replaced;
     for (std::uint32_t o = 0; o < set.objects.size(); ++o) {
         ObjectPart& part = set.objects[o];
         if (!part.movable) continue;
         const auto found = objects.find(part.path);
-        removals |= std::exchange(part.removed, found == objects.end()) != part.removed;
+        const bool wasRemoved = std::exchange(part.removed, found == objects.end());
         const bool present = !part.removed && found->second->visible;
         const Pose pose =
             found != objects.end() ? placementOf(found->second->toWorld).pose : part.pose;
+        if (wasRemoved != part.removed || pose != part.pose) replaced.push_back({o});
         if (present == part.present && pose == part.pose) continue;
         change.objects.push_back({o});
         before.push_back(part.present ? boundsOf(set, {o}) : Bounds());
@@ -124,13 +125,13 @@ bool LitScene::followObjects(const PlacedScene& now, SceneChange& change) {
         placeObject(set, {o}, pose);
         rays_->move({o}, set.rayMeshes[o].vertices);
     }
-    if (change.objects.empty()) return removals;
+    if (change.objects.empty()) return replaced;
     rays_->commit();
     const Coverage::Change covered = coverage_->update(change.objects, before);
     change.vertices = covered.vertices;
     change.nodes = covered.nodes;
     change.patches = covered.patches;
-    return true;
+    return replaced;
 }
 
 LitScene::Followed LitScene::follow(const PlacedScene& now) {
@@ -140,8 +141,8 @@ LitScene::Followed LitScene::follow(const PlacedScene& now) {
         followed = {true, {}};
         return followed;
     }
-    if (followObjects(now, followed.change) &&
-        built_.enclosures.lit(built_.patches) != built_.enclosuresLit) {
+    const std::vector<ObjectId> replaced = followObjects(now, followed.change);
+    if (built_.enclosures.changed(built_.patches, replaced, built_.enclosuresLit)) {
         build(now, sizesOf(built_.patches));
         followed = {true, {}};
         return followed;

@@ -68,7 +68,7 @@ private:
     static Pieces piecesOf(const PlacedScene& scene);
     bool sameStructure(const PlacedScene& now) const;
     bool followColours(SceneChange& change);
-    bool followObjects(const PlacedScene& now, SceneChange& change);
+    std::vector<ObjectId> followObjects(const PlacedScene& now, SceneChange& change);
 
     SolverOptions solving_;
     BuiltPatches built_;

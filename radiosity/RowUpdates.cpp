@@ -41,8 +41,8 @@ float factorBound(const RowUpdates::RowFacts& sender, const Bounds& receivers) {
 } // namespace
 
 RowUpdates::RowUpdates(const PatchSet& set, const RayScene& rays, RowTable& table,
-                       std::size_t visitCost)
-    : set_(set), rayScene_(rays), table_(table), visitCost_(visitCost),
+                       const std::vector<ObjectId>& blockObjects, std::size_t visitCost)
+    : set_(set), rayScene_(rays), table_(table), blockObjects_(blockObjects), visitCost_(visitCost),
       grain_(std::max<std::size_t>(1, 256 / visitCost)), row_(table.size()),
       open_(table.size(), visitCost) {}
 
@@ -128,9 +128,31 @@ bool RowUpdates::nextLook(Look& look, const Facts& facts) {
     return true;
 }
 
+/// Whether a block that has no entries will have none, for its sender is behind a wall.
+/// \param objects that moved, once it is known whether all of them is behind it
+bool RowUpdates::hidden(const Look& look, const BlockMask& mask,
+                        std::map<std::uint32_t, bool>& objects) const {
+    const std::uint32_t object = blockObjects_[mask.block].value;
+    const auto moved = std::find_if(look.change->moved.begin(), look.change->moved.end(),
+                                    [&](const MovedObject& m) { return m.object == object; });
+    if (moved != look.change->moved.end()) {
+        const auto [known, isNew] = objects.try_emplace(object, false);
+        if (isNew) known->second = look.facts.hidden(moved->box);
+        if (known->second) return true;
+    }
+    return look.facts.hidden(table_.blocks()[mask.block]);
+}
+
 void RowUpdates::find(Look& look) const {
+    std::map<std::uint32_t, bool> objects;
     for (const BlockMask& mask :
          table_.concerned(look.row, look.facts.box, look.facts.object, *look.change, look.blocks)) {
+        const bool empty = table_[look.row][mask.block].entryCount() == 0;
+        if (empty && mask.receivers == 0) continue;
+        if (empty && look.facts.hidden && hidden(look, mask, objects)) {
+            look.hidden.push_back(mask.block);
+            continue;
+        }
         look.found.push_back({look.row, mask.block, mask.receivers, table_.edits(look.row), 0});
         look.found.back().factor = factorBound(look.found.back(), look.facts);
     }
@@ -150,8 +172,9 @@ void RowUpdates::find(std::size_t effort, const Facts& facts) {
         });
         for (const Look& one : looks) {
             open_.open(one.row, one.found);
+            hidden_.insert(hidden_.end(), one.hidden.begin(), one.hidden.end());
             if (one.last) table_.edits(one.row) = edits_;
-            cost += kLook + kOpen * one.found.size();
+            cost += kLook + kOpen * (one.found.size() + one.hidden.size());
         }
     }
     if (found()) allFound();

@@ -11,6 +11,7 @@
 #include <functional>
 #include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace penumbra {
@@ -23,8 +24,10 @@ namespace penumbra {
 class RowUpdates {
 public:
     /// Nothing is open at first. All must outlive this.
+    /// \param blockObjects whose receivers are in each block of the table
     /// \param visitCost what looking at a block and retesting some of it costs, about [rays]
-    RowUpdates(const PatchSet& set, const RayScene& rays, RowTable& table, std::size_t visitCost);
+    RowUpdates(const PatchSet& set, const RayScene& rays, RowTable& table,
+               const std::vector<ObjectId>& blockObjects, std::size_t visitCost);
     RowUpdates(const RowUpdates&) = delete;
     RowUpdates& operator=(const RowUpdates&) = delete;
 
@@ -44,6 +47,8 @@ public:
         ObjectId object;
         float area = 0;               ///< of the sender [m^2]
         glm::vec3 centre{}, normal{}; ///< of a planar sender; else the normal is zero
+        /// Whether it can never reach anything within a box [m, world], if that can be told.
+        std::function<bool(const Bounds& box)> hidden = {};
     };
     using Facts = std::function<RowFacts(std::uint32_t row)>;
     /// Updates one block; returns the number of entries that changed. `moved`: all that may have
@@ -59,6 +64,9 @@ public:
     /// \return the items that were worked on, valid until the next call
     std::span<const OpenBlock> work(std::size_t effort, double enough, const Facts& facts,
                                     const Update& update, const Expect& expect = {});
+    /// Blocks that some row has found to be hidden from it since this was called last: where they
+    /// had no entries there is nothing to be done.
+    std::vector<std::uint32_t> takeHidden() { return std::exchange(hidden_, {}); }
     /// Most items that work() returns for an effort.
     std::size_t mostItems(std::size_t effort) const { return effort / visitCost_ + 1; }
 
@@ -93,7 +101,10 @@ private:
         const PendingChange* change = nullptr;
         RowTable::Blocks blocks;
         std::vector<OpenBlock> found;
+        std::vector<std::uint32_t> hidden; ///< blocks
     };
+    bool hidden(const Look& look, const BlockMask& mask,
+                std::map<std::uint32_t, bool>& objects) const;
     bool nextLook(Look& look, const Facts& facts);
     void find(Look& look) const;
     float factorBound(const OpenBlock& item, const RowFacts& facts) const;
@@ -103,6 +114,7 @@ private:
     const PatchSet& set_;
     const RayScene& rayScene_;
     RowTable& table_;
+    const std::vector<ObjectId>& blockObjects_;
     std::size_t visitCost_, grain_; ///< [rays]; items a task
     std::uint32_t edits_ = 0;       ///< so far
     std::vector<Edit> untold_;      ///< the last of them: not all rows have been told
@@ -115,6 +127,7 @@ private:
     std::vector<OpenBlock> items_, unseen_; ///< to be worked on; to be looked at
     std::vector<RowBuilder> builders_;
     std::vector<ChangeLook> looks_;
+    std::vector<std::uint32_t> hidden_;
     RayCount rays_;
     std::uint64_t blocksVisited_ = 0, entriesChanged_ = 0;
     std::size_t toDo_ = 0; ///< blocks that were open when the last edit had been found

@@ -132,7 +132,7 @@ Scene roomsInARow(int count, std::vector<std::shared_ptr<Transform>>& boxes) {
 
 TEST(EditCostOfRooms, AMoveCostsWhatItCostsInItsOwnRoomAndRowsGrowWithTheRoomsAlone) {
     struct Cost {
-        double entries, moveRays;
+        double entries, moveRays, moveBlocks;
     };
     const auto costOf = [](int rooms) {
         std::vector<std::shared_ptr<Transform>> boxes;
@@ -143,17 +143,22 @@ TEST(EditCostOfRooms, AMoveCostsWhatItCostsInItsOwnRoomAndRowsGrowWithTheRoomsAl
         const auto raysSoFar = [&] {
             return double(lit.solver().statistics().direct.rays.total());
         };
-        const double before = raysSoFar();
+        const auto blocksSoFar = [&] {
+            return double(lit.solver().statistics().direct.blocksVisited);
+        };
+        const double before = raysSoFar(), visited = blocksSoFar();
         const auto entries = double(lit.solver().statistics().entries);
         boxes.front()->setMatrix(moved(0.2, 0.1, 0));
         EXPECT_FALSE(lit.follow(placeScene(scene)).rebuilt);
         lit.solver().settle();
-        return Cost{entries, raysSoFar() - before};
+        return Cost{entries, raysSoFar() - before, blocksSoFar() - visited};
     };
     const Cost one = costOf(1), four = costOf(4);
     EXPECT_NEAR(four.entries, 4 * one.entries, 0.01 * four.entries);
     EXPECT_GT(one.moveRays, 1000);
     EXPECT_NEAR(four.moveRays, one.moveRays, 0.01 * one.moveRays);
+    EXPECT_GT(one.moveBlocks, 10);
+    EXPECT_EQ(four.moveBlocks, one.moveBlocks) << "nothing of the other rooms' lamps is looked at";
 }
 
 } // namespace
