@@ -25,6 +25,11 @@ double WorkQueue::valueOf(const Place& at, const Worth& worth) const {
     return workValue(at.value, worth.change, double(worth.cost) / double(worth.share));
 }
 
+double WorkQueue::value(Handle handle) const {
+    const WorkQueue::Task& task = slots_[handle].task;
+    return valueOf(places_[task.place], task.worth);
+}
+
 WorkQueue::Handle WorkQueue::add(const Task& task) {
     if (free_.empty()) {
         free_.push_back(std::uint32_t(slots_.size()));

@@ -80,6 +80,9 @@ public:
     /// Chooses a task to be done.
     std::optional<Task> take(double now);
 
+    /// What a task that is open is ranked by now, see workValue().
+    double value(Handle handle) const;
+
     std::size_t size() const { return size_; }
     bool empty() const { return size_ == 0; }
     /// When the oldest task was added; `now` if there is none.

@@ -143,6 +143,19 @@ std::vector<std::uint32_t> OpenWork::urgent(std::uint32_t row, double enough) co
     return blocks;
 }
 
+std::vector<OpenWork::AtBlock> OpenWork::atBlocks(double enough) const {
+    std::vector<AtBlock> blocks(sums_.size());
+    for (const RowList& list : rows_)
+        for (const Entry& entry : list.entries) {
+            if (!entry.open) continue;
+            AtBlock& at = blocks[entry.block];
+            ++(bound(entry.block) > enough ? at.rows : at.small);
+            const WorkQueue& queue = entry.putOff ? later_ : urgent_;
+            at.worth = std::max(at.worth, queue.value(entry.handle));
+        }
+    return blocks;
+}
+
 OpenWork::Entry* OpenWork::find(std::uint32_t row, std::uint32_t block) {
     std::vector<Entry>& entries = rows_[row].entries;
     const auto found =

@@ -85,6 +85,13 @@ public:
     std::size_t count() const { return count_; } ///< blocks that are open
     /// Blocks of a row that are open and of receivers for which more than `enough` is, in order.
     std::vector<std::uint32_t> urgent(std::uint32_t row, double enough) const;
+    /// What is open of one block of receivers, over all rows.
+    struct AtBlock {
+        std::uint32_t rows = 0, small = 0; ///< more than `enough`; of blocks for which it is not
+        double worth = 0;                  ///< the largest by which any of it is ranked
+    };
+    /// Of every block; takes as long as there is open work.
+    std::vector<AtBlock> atBlocks(double enough) const;
     /// Sums over the open blocks of all senders: of factor * power [lux], and of factor.
     double light(std::size_t block) const { return sums_[block].light; }
     double factor(std::size_t block) const { return sums_[block].factor; }

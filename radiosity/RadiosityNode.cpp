@@ -59,6 +59,7 @@ struct RadiosityNode::Impl {
 
     std::vector<std::string> liveLamps;
     std::uint32_t lampSet = 0;
+    std::uint32_t question = 0, questions = 0; ///< for open work: the present one; so far
     RadiosityState state;
     bool marksTaken = false, settledTaken = false; ///< all that was published before is read
     std::uint64_t updates = 0, blocksBefore = 0;
@@ -140,6 +141,7 @@ void RadiosityNode::Impl::takeLight() {
         incoming.reset();
         store.reset();
     }
+    if (shown && question != 0) shown->takeWork(question);
     if (!std::exchange(recolour, false)) return;
     if (shown) shown->recolour(colour);
     if (incoming) incoming->recolour(colour);
@@ -289,6 +291,17 @@ void RadiosityNode::setLiveLamps(std::vector<std::string> paths) {
     impl_->client.setLiveLamps(impl_->liveLamps, impl_->lampSet);
     if (impl_->shown) impl_->shown->setLamps(impl_->lamps());
     if (impl_->incoming) impl_->incoming->setLamps(impl_->lamps());
+}
+
+void RadiosityNode::watchWork(bool watch) {
+    if (watch == (impl_->question != 0)) return;
+    impl_->question = watch ? ++impl_->questions : 0;
+    impl_->client.watchWork(impl_->question);
+}
+
+std::span<const std::vector<BlockWork>> RadiosityNode::openWork() const {
+    if (impl_->question == 0 || !impl_->shown) return {};
+    return impl_->shown->work();
 }
 
 const std::vector<std::string>& RadiosityNode::liveLamps() const {

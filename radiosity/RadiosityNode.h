@@ -1,6 +1,7 @@
 // The part of a scene graph that is lit by radiosity.
 #pragma once
 
+#include "radiosity/process/BlockWork.h"
 #include "radiosity/process/RadiosityOptions.h"
 #include "radiosity/process/RadiosityState.h"
 #include "scenegraph/Bounds.h"
@@ -93,6 +94,12 @@ public:
     /// order.
     void setLiveLamps(std::vector<std::string> paths);
     const std::vector<std::string>& liveLamps() const;
+
+    /// Has the other side say what work is open, some thirty times a second. It costs nothing when
+    /// nobody watches.
+    void watchWork(bool watch);
+    /// By object, one a block of its geometry; empty: nobody watches, or it is not known yet.
+    std::span<const std::vector<BlockWork>> openWork() const;
 
     /// Everything below that has light: Switches with a Transform and a LitGeometry each. They
     /// follow the objects in update().

@@ -11,8 +11,14 @@ namespace penumbra {
 
 class LitGeometry;
 
-enum class Overlay : std::uint8_t { none, mesh, age };
-inline constexpr const char* kOverlayNames[] = {"none", "patch mesh", "age of the light"};
+enum class Overlay : std::uint8_t { none, mesh, age, openWork, importance };
+inline constexpr const char* kOverlayNames[] = {"none", "patch mesh", "age of the light",
+                                                "open work", "importance of open work"};
+
+/// Whether it shows what RadiosityNode::watchWork() asks for.
+constexpr bool watchesWork(Overlay overlay) {
+    return overlay == Overlay::openWork || overlay == Overlay::importance;
+}
 
 /// So many further in the list, which begins again after the last.
 Overlay after(Overlay overlay, int steps);

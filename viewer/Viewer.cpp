@@ -69,7 +69,7 @@ private:
     void tellTitle();
     bool changing() const;
     bool overlayChanging() const;
-    OverlayView overlayView() const;
+    OverlayView overlayView();
 
     const ViewerOptions& options_;
     const std::string name_; ///< of the scene's file
@@ -91,6 +91,7 @@ private:
     Group nothing_{""};
     std::optional<GuiLayer> gui_; // after what it draws over
     std::string title_;
+    double mostWorth_ = 0; ///< of open work, since it is shown
     bool quit_ = false;
     int stale_ = kAfterglow; ///< pictures to be drawn whether anything changes or not
 };
@@ -273,6 +274,8 @@ void Viewer::doAsAsked() {
     if (std::exchange(state_.wantsRestart, false) && walk_) lightScene();
     if (light_) light_->setTrigger(state_.trigger);
     if (light_) light_->setOrder(state_.order);
+    if (light_) light_->watchWork(watchesWork(state_.overlay));
+    if (state_.overlay != Overlay::importance) mostWorth_ = 0;
 }
 
 void Viewer::takeEvents() {
@@ -299,11 +302,13 @@ bool Viewer::changing() const {
 
 /// Whether the overlay goes on changing by itself.
 bool Viewer::overlayChanging() const {
-    return state_.overlay == Overlay::age && light_ &&
+    if (!light_) return false;
+    if (watchesWork(state_.overlay)) return !light_->state().complete;
+    return state_.overlay == Overlay::age &&
            walk_->time() - light_->ages().newest() < kAgeScale.first;
 }
 
-OverlayView Viewer::overlayView() const {
+OverlayView Viewer::overlayView() {
     if (!light_) return {};
     switch (state_.overlay) {
     case Overlay::none:
@@ -312,6 +317,11 @@ OverlayView Viewer::overlayView() const {
         return meshView();
     case Overlay::age:
         return ageView(light_->objects(), light_->ages(), walk_->time());
+    case Overlay::openWork:
+        return openWorkView(light_->objects(), light_->openWork());
+    case Overlay::importance:
+        if (state_.order != UpdateOrder::importance) return noImportanceView();
+        return importanceView(light_->objects(), light_->openWork(), mostWorth_);
     }
     return {};
 }

@@ -35,6 +35,9 @@ public:
 
     void setTrigger(Trigger trigger);
     void setOrder(UpdateOrder order);
+    /// See RadiosityNode.
+    void watchWork(bool watch) { node_->watchWork(watch); }
+    std::span<const std::vector<BlockWork>> openWork() const { return node_->openWork(); }
     void requestUpdate() { node_->requestUpdate(); }
 
     /// What is to be drawn in a view: the lit surfaces, and the meshes and lights of objects that

@@ -19,7 +19,7 @@ namespace penumbra {
 // it: the other side may have gone mad.
 
 /// Rises with every change of the layout or of the messages.
-constexpr std::uint32_t kProtocolVersion = 4;
+constexpr std::uint32_t kProtocolVersion = 5;
 constexpr std::uint64_t kControlMagic = 0x314c5254434e5550; // "PUNCTRL1"
 constexpr std::size_t kRingBytes = std::size_t(1) << 20;
 
@@ -53,6 +53,7 @@ enum class MessageKind : std::uint32_t {
     update,     ///< a person wants to see the light now
     liveLamps,  ///< serial of this set, number of paths, paths
     order,      ///< UpdateOrder
+    watchWork,  ///< publish what work is open: number of the question, 0: not any more
     stop
 };
 

@@ -163,6 +163,46 @@ bool LightPublisher::publish(std::size_t most) {
     return !some.empty();
 }
 
+void LightPublisher::publishWork(std::uint32_t question) {
+    if (!store_) return;
+    const Solver& solver = scene_.solver();
+    const std::vector<OpenWork::AtBlock> open =
+        solver.direct().updates().open().atBlocks(solver.directTolerance());
+    std::vector<BlockWork> work(blockCount());
+    if (!solver.directOnly()) markPatches(work);
+    for (std::uint32_t b = 0; b < work.size(); ++b) {
+        const OpenWork::AtBlock at = b < open.size() ? open[b] : OpenWork::AtBlock();
+        const bool touched = b < touched_.size() && touched_[b] != Touched::no;
+        work[b].rows = std::uint8_t(std::min(at.rows + at.small, 255u));
+        work[b].worth = float(std::min(at.worth, 1e30));
+        if (at.rows > 0)
+            work[b].kind = BlockWork::Kind::lamps;
+        else if (touched || !solver.direct().summed(b))
+            work[b].kind = BlockWork::Kind::coming;
+        else if (at.small > 0 && work[b].kind == BlockWork::Kind::none)
+            work[b].kind = BlockWork::Kind::putOff;
+    }
+    store_->writeWork(question, work);
+}
+
+/// Blocks of vertices that are lit by patches of which rows are open.
+void LightPublisher::markPatches(std::vector<BlockWork>& work) const {
+    const OpenWork& open = scene_.solver().indirect().updates().open();
+    if (open.count() == 0) return;
+    const std::vector<OpenWork::AtBlock> at = open.atBlocks(0);
+    const auto isOpen = [&](std::uint32_t node) {
+        return node / kBlock < at.size() && at[node / kBlock].rows > 0;
+    };
+    const PatchSet& set = scene_.patches();
+    for (std::uint32_t p = 0; p < set.patches.size(); ++p) {
+        const Patch& patch = set.patches[p];
+        if (!isOpen(patch.centreNode) &&
+            !(patch.hasCornerNodes && std::ranges::any_of(patch.cornerNodes, isOpen)))
+            continue;
+        for (std::uint32_t block : patchBlocks_[p]) work[block].kind = BlockWork::Kind::patches;
+    }
+}
+
 LightBlock LightPublisher::blockOf(std::uint32_t block) const {
     const PatchSet& set = scene_.patches();
     LightBlock light;

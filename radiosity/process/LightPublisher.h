@@ -48,8 +48,12 @@ public:
     /// summed come later, for it has to fit the factors of lamps. \return false: there was none
     bool publish(std::size_t most);
     std::size_t open() const { return open_.size(); }
+    /// Publishes what work is open. Takes as long as there is some; nobody need call it.
+    /// \param question see StoreHeader::workFor
+    void publishWork(std::uint32_t question);
 
 private:
+    void markPatches(std::vector<BlockWork>& work) const;
     void touch(std::uint32_t block);
     void touchStale(std::uint32_t block);
     bool canPublish(std::uint32_t block) const;

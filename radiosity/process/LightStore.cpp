@@ -36,6 +36,10 @@ std::size_t blocksAt(const StoreShape& shape) {
     return sequencesAt(shape) + aligned(shape.blocks * sizeof(SharedCount));
 }
 
+std::size_t workAt(const StoreShape& shape) {
+    return aligned(blocksAt(shape) + shape.blocks * sizeof(LightBlock));
+}
+
 template <class T>
 T* at(Region& region, std::size_t offset) {
     return reinterpret_cast<T*>(region.bytes().data() + offset);
@@ -54,14 +58,15 @@ void forEachRun(bool isPrivate, std::uint32_t lamps, Visit visit) {
 } // namespace
 
 std::size_t StoreShape::bytes() const {
-    return blocksAt(*this) + blocks * sizeof(LightBlock);
+    return workAt(*this) + blocks * sizeof(SharedWord);
 }
 
 StoreWriter::StoreWriter(RegionPtr region, std::uint64_t number, const StoreShape& shape,
                          std::span<const std::byte> mesh)
     : region_(std::move(region)), shape_(shape), header_(*at<StoreHeader>(*region_, 0)),
       sequences_(at<SharedCount>(*region_, sequencesAt(shape))),
-      blocks_(at<SharedWord>(*region_, blocksAt(shape))) {
+      blocks_(at<SharedWord>(*region_, blocksAt(shape))),
+      work_(at<SharedWord>(*region_, workAt(shape))) {
     assert(region_->bytes().size() >= shape.bytes() && mesh.size() == shape.meshBytes);
     header_.magic = kMagic;
     header_.number = number;
@@ -103,6 +108,13 @@ void StoreWriter::write(std::uint32_t block, const LightBlock& light) {
     header_.published.fetch_add(1, std::memory_order_release);
 }
 
+void StoreWriter::writeWork(std::uint32_t question, std::span<const BlockWork> work) {
+    const std::size_t count = std::min<std::size_t>(work.size(), shape_.blocks);
+    for (std::size_t b = 0; b < count; ++b)
+        work_[b].store(work[b].packed(), std::memory_order_relaxed);
+    header_.workFor.store(question, std::memory_order_release);
+}
+
 bool storeReady(Region& region, std::uint64_t number) {
     if (region.bytes().size() < meshAt()) return false;
     const StoreHeader& header = *at<StoreHeader>(region, 0);
@@ -124,6 +136,7 @@ StoreReader::StoreReader(RegionPtr region, std::uint64_t number)
     mesh_ = region_->bytes().subspan(meshAt(), shape_.meshBytes);
     sequences_ = at<SharedCount>(*region_, sequencesAt(shape_));
     blocks_ = at<SharedWord>(*region_, blocksAt(shape_));
+    work_ = at<SharedWord>(*region_, workAt(shape_));
     known_.resize(shape_.blocks);
 }
 
@@ -168,6 +181,13 @@ void StoreReader::read(std::size_t most, std::vector<Got>& got) {
     }
     current_ = !missed;
     if (current_) publishedKnown_ = published;
+}
+
+void StoreReader::readWork(std::uint32_t question, std::vector<BlockWork>& work) const {
+    work.clear();
+    if (header_.workFor.load(std::memory_order_acquire) != question) return;
+    for (std::uint32_t b = 0; b < shape_.blocks; ++b)
+        work.push_back(BlockWork::unpacked(work_[b].load(std::memory_order_relaxed)));
 }
 
 float packHalves(std::span<const float> values, std::uint16_t* halves) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "radiosity/PatchSet.h"
+#include "radiosity/process/BlockWork.h"
 #include "radiosity/process/LitMesh.h"
 #include "radiosity/process/RadiosityOptions.h"
 #include "radiosity/process/Region.h"
@@ -44,7 +45,7 @@ struct StoreShape {
     std::size_t bytes() const;      ///< of the whole store
 };
 
-/// Begins a store. What follows: mesh, sequence numbers, blocks, each aligned to 64.
+/// Begins a store. What follows: mesh, sequence numbers, blocks, open work, each aligned to 64.
 struct StoreHeader {
     std::uint64_t magic;
     std::uint64_t number; ///< of the request
@@ -52,6 +53,8 @@ struct StoreHeader {
     std::atomic<std::uint32_t> ready;     ///< 1: the mesh is there
     std::atomic<std::uint32_t> used;      ///< blocks in use
     std::atomic<std::uint64_t> published; ///< rises with every block that is written
+    /// Which question for open work the table of it answers: a number of the node's; 0: none.
+    std::atomic<std::uint32_t> workFor;
 };
 
 /// The worker's end.
@@ -65,6 +68,9 @@ public:
     void setUsed(std::uint32_t blocks);
     /// Writes a block; one that says the same as before is not written again.
     void write(std::uint32_t block, const LightBlock& light);
+    /// Writes the open work of the first blocks, as many as there is room for; each by itself is
+    /// read whole. \param question see StoreHeader::workFor
+    void writeWork(std::uint32_t question, std::span<const BlockWork> work);
 
 private:
     RegionPtr region_;
@@ -72,6 +78,7 @@ private:
     StoreHeader& header_;
     SharedCount* sequences_;
     SharedWord* blocks_;
+    SharedWord* work_; ///< one a block, see BlockWork::packed()
 };
 
 /// The node's end. Nothing that is read can make it read or write elsewhere.
@@ -90,6 +97,8 @@ public:
         LightBlock light;
     };
     void read(std::size_t most, std::vector<Got>& got);
+    /// The open work of all blocks; empty: it is not about this question.
+    void readWork(std::uint32_t question, std::vector<BlockWork>& work) const;
     /// Whether the last read() has brought all that was published before it.
     bool current() const { return current_; }
 
@@ -102,6 +111,7 @@ private:
     const StoreHeader& header_;
     const SharedCount* sequences_;
     const SharedWord* blocks_;
+    const SharedWord* work_;
     std::vector<std::uint32_t> known_; ///< sequence numbers of what was read
     std::uint64_t publishedKnown_ = ~std::uint64_t(0);
     bool current_ = false;

@@ -17,7 +17,8 @@ namespace penumbra {
 namespace {
 
 // Keys of messages that replace each other; those of edits are smaller, see keyOf().
-constexpr std::uint64_t kCameraKey = std::uint64_t(1) << 62, kLampsKey = kCameraKey + 1;
+constexpr std::uint64_t kCameraKey = std::uint64_t(1) << 62, kLampsKey = kCameraKey + 1,
+                        kWorkKey = kCameraKey + 2;
 
 constexpr double kStart = 20;                           ///< a process has so long to begin [s]
 constexpr double kStandstill = 120;                     ///< a step of the work takes less [s]
@@ -86,6 +87,7 @@ void LightingClient::launch() {
         sendScene();
         if (hasCamera_) setCamera(camera_);
         if (!lamps_.empty()) queue_.push_back({kLampsKey, lamps_, nullptr});
+        if (question_ != 0) watchWork(question_);
     } catch (const Error& error) {
         failed(error.what());
     } catch (const std::bad_alloc&) {
@@ -170,6 +172,15 @@ void LightingClient::setLiveLamps(const std::vector<std::string>& paths, std::ui
     for (const std::string& path : paths) body.text(path);
     lamps_ = body.bytes();
     if (control_) queue(kLampsKey, std::move(body));
+}
+
+void LightingClient::watchWork(std::uint32_t question) {
+    question_ = question;
+    ByteWriter body;
+    body.put(MessageKind::watchWork);
+    body.put(std::uint64_t(0));
+    body.put(question);
+    if (control_) queue(kWorkKey, std::move(body));
 }
 
 void LightingClient::send(MessageKind kind, std::uint32_t value) {

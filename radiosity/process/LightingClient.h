@@ -43,6 +43,8 @@ public:
     void setCamera(const View& view);
     void send(MessageKind kind, std::uint32_t value);
     void setLiveLamps(const std::vector<std::string>& paths, std::uint32_t serial);
+    /// Has open work published as an answer to a question of that number; 0: none any more.
+    void watchWork(std::uint32_t question);
 
     /// To be called now and then: sends, looks after the worker, and at what it has to say.
     void turn();
@@ -91,6 +93,7 @@ private:
     View camera_;
     bool hasCamera_ = false;
     std::vector<std::byte> lamps_; ///< the last message about live lamps
+    std::uint32_t question_ = 0;   ///< the last one for open work
 
     std::uint64_t granted_ = 0, opened_ = 0;
     RegionPtr grantedRegion_;

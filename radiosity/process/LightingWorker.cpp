@@ -16,6 +16,7 @@ namespace {
 constexpr double kTurn = 0.008;            ///< [s]
 constexpr double kPromptTurn = 0.001;      ///< until something of an edit is published [s]
 constexpr double kBetweenLooks = 0.1;      ///< at the indirect light while it is relaxed [s]
+constexpr double kBetweenWork = 0.03;      ///< that open work is published [s]
 constexpr std::size_t kMostBlocks = 1024;  ///< published in one turn
 constexpr std::size_t kMostSums = 1 << 16; ///< of direct light in one turn [rays]
 
@@ -66,6 +67,7 @@ LightingWorker::Turn LightingWorker::turn(double budget) {
     try {
         if (edited_) followScene(), worked = true;
         if (lit_) worked |= work(budget);
+        if (question_ != 0 && publisher_) showWork();
     } catch (const Error& error) {
         fail(error.what());
     }
@@ -121,6 +123,10 @@ void LightingWorker::take(MessageKind kind, ByteReader& message) {
     case MessageKind::update:
         message.get<std::uint32_t>();
         break;
+    case MessageKind::watchWork:
+        question_ = message.get<std::uint32_t>();
+        nextWork_ = 0;
+        break;
     case MessageKind::liveLamps:
         takeLamps(message);
         break;
@@ -155,6 +161,7 @@ void LightingWorker::followScene() {
     edited_ = false;
     settled_ = complete_ = marked_ = shown_ = false;
     nextLook_ = seconds() + kTurn; // its direct light comes first
+    nextWork_ = 0;
     if (!graph_) return;
     if (!lit_) return build();
     const PlacedScene placed = placeScene(graph_->scene());
@@ -237,6 +244,13 @@ bool LightingWorker::work(double budget) {
         }
     }
     return worked;
+}
+
+/// For those who watch: what is open now.
+void LightingWorker::showWork() {
+    if (seconds() < nextWork_ || !publisher_->hasStore() || !mesh_.empty()) return;
+    publisher_->publishWork(question_);
+    nextWork_ = seconds() + kBetweenWork;
 }
 
 /// Until the light is settled; then goes on with what was put off.

@@ -49,6 +49,7 @@ private:
     void openStore();
     bool work(double budget);
     void solve(double budget);
+    void showWork();
     void fail(const std::string& why);
     void report();
 
@@ -66,6 +67,8 @@ private:
     std::vector<glm::dmat4> objectFrames_; ///< when it was meshed
     std::vector<Bounds> invalid_;
     ViewerAttention viewer_;
+    std::uint32_t question_ = 0; ///< for open work; 0: nobody asks
+    double nextWork_ = 0;        ///< when it is published again, steady clock [s]
     std::uint32_t lampSet_ = 0;
     std::vector<std::string> lamps_;
     bool marked_ = false; ///< stale blocks of live lamps are known, if not yet published

@@ -67,6 +67,17 @@ void LitObjects::take(const Colour& colour) {
         if (!entries_[o].geometry && parts_[o].missing == 0) finish(o);
 }
 
+void LitObjects::takeWork(std::uint32_t question) {
+    work_.assign(parts_.size(), {});
+    store_->readWork(question, words_);
+    if (words_.empty()) return;
+    for (std::size_t o = 0; o < parts_.size(); ++o)
+        work_[o].resize(parts_[o].standsFor.size() / kBlock);
+    for (std::size_t b = 0; b < places_.size(); ++b)
+        if (places_[b].object != Place::kNone)
+            work_[places_[b].object][places_[b].block] = words_[b];
+}
+
 void LitObjects::takeObject(const Colour& colour) {
     std::optional<LitMeshObject> object = mesh_.next();
     if (!object) senseless();

@@ -34,6 +34,10 @@ public:
     void take(const Colour& colour);
     /// Colours are to be asked for again.
     void recolour(const Colour& colour);
+    /// Reads what work is open. \param question that was asked
+    void takeWork(std::uint32_t question);
+    /// By object, one a block of its geometry; empty: it is not known.
+    const std::vector<std::vector<BlockWork>>& work() const { return work_; }
     bool complete() const { return mesh_.done() && missing_ == 0; }
     /// Whether there is nothing to take in.
     bool current() const { return complete() && store_->current(); }
@@ -83,6 +87,8 @@ private:
     std::vector<Place> places_; ///< of the store's blocks
     std::vector<std::uint32_t> changedParts_;
     std::vector<StoreReader::Got> got_;
+    std::vector<BlockWork> words_;
+    std::vector<std::vector<BlockWork>> work_;
     std::uint64_t missing_ = 0, blocksTaken_ = 0, revision_ = 0;
 };
 

@@ -108,6 +108,24 @@ TEST_F(OpenWorkOfTwoRows, TakesNoMoreStepsThanItMay) {
     EXPECT_EQ(work.count(), 3u);
 }
 
+TEST_F(OpenWorkOfTwoRows, SaysOfEachBlockWhatIsOpenAndWhatItIsWorth) {
+    open(0, {block(0, 0.4f), block(1, 0.02f)});
+    open(1, {block(0, 0.4f)});
+    // Bounds: 0.5 (0.4 + 0.4 * 8) and 0.5 * 0.02; ranked by bound / cost, linearly.
+    const std::vector<OpenWork::AtBlock> at = work.atBlocks(0.1);
+    ASSERT_EQ(at.size(), 4u);
+    EXPECT_EQ(at[0].rows, 2u);
+    EXPECT_EQ(at[1].rows, 0u);
+    EXPECT_EQ(at[1].small, 1u);
+    EXPECT_EQ(at[2].rows + at[2].small, 0u);
+    EXPECT_EQ(at[2].worth, 0);
+    EXPECT_NEAR(at[0].worth / at[1].worth, 0.4 * 8 / 0.02, 1) << "the largest of each";
+    takeAll(0.1);
+    EXPECT_EQ(work.atBlocks(0.1)[0].rows, 0u);
+    EXPECT_EQ(work.atBlocks(0.1)[1].small, 1u) << "put off, and still open";
+    EXPECT_GT(work.atBlocks(0.1)[1].worth, 0);
+}
+
 TEST_F(OpenWorkOfTwoRows, ForgetsARowThatIsDropped) {
     open(0, {block(0, 0.1f), block(1, 0.4f)});
     open(1, {block(0, 0.1f)});

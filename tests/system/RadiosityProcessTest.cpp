@@ -113,6 +113,19 @@ TEST(RadiosityProcess, LightsAndFollowsLikeAThread) {
     EXPECT_EQ(room.node->state().restarts, 0u);
 }
 
+TEST(RadiosityProcess, SaysWhatIsOpenIfAsked) {
+    LitRoom room(processLink());
+    ASSERT_TRUE(updateUntilSettled(*room.node)) << describe(*room.node);
+    EXPECT_TRUE(room.node->openWork().empty());
+    room.node->watchWork(true);
+    EXPECT_TRUE(updateUntil(*room.node, [&] {
+        const auto work = room.node->openWork();
+        return !work.empty() && !work[0].empty();
+    })) << describe(*room.node);
+    room.node->watchWork(false);
+    EXPECT_TRUE(room.node->openWork().empty());
+}
+
 TEST(RadiosityProcess, NamesOfSharedMemoryAreThereForAMomentAndForNobodyElse) {
     LitRoom room(processLink());
     bool seen = false;

@@ -198,7 +198,28 @@ def overlays(display):
     display.hands("key", "shift+o", "shift+o")
     display.hands("type", "[[[")
     check(xwindow.difference(plain, view.rest()) < 0.5, "Shift+O goes back to the picture alone")
+    work_overlays(view)
     check(view.program.end() == 0, "SIGTERM ends it with exit code 0")
+
+
+def work_overlays(view):
+    """While the box in the room is nudged: what work is open, and what it is worth."""
+    display, middle = view.display, (20, 200, 1260, 740)
+    display.hands("mousemove", 450, 450, "click", 1)
+    for name, like, what in (
+            ("open-work", lambda r, g, b: r > 180 and 120 < g < 200 and b < 80, "orange"),
+            ("importance", lambda r, g, b: b > r + 10 or g > r + 40, "in colours of the scale")):
+        display.hands("key", *(["o", "o", "o"] if name == "open-work" else ["o"]))
+        before = spread(view.rest(), middle)
+
+        def frontier():
+            display.hands("key", "Right")
+            now = spread(display.pixels(), middle)
+            return 20 < sum(p != q and like(*q) for p, q in zip(before, now))
+        xwindow.until(frontier, seconds=60, what=f"blocks with open work, {what}")
+        view.shot(f"overlay-{name}")
+        print(f"ok      O: {name}: while a box moves, blocks with open work are {what}")
+        view.lit()
 
 
 def orange(rows):

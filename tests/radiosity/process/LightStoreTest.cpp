@@ -89,6 +89,33 @@ TEST(LightStore, PrivateBlocksAndLampsAreReadWithAllThatTheySay) {
     EXPECT_EQ(got[0].light.factor[kMostLiveLamps - 1][63], 6u);
 }
 
+TEST(LightStore, OpenWorkIsTheAnswerToOneQuestionOnly) {
+    Store store;
+    std::vector<BlockWork> work(15), got{{}};
+    work[3] = {BlockWork::Kind::lamps, 2, 0.5f};
+    store.reader.readWork(7, got);
+    EXPECT_TRUE(got.empty()) << "nobody has answered";
+    store.writer.writeWork(7, work);
+    store.reader.readWork(7, got);
+    ASSERT_EQ(got.size(), 20u) << "all that there is room for";
+    EXPECT_EQ(got[3], work[3]);
+    EXPECT_EQ(got[4], BlockWork());
+    store.reader.readWork(8, got);
+    EXPECT_TRUE(got.empty());
+    work.resize(100);
+    store.writer.writeWork(8, work); // more than there is room for
+    store.reader.readWork(8, got);
+    EXPECT_EQ(got.size(), 20u);
+}
+
+TEST(LightStore, OpenWorkThatMakesNoSenseIsNone) {
+    const std::uint64_t known = BlockWork{BlockWork::Kind::coming, 9, 3}.packed();
+    EXPECT_EQ(BlockWork::unpacked(known), (BlockWork{BlockWork::Kind::coming, 9, 3}));
+    EXPECT_EQ(BlockWork::unpacked(known | std::uint64_t(0xff) << 32), BlockWork());
+    for (const std::uint64_t worth : {0x7f800000u, 0x7fc00000u, 0xbf800000u}) // inf, NaN, -1
+        EXPECT_EQ(BlockWork::unpacked((known & ~std::uint64_t(0xffffffff)) | worth).worth, 0);
+}
+
 TEST(LightStore, WhatIsNoStoreIsRefused) {
     const auto regions = makeHeapRegions();
     EXPECT_THROW(StoreReader(regions->create(16), 1), Error);

@@ -1,0 +1,119 @@
+// What is said of open work while somebody watches, and that it is true.
+#include "tests/support/LitNode.h"
+#include "tests/support/SteppedLink.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace penumbra {
+
+namespace {
+
+using Kind = BlockWork::Kind;
+
+/// A room whose other side takes a step a frame.
+class WatchedRoom {
+public:
+    void frame() {
+        link_->step(1e-9); // one piece of work
+        room.node->update();
+    }
+    template <class Look>
+    bool settle(Look look) {
+        for (int i = 0; i < 20'000; ++i) {
+            frame();
+            look();
+            if (room.node->state().complete) return true;
+        }
+        return false;
+    }
+    /// Blocks of each kind, of objects that have light.
+    std::map<Kind, int> count() const {
+        std::map<Kind, int> kinds;
+        const auto work = room.node->openWork();
+        for (std::size_t o = 0; o < work.size(); ++o)
+            for (const BlockWork& block : work[o]) ++kinds[block.kind];
+        return kinds;
+    }
+    /// From a corner of the room to its middle.
+    void look() {
+        const glm::dvec3 eye(0.9, 0.9, 1.5);
+        const glm::dmat4 toCamera = glm::lookAt(eye, glm::dvec3(0, 0, 0.5), glm::dvec3(0, 0, 1));
+        room.node->setCamera({toCamera, glm::perspective(1.0, 1.5, 0.01, 100.0), eye});
+    }
+
+private:
+    std::unique_ptr<LightingLink> takeLink() {
+        auto link = std::make_unique<SteppedLink>();
+        link_ = link.get();
+        return link;
+    }
+    SteppedLink* link_ = nullptr;
+
+public:
+    LitRoom room{takeLink()};
+};
+
+TEST(WatchedWork, IsSaidOfEachBlockAndGoneInTheEnd) {
+    WatchedRoom watched;
+    RadiosityNode& node = *watched.room.node;
+    node.watchWork(true);
+    watched.look();
+    ASSERT_TRUE(watched.settle([] {})) << describe(node);
+    watched.room.box->setMatrix(glm::translate(glm::dmat4(1.0), {0.5, 0, 0}));
+    std::map<Kind, int> most;
+    float worth = 0;
+    ASSERT_TRUE(watched.settle([&] {
+        for (const auto& [kind, blocks] : watched.count())
+            most[kind] = std::max(most[kind], blocks);
+        for (const auto& object : node.openWork())
+            for (const BlockWork& block : object) {
+                worth = std::max(worth, block.worth);
+                EXPECT_TRUE(block.rows > 0 || (block.worth == 0 && block.kind != Kind::lamps));
+            }
+    })) << describe(node);
+    EXPECT_GT(most[Kind::lamps], 0);
+    EXPECT_GT(worth, 0);
+    const auto nothingOpen = [&] { return watched.count().size() == 1; };
+    for (int i = 0; i < 2000 && !nothingOpen(); ++i) watched.frame();
+    EXPECT_TRUE(nothingOpen());
+    for (std::size_t o = 0; o < node.objects().size(); ++o) {
+        const auto& geometry = node.objects()[o].geometry;
+        if (!geometry) continue;
+        EXPECT_EQ(node.openWork()[o].size(), geometry->blockRevisions().size());
+    }
+}
+
+TEST(WatchedWork, IsNotSaidIfNobodyWatches) {
+    WatchedRoom watched;
+    RadiosityNode& node = *watched.room.node;
+    ASSERT_TRUE(watched.settle([] {}));
+    EXPECT_TRUE(node.openWork().empty());
+    node.watchWork(true);
+    for (int i = 0; i < 2000 && watched.count().empty(); ++i) watched.frame();
+    EXPECT_FALSE(watched.count().empty());
+    node.watchWork(false);
+    EXPECT_TRUE(node.openWork().empty());
+    // What was said then is no answer to those who ask now.
+    node.watchWork(true);
+    node.update();
+    EXPECT_TRUE(watched.count().empty());
+}
+
+TEST(WatchedWork, AnotherWorkerIsAskedAsWell) {
+    WatchedRoom watched;
+    RadiosityNode& node = *watched.room.node;
+    node.watchWork(true);
+    ASSERT_TRUE(watched.settle([] {}));
+    node.stop();
+    node.start();
+    ASSERT_TRUE(watched.settle([] {}));
+    for (int i = 0; i < 2000 && watched.count().empty(); ++i) watched.frame();
+    EXPECT_FALSE(watched.count().empty());
+}
+
+} // namespace
+
+} // namespace penumbra
