@@ -26,7 +26,8 @@ struct Legend {
         glm::vec3 colour; ///< sRGB
         std::string label;
     };
-    std::string title; ///< with the unit; empty: there is no legend
+    std::string title;              ///< with the unit; empty: there is no legend
+    std::vector<std::string> lines; ///< below the title
     std::vector<Tick> ticks;
     std::vector<Kind> kinds;
 };

@@ -57,6 +57,7 @@ void drawLegend(const PanelState& state) {
                                         ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize;
     if (ImGui::Begin("##legend", nullptr, kPlain)) {
         ImGui::TextUnformatted(legend.title.c_str());
+        for (const std::string& line : legend.lines) ImGui::TextUnformatted(line.c_str());
         if (!legend.ticks.empty()) drawBar(legend);
         for (const Legend::Kind& kind : legend.kinds) drawKind(kind);
     }

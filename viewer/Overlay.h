@@ -11,9 +11,13 @@ namespace penumbra {
 
 class LitGeometry;
 
-enum class Overlay : std::uint8_t { none, mesh, age, openWork, importance };
-inline constexpr const char* kOverlayNames[] = {"none", "patch mesh", "age of the light",
-                                                "open work", "importance of open work"};
+enum class Overlay : std::uint8_t { none, mesh, age, openWork, importance, blockers };
+inline constexpr const char* kOverlayNames[] = {"none",
+                                                "patch mesh",
+                                                "age of the light",
+                                                "open work",
+                                                "importance of open work",
+                                                "blockers: why it is dark"};
 
 /// Whether it shows what RadiosityNode::watchWork() asks for.
 constexpr bool watchesWork(Overlay overlay) {

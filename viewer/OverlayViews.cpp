@@ -1,6 +1,7 @@
 #include "viewer/OverlayViews.h"
 
 #include "radiosity/RadiosityNode.h"
+#include "scenegraph/Objects.h"
 #include "viewer/BlockAges.h"
 #include "viewer/ColourMap.h"
 #include "viewer/OverlayPass.h"
@@ -8,7 +9,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <map>
 #include <string>
+#include <utility>
 
 namespace penumbra {
 
@@ -20,6 +24,18 @@ void forEachBlock(std::span<const LitObject> objects, WorkOfObjects work, Visit 
     for (std::size_t o = 0; o < std::min(objects.size(), work.size()); ++o)
         if (objects[o].geometry)
             for (const BlockWork& block : work[o]) visit(*objects[o].geometry, block);
+}
+
+/// Three digits.
+std::string lux(float value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", double(value));
+    return text;
+}
+
+/// What belongs to no object has the path "/".
+std::string nameOf(const std::string& path) {
+    return path == "/" ? "the fixed part" : path;
 }
 
 } // namespace
@@ -97,6 +113,58 @@ OverlayView importanceView(std::span<const LitObject> objects, WorkOfObjects wor
 OverlayView noImportanceView() {
     OverlayView view;
     view.legend.title = "No importance: the order of work is another one";
+    return view;
+}
+
+std::vector<LampAccount> lampsOf(std::vector<LampAccount> lamps, const std::string& path) {
+    const auto isOf = [&](const LampAccount& lamp) {
+        return lamp.path == path || lamp.path.starts_with(path + "/");
+    };
+    if (!path.empty() && std::ranges::any_of(lamps, isOf))
+        std::erase_if(lamps, [&](const LampAccount& lamp) { return !isOf(lamp); });
+    return lamps;
+}
+
+OverlayView blockersView(std::span<const LitObject> objects, const PlacedScene& below,
+                         const PlacedScene& scene, std::span<const LampAccount> lamps,
+                         const std::string& of) {
+    constexpr std::size_t kMostLamps = 4, kMostBlockers = 6;
+    constexpr double kLeast = 0.01; // less is not worth a word
+    OverlayView view;
+    view.legend.title = "Light from lamps " + of;
+    double whole = 0;
+    std::map<std::uint32_t, double> taken; // by object [lux]
+    for (const LampAccount& lamp : lamps) {
+        whole += double(luminance(lamp.unoccluded));
+        for (const LightLoss& loss : lamp.losses)
+            taken[loss.object.value] += double(luminance(loss.lux));
+        if (luminance(lamp.unoccluded) > 0 && view.legend.lines.size() < kMostLamps)
+            view.legend.lines.push_back(lux(luminance(lamp.arrives)) + " of " +
+                                        lux(luminance(lamp.unoccluded)) + " lux from " + lamp.path);
+    }
+    if (!(whole > 0)) {
+        view.legend.lines.push_back("no lamp shines on this side");
+        return view;
+    }
+    view.legend.lines.push_back("Share of it that an object takes:");
+    view.legend.ticks = {{0, "0"}, {0.25f, "25"}, {0.5f, "50"}, {0.75f, "75"}, {1, "100 %"}};
+    std::vector<std::pair<double, std::uint32_t>> most;
+    for (const auto& [object, loss] : taken) most.emplace_back(loss, object);
+    std::sort(most.rbegin(), most.rend());
+    for (const auto& [loss, object] : most) {
+        if (loss < kLeast * whole || object >= scene.objects.size()) continue;
+        const glm::vec3 colour = viridis(float(loss / whole));
+        const std::string& path = scene.objects[object].path;
+        if (view.legend.kinds.size() < kMostBlockers)
+            view.legend.kinds.push_back({colour, lux(float(loss)) + " lux (" +
+                                                     lux(float(100 * loss / whole)) +
+                                                     " %) taken by " + nameOf(path)});
+        if (object >= below.objects.size() || path == "/") continue;
+        for (const LitObject& lit : objects)
+            if (lit.geometry && lit.path == below.objects[object].path)
+                view.picture.blocks[lit.geometry.get()].assign(
+                    lit.geometry->blockRevisions().size(), blockColour(colour));
+    }
     return view;
 }
 

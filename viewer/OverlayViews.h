@@ -1,17 +1,20 @@
 // What each overlay shows, as colours of blocks with a legend: no OpenGL, no ImGui.
 #pragma once
 
+#include "radiosity/LightAccount.h"
 #include "radiosity/process/BlockWork.h"
 #include "viewer/Legend.h"
 #include "viewer/Overlay.h"
 
 #include <span>
+#include <string>
 #include <vector>
 
 namespace penumbra {
 
 class BlockAges;
 struct LitObject;
+struct PlacedScene;
 
 struct OverlayView {
     OverlayPicture picture;
@@ -38,5 +41,18 @@ OverlayView openWorkView(std::span<const LitObject> objects, WorkOfObjects work)
 OverlayView importanceView(std::span<const LitObject> objects, WorkOfObjects work, double& most);
 /// The same if the work is done in another order: a word about that.
 OverlayView noImportanceView();
+
+/// Why it is as dark as it is at a point: who takes how much of the light that lamps would give.
+/// Each blocker is tinted by the share of all of that light which it takes, on a scale from 0 to 1,
+/// and the account is told in lux.
+/// \param objects,below of the node, and its scene, whose paths these have
+/// \param scene         that the account is about: the same objects, with paths for people
+/// \param of            what the account is of, for people
+OverlayView blockersView(std::span<const LitObject> objects, const PlacedScene& below,
+                         const PlacedScene& scene, std::span<const LampAccount> lamps,
+                         const std::string& of);
+/// The accounts of the lamps of one object, and of others if it has none.
+/// \param path of the object; empty: of all
+std::vector<LampAccount> lampsOf(std::vector<LampAccount> lamps, const std::string& path);
 
 } // namespace penumbra

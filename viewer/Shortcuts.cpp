@@ -32,7 +32,7 @@ constexpr std::array kHelp = std::to_array<HelpLine>({
     {"View", "\\", "exposure by itself, or fixed"},
     {"View", "T", "next tone curve: AgX, ACES, sRGB"},
     {"View", "O  Shift+O", "next, previous overlay: patch mesh, age of the light,"},
-    {"View", "", "... open work, what it is worth to the viewer"},
+    {"View", "...", "open work, its worth, blockers (why it is dark at the pointer)"},
     {"View", "N", "panels on, off"},
     {"View", "F11", "full screen"},
     {"View", "?", "this help"},

@@ -5,6 +5,7 @@
 #include "viewer/FileWatcher.h"
 #include "viewer/GuiLayer.h"
 #include "viewer/InteractiveRenderer.h"
+#include "viewer/LightProbe.h"
 #include "viewer/OverlayViews.h"
 #include "viewer/PanelState.h"
 #include "viewer/Panels.h"
@@ -70,6 +71,7 @@ private:
     bool changing() const;
     bool overlayChanging() const;
     OverlayView overlayView();
+    OverlayView blockers() const;
 
     const ViewerOptions& options_;
     const std::string name_; ///< of the scene's file
@@ -322,8 +324,23 @@ OverlayView Viewer::overlayView() {
     case Overlay::importance:
         if (state_.order != UpdateOrder::importance) return noImportanceView();
         return importanceView(light_->objects(), light_->openWork(), mostWorth_);
+    case Overlay::blockers:
+        return blockers();
     }
     return {};
+}
+
+/// At the pointer, in the scene as it stands now, so that the answer keeps up with what is moved.
+OverlayView Viewer::blockers() const {
+    const std::optional<Touch> touch = walk_->pointedAt(window_.pixels());
+    const auto& selection = walk_->selection();
+    const bool one = selection && !selection->lights.empty();
+    std::vector<LampAccount> lamps;
+    if (touch)
+        lamps = lampsOf(probeLight(walk_->placed(), walk_->rays(), touch->position, touch->normal),
+                        one ? selection->objectPath : std::string());
+    return blockersView(light_->objects(), light_->placed(), walk_->placed(), lamps,
+                        one ? "selected, at the pointer" : "at the pointer");
 }
 
 void Viewer::save() {

@@ -55,6 +55,7 @@ public:
     bool complete() const;
 
     std::span<const LitObject> objects() const { return node_->objects(); }
+    const PlacedScene& placed() const { return node_->placed(); }
     /// When the light of blocks was published, at the walkthrough's time.
     const BlockAges& ages() const { return ages_; }
     RadiosityNode& node() { return *node_; }

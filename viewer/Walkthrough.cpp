@@ -32,6 +32,11 @@ SightLine Walkthrough::sightAt(glm::dvec2 position, glm::ivec2 picture) const {
     return {from, glm::normalize(to - from)};
 }
 
+std::optional<Touch> Walkthrough::pointedAt(glm::ivec2 picture) const {
+    const SightLine sight = sightAt(controls_.state().position(), picture);
+    return rays_->touch(sight.origin, sight.direction, kReach);
+}
+
 void Walkthrough::press(const ButtonEvent& button, glm::ivec2 picture) {
     using Gesture = MotionControls::Gesture;
     if (gestureButton_ || held_) return;

@@ -43,6 +43,8 @@ public:
     void advance(double seconds);
     double time() const { return time_; } ///< that has passed [s]
 
+    /// What the pointer is on, in a picture of that size [pixel].
+    std::optional<Touch> pointedAt(glm::ivec2 picture) const;
     const std::optional<Selection>& selection() const { return selection_; }
     void select(std::optional<Selection> selection) { selection_ = std::move(selection); }
     /// The thing that somebody has taken hold of, from before it moves.

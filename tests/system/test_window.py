@@ -63,11 +63,12 @@ class View:
     def shot(self, name):
         """The display, kept as a picture."""
         self.display.save(OUTPUT / f"{name}.ppm")
+        rows = self.display.pixels()
         if shutil.which("oiiotool"):
             subprocess.run(["oiiotool", OUTPUT / f"{name}.ppm", "-o", OUTPUT / f"{name}.png"],
                            check=True)
             (OUTPUT / f"{name}.ppm").unlink()
-        return self.display.pixels()
+        return rows
 
     def exr(self):
         """A frame saved by F12: its luminances [nit], row by row."""
@@ -203,23 +204,16 @@ def overlays(display):
 
 
 def work_overlays(view):
-    """While the box in the room is nudged: what work is open, and what it is worth."""
-    display, middle = view.display, (20, 200, 1260, 740)
-    display.hands("mousemove", 450, 450, "click", 1)
-    for name, like, what in (
-            ("open-work", lambda r, g, b: r > 180 and 120 < g < 200 and b < 80, "orange"),
-            ("importance", lambda r, g, b: b > r + 10 or g > r + 40, "in colours of the scale")):
-        display.hands("key", *(["o", "o", "o"] if name == "open-work" else ["o"]))
-        before = spread(view.rest(), middle)
-
-        def frontier():
-            display.hands("key", "Right")
-            now = spread(display.pixels(), middle)
-            return 20 < sum(p != q and like(*q) for p, q in zip(before, now))
-        xwindow.until(frontier, seconds=60, what=f"blocks with open work, {what}")
-        view.shot(f"overlay-{name}")
-        print(f"ok      O: {name}: while a box moves, blocks with open work are {what}")
-        view.lit()
+    """Overlays that the lighting process, or the pointer, has something to say for."""
+    display, legend = view.display, (10, 10, 300, 120)
+    before = spread(view.rest(), legend)
+    for keys, name in ((3, "open-work"), (1, "importance"), (1, "blockers")):
+        display.hands("key", *["o"] * keys)
+        time.sleep(0.5)
+        now = spread(view.shot(f"overlay-{name}"), legend)
+        check(now != before, f"O: a legend comes with {name}")
+        before = now
+    display.hands("key", "o")
 
 
 def orange(rows):

@@ -2,6 +2,7 @@
 
 #include "LitScenes.h"
 #include "radiosity/RadiosityNode.h"
+#include "scenegraph/Objects.h"
 #include "viewer/BlockAges.h"
 #include "viewer/ColourMap.h"
 
@@ -85,6 +86,46 @@ TEST(OverlayViews, NothingIsKnownOfWorkThatNobodyWatches) {
     double most = 0;
     EXPECT_TRUE(importanceView(objects, {}, most).picture.empty());
     EXPECT_FALSE(noImportanceView().legend.title.empty());
+}
+
+/// 60 of 100 lux of one lamp are taken, 40 by a box and 20 by the walls; another one gives 100.
+std::vector<LampAccount> twoLamps() {
+    return {{"/ceiling/lamp", Rgb(100), Rgb(40), {{ObjectId{1}, Rgb(40)}, {ObjectId{0}, Rgb(20)}}},
+            {"/desk/lamp", Rgb(100), Rgb(100), {}}};
+}
+
+TEST(OverlayViews, BlockersAreTintedByTheirShareAndNamedWithTheirLux) {
+    const std::vector<LitObject> objects{
+        {"//", glm::dmat4(1.0), true, glm::dmat4(1.0), litNode(litSquare(), 0)},
+        {"//box", glm::dmat4(1.0), true, glm::dmat4(1.0), litNode(litSquare(), 1)}};
+    PlacedScene below, scene;
+    below.objects = {{"//"}, {"//box"}};
+    scene.objects = {{"/"}, {"/box"}};
+    const std::vector<LampAccount> lamps = twoLamps();
+    const OverlayView all = blockersView(objects, below, scene, lamps, "here");
+    EXPECT_EQ(all.picture.blocks.size(), 1u) << "walls are everywhere: they are only named";
+    EXPECT_EQ(all.picture.blocks.at(objects[1].geometry.get()).at(0), blockColour(viridis(0.2f)));
+    ASSERT_EQ(all.legend.kinds.size(), 2u);
+    EXPECT_EQ(all.legend.kinds[0].label, "40 lux (20 %) taken by /box");
+    EXPECT_EQ(all.legend.kinds[1].label, "20 lux (10 %) taken by the fixed part");
+    EXPECT_EQ(all.legend.lines.at(0), "40 of 100 lux from /ceiling/lamp");
+    EXPECT_EQ(all.legend.lines.at(1), "100 of 100 lux from /desk/lamp");
+
+    const OverlayView one = blockersView(objects, below, scene, lampsOf(lamps, "/ceiling"), "here");
+    EXPECT_EQ(one.legend.kinds[0].label, "40 lux (40 %) taken by /box");
+}
+
+TEST(OverlayViews, OfASelectedLampOnlyItsOwnAccountIsGiven) {
+    EXPECT_EQ(lampsOf(twoLamps(), "").size(), 2u);
+    ASSERT_EQ(lampsOf(twoLamps(), "/desk").size(), 1u);
+    EXPECT_EQ(lampsOf(twoLamps(), "/desk")[0].path, "/desk/lamp");
+    EXPECT_EQ(lampsOf(twoLamps(), "/ceil").size(), 2u) << "another name";
+}
+
+TEST(OverlayViews, WhereNoLampShinesThatIsSaid) {
+    const OverlayView view = blockersView({}, {}, {}, {}, "here");
+    EXPECT_TRUE(view.picture.empty());
+    EXPECT_EQ(view.legend.lines.size(), 1u);
 }
 
 } // namespace
