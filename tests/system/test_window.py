@@ -79,16 +79,15 @@ class View:
         return luminances(new.pop())
 
     def rest(self):
-        """The picture once it has come to rest."""
-        before = self.display.pixels()
+        """The picture once it has come to rest: for a second, for exposure adapts ever slower."""
+        taken = []
 
         def still():
-            nonlocal before
-            time.sleep(0.3)
-            now = self.display.pixels()
-            same = xwindow.difference(before, now) < 0.05
-            before = now
-            return same and now
+            taken.append(self.display.pixels())
+            time.sleep(0.25)
+            if len(taken) < 5:
+                return False
+            return xwindow.difference(taken.pop(0), taken[-1]) < 0.05 and taken[-1]
         return xwindow.until(still, what="a picture at rest")
 
 
