@@ -178,7 +178,7 @@ void InteractiveRenderer::drawScene(const DrawList& list, const View& view,
     const std::size_t lightUploads = impl.litCache.lightUploads();
     const std::vector<LitItem> lit = prepareLit(list, view, impl.reversed, impl.litCache);
     if (live.active()) {
-        if (!impl.livePass) impl.livePass.emplace(impl.options.live);
+        if (!impl.livePass) impl.livePass.emplace();
         impl.livePass->prepare(live, impl.litCache);
     }
     {

@@ -5,7 +5,6 @@
 #include "viewer/DrawList.h"
 #include "viewer/HdrTarget.h"
 #include "viewer/LiveLight.h"
-#include "viewer/LiveShaders.h"
 #include "viewer/Overlay.h"
 #include "viewer/PreviewLighting.h"
 #include "viewer/ToneCurve.h"
@@ -20,7 +19,6 @@ namespace penumbra {
 struct InteractiveOptions {
     int samples = 4; ///< a pixel
     HdrTarget::Precision precision = HdrTarget::Precision::half;
-    LiveSampling live = LiveSampling::pixels;
 };
 
 /// What the last drawScene() did.

@@ -81,7 +81,12 @@ void LightBlend::followLamps(RadiosityNode& node) {
 }
 
 LightFade::Frame LightBlend::frameAt(double time, bool fresh) const {
-    return {time, options_.seconds, lamps_.size(), fresh};
+    return {time,
+            options_.seconds,
+            lamps_.size(),
+            fresh,
+            next_ ? 1 - restShare(time) : 0,
+            !next_ || !behind_ || behind_ == rest_};
 }
 
 /// What was sent is exact, at least in part: it comes to rest.
@@ -92,10 +97,9 @@ void LightBlend::comeToRest(double time) {
         return entry.fade && entry.fade->anyUnready(*entry.geometry, frame);
     };
     if (behind_ && std::any_of(entries_.begin(), entries_.end(), unready)) return;
-    bool any = false;
     for (Entry& entry : entries_)
-        if (entry.fade) any |= entry.fade->leaveBehind(*entry.geometry, frame);
-    if (any) behind_ = rest_;
+        if (entry.fade) entry.fade->leaveBehind(*entry.geometry, frame);
+    if (!behind_) behind_ = rest_;
     next_ = sent_;
     since_ = time;
 }
@@ -111,7 +115,7 @@ void LightBlend::advanceFades(const LightFade::Frame& frame) {
         waiting_ |= entry.fade->waiting();
         behind |= entry.fade->anyBehind();
     }
-    if (!behind) behind_ = nullptr;
+    if (!behind && !next_) behind_ = nullptr;
 }
 
 /// Of next_ in the vertices that are not behind.
@@ -132,9 +136,9 @@ void LightBlend::describeLive(const RadiosityNode& node, double time) {
             live_.anchors.push_back({of, rest, behind});
     };
     if (lamps_.empty()) return;
-    anchor(rest_, 1 - share, 0);
+    anchor(rest_, 1 - share, behind_ == rest_ ? 1.0f : 0.0f);
     anchor(next_, share, 0);
-    anchor(behind_, 0, 1);
+    if (behind_ != rest_) anchor(behind_, 0, 1);
     if (live_.anchors.empty()) return;
     for (std::size_t o = 0; o < entries_.size(); ++o) {
         const bool moves = std::any_of(live_.anchors.begin(), live_.anchors.end(),

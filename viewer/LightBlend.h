@@ -13,9 +13,16 @@ namespace penumbra {
 
 class RadiosityNode;
 
+/// How it is found out what live lamps reach.
+enum class LiveBy {
+    maps, ///< by shadow maps, pixel by pixel: LivePass
+    rays  ///< by radiosity's rays, vertex by vertex: LiveVertices
+};
+
 struct BlendOptions {
     double seconds = 0.25; ///< that a vertex takes from one light to the next; 0: it jumps
     int points = 16;       ///< of a lamp for its fast shadows, at most 16
+    LiveBy by = LiveBy::maps;
     std::size_t lamps = kMostLampsDrawnLive; ///< drawn live at most, no more than that
 };
 

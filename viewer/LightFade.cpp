@@ -55,7 +55,32 @@ void LightFade::followTopology(const LitGeometry& geometry) {
     seen_.resize(geometry.blockRevisions().size(), 0);
     std::erase_if(flights_, [&](const auto& f) { return f.first >= seen_.size(); });
     ++shown_.revision;
+    if (before > 0) adopt(data);
+    corners_ = data.indices;
     findBorders(data);
+}
+
+/// Vertices that no triangle had before take over what was shown at the corners that they stand for
+/// now.
+void LightFade::adopt(const LitMeshData& data) {
+    if (corners_.size() != data.indices.size()) return;
+    std::vector<bool> used(data.positions.size());
+    for (const std::uint32_t v : corners_) used[v] = true;
+    for (std::size_t i = 0; i < corners_.size(); ++i) {
+        const std::uint32_t v = data.indices[i], was = corners_[i];
+        if (v == was || used[v]) continue;
+        used[v] = true;
+        shown_.direct[v] = shown_.direct[was];
+        shown_.indirect[v] = shown_.indirect[was];
+        if (!shown_.factors.empty()) {
+            shown_.factors[v] = shown_.factors[was];
+            setBehind(v, shown_.behind[was]);
+        }
+        Flight& flight = flightOf(v / kBlock);
+        flight.direct[v % kBlock] = {};
+        flight.indirect[v % kBlock] = {};
+        ++shown_.blockRevisions[v / kBlock];
+    }
 }
 
 void LightFade::findBorders(const LitMeshData& data) {
@@ -123,19 +148,28 @@ LightFade::Direct LightFade::target(const LitMeshData& data, std::size_t vertex)
     return direct;
 }
 
-LightFade::Direct LightFade::shownDirect(std::size_t vertex) const {
+/// The share o of the old arrangement in a vertex is `behind` b of it and, with the arrangement
+/// that all others leave, o = b + (1 - b) rest.
+LightFade::Direct LightFade::shownDirect(std::size_t vertex, const Frame& frame) const {
     if (shown_.factors.empty()) return {shown_.direct[vertex]};
-    return {shown_.direct[vertex], shown_.factors[vertex], shown_.behind[vertex]};
+    const float behind = shown_.behind[vertex];
+    const float old = frame.behindIsRest ? behind + (1 - behind) * frame.rest : behind;
+    return {shown_.direct[vertex], shown_.factors[vertex], old};
 }
 
-void LightFade::setShown(std::size_t vertex, const Direct& direct) {
+void LightFade::setShown(std::size_t vertex, const Direct& direct, const Frame& frame) {
     changed_ = true;
     shown_.direct[vertex] = direct.light;
     if (shown_.factors.empty()) return;
     shown_.factors[vertex] = direct.factors;
-    float& behind = shown_.behind[vertex];
-    behind_ += std::size_t(direct.behind > 0) - std::size_t(behind > 0);
-    behind = direct.behind;
+    const bool fades = frame.behindIsRest && frame.rest > 0 && frame.rest < 1;
+    const float ahead = direct.old - frame.rest; // up to rounding, of those that fade with it: 0
+    setBehind(vertex, !fades ? direct.old : ahead > 1e-5f ? ahead / (1 - frame.rest) : 0);
+}
+
+void LightFade::setBehind(std::size_t vertex, float behind) {
+    behind_ += std::size_t(behind > 0) - std::size_t(shown_.behind[vertex] > 0);
+    shown_.behind[vertex] = behind;
 }
 
 LightFade::Flight& LightFade::flightOf(std::size_t block) {
@@ -152,27 +186,34 @@ void LightFade::goOn(std::size_t vertex, Way<Direct>& way, const Frame& frame) {
     const float w = smoothstep(frame.time, way.start, frame.seconds);
     const Direct &a = way.from, &b = way.target;
     if (w >= 1) {
-        setShown(vertex, b);
+        setShown(vertex, b, frame);
         way.start = kNever;
         return;
     }
     fading_ = true;
-    setShown(vertex, {mix(a.light, b.light, w), glm::mix(a.factors, b.factors, w),
-                      a.behind + (b.behind - a.behind) * w});
+    setShown(
+        vertex,
+        {mix(a.light, b.light, w), glm::mix(a.factors, b.factors, w), a.old + (b.old - a.old) * w},
+        frame);
 }
 
 bool LightFade::advanceDirect(const LitMeshData& data, std::size_t vertex, Way<Direct>& way,
                               const Frame& frame) {
     goOn(vertex, way, frame);
-    if (!ready(data, vertex, frame)) {
+    const bool behind = !shown_.factors.empty() && shown_.behind[vertex] > 0;
+    const bool early = behind && !frame.behindIsRest && frame.rest > 0;
+    if (early || !ready(data, vertex, frame)) {
         waiting_ = true;
         return false;
     }
     const Direct wanted = target(data, vertex);
-    const Direct now = shownDirect(vertex);
+    const Direct now = shownDirect(vertex, frame);
+    if (!behind && way.start == kNever && wanted.light == now.light &&
+        wanted.factors == now.factors)
+        return true;
     if (wanted == (way.start != kNever ? way.target : now)) return way.start == kNever;
-    if (wanted.light == now.light && now.behind == 0) {
-        setShown(vertex, wanted); // lamps have become known: nothing is seen of that
+    if (wanted.light == now.light && !behind) {
+        setShown(vertex, wanted, frame); // lamps have become known: nothing is seen of that
         way.start = kNever;
         return true;
     }
@@ -250,10 +291,8 @@ bool LightFade::leaveBehind(const LitGeometry& geometry, const Frame& frame) {
         if (ready(geometry.data(), v, frame)) continue;
         Flight& flight = flightOf(v / kBlock);
         Way<Direct>& way = flight.direct[v % kBlock];
-        way.from.behind = way.target.behind = 1;
-        Direct now = shownDirect(v);
-        now.behind = 1;
-        setShown(v, now);
+        way.from.old = way.target.old = 1;
+        setBehind(v, 1);
         ++shown_.blockRevisions[v / kBlock];
     }
     ++shown_.revision;

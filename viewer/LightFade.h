@@ -21,6 +21,9 @@ namespace penumbra {
 /// triangle is half ready; its indirect light, always. Until then it goes on to the target that it
 /// has, or stays. A target that comes while it is on its way starts a new way from what is shown.
 ///
+/// A vertex that comes to stand for a corner of a triangle (see Contact.h) begins with the light
+/// that was shown there.
+///
 /// Only blocks that wait or are on their way cost anything.
 class LightFade {
 public:
@@ -32,6 +35,11 @@ public:
         double seconds = 0.25; ///< of a fade; 0: at once
         std::size_t lamps = 0; ///< live ones; with none of them every vertex is always ready
         bool fresh = true;     ///< what is exact is the light of the arrangement that is at rest
+        /// Share of the arrangement before that vertices have which are not behind; it falls to 0.
+        float rest = 0;
+        /// Vertices that are behind are so with that arrangement, and not with one before it: those
+        /// follow only when `rest` has come to 0, for a vertex has but two arrangements.
+        bool behindIsRest = true;
     };
 
     /// Begins anew with another number of live lamps: no factors are known. \pre nothing is behind
@@ -61,7 +69,8 @@ private:
     struct Direct {
         Rgb light;
         glm::vec4 factors{-1};
-        float behind = 0;
+        float old =
+            0; ///< share that the arrangement before, or the one that is behind, has in them
         friend bool operator==(const Direct&, const Direct&) = default;
     };
     template <class T>
@@ -79,8 +88,10 @@ private:
     bool blockReady(const LitMeshData& data, std::size_t block, const Frame& frame) const;
     bool ready(const LitMeshData& data, std::size_t vertex, const Frame& frame) const;
     Direct target(const LitMeshData& data, std::size_t vertex) const;
-    Direct shownDirect(std::size_t vertex) const;
-    void setShown(std::size_t vertex, const Direct& direct);
+    Direct shownDirect(std::size_t vertex, const Frame& frame) const;
+    void setShown(std::size_t vertex, const Direct& direct, const Frame& frame);
+    void setBehind(std::size_t vertex, float behind);
+    void adopt(const LitMeshData& data);
     Flight& flightOf(std::size_t block);
     bool advanceBlock(const LitMeshData& data, std::size_t block, Flight& flight,
                       const Frame& frame);
@@ -93,6 +104,7 @@ private:
     ShownLight shown_;
     std::vector<std::uint64_t> seen_; ///< block revisions of the geometry
     std::uint64_t revision_ = 0, topology_ = 0;
+    std::vector<std::uint32_t> corners_;              ///< of triangles, as last seen
     std::unordered_map<std::size_t, Flight> flights_; ///< by block
     /// The other blocks that share a triangle with a vertex: of vertex v those from borderFirst_[v]
     /// to borderFirst_[v + 1].

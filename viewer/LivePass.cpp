@@ -25,8 +25,7 @@ constexpr std::array<const char*, kMostLampsDrawnLive> kLampNames{"lampList[0]",
 } // namespace
 
 struct LivePass::Impl {
-    explicit Impl(LiveSampling sampling)
-        : program(liveVertexShader(sampling).c_str(), liveFragmentShader(sampling).c_str()) {}
+    Impl() : program(liveVertexShader().c_str(), liveFragmentShader().c_str()) {}
 
     void setPlaces(const LitItem& item);
     void setLamps(unsigned mask);
@@ -57,7 +56,7 @@ void LivePass::Impl::setPlaces(const LitItem& item) {
     }
 }
 
-LivePass::LivePass(LiveSampling sampling) : impl_(std::make_unique<Impl>(sampling)) {}
+LivePass::LivePass() : impl_(std::make_unique<Impl>()) {}
 
 LivePass::~LivePass() = default;
 

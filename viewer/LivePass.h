@@ -5,7 +5,6 @@
 #include "viewer/IndexRuns.h"
 #include "viewer/LitItem.h"
 #include "viewer/LiveLight.h"
-#include "viewer/LiveShaders.h"
 #include "viewer/ShaderProgram.h"
 
 #include <cstddef>
@@ -25,7 +24,7 @@ struct LiveStatistics {
 /// shaft to a lamp meets what moves; all others are drawn as ever.
 class LivePass {
 public:
-    explicit LivePass(LiveSampling sampling);
+    LivePass();
     ~LivePass();
 
     /// Draws the shadow maps that are not there yet. Leaves no framebuffer bound.

@@ -258,17 +258,6 @@ void main() {
 }
 )";
 
-const char* const kVertexVertexMain = R"(
-centroid out vec3 surfaceDirect;
-centroid out vec3 surfaceIndirect;
-
-void main() {
-    gl_Position = localToClip * vec4(position, 1.0);
-    surfaceDirect = max(direct + liveChange(position, normal, factors, behind), 0.0);
-    surfaceIndirect = indirect;
-}
-)";
-
 const char* const kPixelInputs = R"(#version 330 core
 centroid in vec3 surfaceDirect;
 centroid in vec3 surfaceIndirect;
@@ -283,13 +272,6 @@ vec3 directLight() {
     return max(surfaceDirect + liveChange(surfacePosition, surfaceNormal, surfaceFactors,
                                           surfaceBehind), 0.0);
 }
-)";
-
-const char* const kVertexInputs = R"(#version 330 core
-centroid in vec3 surfaceDirect;
-centroid in vec3 surfaceIndirect;
-
-vec3 directLight() { return surfaceDirect; }
 )";
 
 const char* const kFragmentMain = R"(
@@ -307,22 +289,15 @@ void main() {
 }
 )";
 
-std::string functions() {
-    return std::string(kFormFactors) + kShadows + kChange;
-}
-
 } // namespace
 
-std::string liveVertexShader(LiveSampling sampling) {
-    return sampling == LiveSampling::pixels
-               ? std::string(kInputs) + kPixelVertexMain
-               : std::string(kInputs) + functions() + kVertexVertexMain;
+std::string liveVertexShader() {
+    return std::string(kInputs) + kPixelVertexMain;
 }
 
-std::string liveFragmentShader(LiveSampling sampling) {
-    return sampling == LiveSampling::pixels
-               ? std::string(kPixelInputs) + functions() + kPixelLight + kFragmentMain
-               : std::string(kVertexInputs) + kFragmentMain;
+std::string liveFragmentShader() {
+    return std::string(kPixelInputs) + kFormFactors + kShadows + kChange + kPixelLight +
+           kFragmentMain;
 }
 
 } // namespace penumbra

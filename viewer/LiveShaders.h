@@ -5,14 +5,9 @@
 
 namespace penumbra {
 
-/// Where the live change of the light is worked out.
-enum class LiveSampling {
-    pixels,  ///< shadows as fine as their maps
-    vertices ///< like the radiosity that they turn into; much cheaper where the processor draws
-};
-
-std::string liveVertexShader(LiveSampling sampling);
-std::string liveFragmentShader(LiveSampling sampling);
+/// The change of the light is worked out pixel by pixel, with shadows as fine as their maps.
+std::string liveVertexShader();
+std::string liveFragmentShader();
 
 /// The table of uniforms that the shaders read: a row of texels a lamp and arrangement; row
 /// kLiveRows * slot + lamp with slot 0 for now, 1 ... 3 for the anchors.

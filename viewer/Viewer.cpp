@@ -32,10 +32,7 @@ namespace {
 
 constexpr double kLongestStep = 0.1;   // after a stall things don't jump further than this [s]
 constexpr double kIdlePoll = 1.0 / 60; // how long a picture that does not change is kept [s]
-/// Of lamps drawn live, where the processor draws them.
-constexpr int kSoftwarePoints = 4;
-constexpr std::size_t kSoftwareLamps = 2;
-constexpr int kAfterglow = 3; // pictures that follow the last event: panels need some
+constexpr int kAfterglow = 3;          // pictures that follow the last event: panels need some
 
 using Clock = std::chrono::steady_clock;
 
@@ -106,8 +103,7 @@ Viewer::Viewer(const ViewerOptions& options)
                .title = name_ + " (loading) - Penumbra",
                .vsync = options.vsync}),
       software_(drawnInSoftware(window_)),
-      renderer_({.samples = options.samples > 0 ? options.samples : (software_ ? 1 : 4),
-                 .live = software_ ? LiveSampling::vertices : LiveSampling::pixels}) {
+      renderer_({.samples = options.samples > 0 ? options.samples : (software_ ? 1 : 4)}) {
     gui_.emplace(window_);
     state_.sceneName = name_;
     state_.renderer = window_.renderer();
@@ -194,8 +190,7 @@ void Viewer::lightScene() {
     if (how.solving.residual == 0) how.solving.residual = asked.solving.residual;
     light_.reset();
     light_.emplace(*walk_, how, makeProcessLink(),
-                   software_ ? BlendOptions{.points = kSoftwarePoints, .lamps = kSoftwareLamps}
-                             : BlendOptions{});
+                   BlendOptions{.by = software_ ? LiveBy::rays : LiveBy::maps});
 }
 
 void Viewer::reload() {

@@ -17,6 +17,7 @@ WalkLight::WalkLight(const Walkthrough& walk, const RadiosityOptions& options,
       mostLamps_(std::min(blend.lamps, kMostLampsDrawnLive)), trigger_(options.trigger),
       order_(options.solving.order) {
     node_->add(walk.scene().root);
+    if (blend.by == LiveBy::rays) vertices_.emplace(options.solving.samples);
 }
 
 WalkLight::~WalkLight() = default;
@@ -41,6 +42,10 @@ void WalkLight::chooseLamps(const Walkthrough& walk) {
         if (l < lights.size() && lights[l].node == walk.placed().lights[l].node)
             paths.push_back(lights[l].path);
     blend_.want(std::move(paths));
+    if (!vertices_) return;
+    std::vector<std::shared_ptr<const LitGeometry>> geometries;
+    for (const LitObject& object : node_->objects()) geometries.push_back(object.geometry);
+    vertices_->require(geometries); // now, not in the first frame of a move
 }
 
 void WalkLight::setOrder(UpdateOrder order) {
@@ -60,6 +65,9 @@ bool WalkLight::update(const Walkthrough& walk, const View& view) {
     chooseLamps(walk);
     blend_.advance(*node_, walk.time());
     ages_.advance(node_->objects(), walk.time());
+    if (vertices_)
+        vertices_->update(blend_.live(),
+                          [&](const LitGeometry& geometry) { return blend_.shown(geometry); });
     const RadiosityState& state = node_->state();
     const bool news = blend_.changing() || blocks_ != state.blocksTaken || phase_ != state.phase ||
                       unlit_ != node_->unlit().size();
@@ -75,7 +83,10 @@ bool WalkLight::complete() const {
 
 DrawList WalkLight::listVisible(const Frustum& frustum) const {
     DrawList list = penumbra::listVisible(node_->lit(), frustum);
-    for (DrawItem& item : list.items) item.shown = blend_.shown(*item.geometry);
+    for (DrawItem& item : list.items) {
+        const ShownLight* const live = vertices_ ? vertices_->shown(*item.geometry) : nullptr;
+        item.shown = live ? live : blend_.shown(*item.geometry);
+    }
     if (complete()) return list;
     std::unordered_set<std::string> litPaths;
     for (const LitObject& object : node_->objects())

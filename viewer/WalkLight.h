@@ -7,8 +7,10 @@
 #include "viewer/BlockAges.h"
 #include "viewer/DrawList.h"
 #include "viewer/LightBlend.h"
+#include "viewer/LiveVertices.h"
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -43,8 +45,10 @@ public:
     /// What is to be drawn in a view: the lit surfaces, and the meshes and lights of objects that
     /// have no light yet.
     DrawList listVisible(const Frustum& frustum) const;
-    /// Lamps that are drawn live: those that matter to what is selected, while it moves.
-    const LiveLight& live() const { return blend_.live(); }
+    /// Lamps for the renderer to draw live: those that matter to what is selected, while it moves.
+    /// None with LiveBy::rays, when listVisible() has their light.
+    const LiveLight& live() const { return vertices_ ? none_ : blend_.live(); }
+    std::size_t lampsDrawnLive() const { return blend_.live().lamps.size(); }
     /// Whether direct light is on its way on the screen.
     bool fading() const { return blend_.fading(); }
     /// Whether vertices wait for their light, to be exact for how things stand.
@@ -70,6 +74,8 @@ private:
     std::shared_ptr<RadiosityNode> node_;
     LightBlend blend_;
     BlockAges ages_;
+    std::optional<LiveVertices> vertices_; ///< with LiveBy::rays
+    LiveLight none_;
     std::size_t mostLamps_;     ///< drawn live
     std::uint64_t lampsOf_ = 0; ///< revision of the walkthrough, and
     ObjectId lampsFor_;         ///< the object, that live lamps were chosen for

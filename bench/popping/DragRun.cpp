@@ -40,8 +40,7 @@ class Run {
 public:
     Run(const DragScript& script, const DragOptions& options)
         : script_(script), options_(options), walk_(load(script.scene)),
-          renderer_(
-              {.samples = 1, .precision = HdrTarget::Precision::single, .live = options.sampling}) {
+          renderer_({.samples = 1, .precision = HdrTarget::Precision::single}) {
         if (!script.camera.empty()) walk_.goTo(script.camera, script.scene);
         RadiosityOptions light;
         light.meshing.patchSize = float(walk_.scene().patchSize);
@@ -114,7 +113,7 @@ private:
         light_->update(walk_, view());
         const Frustum frustum(view().worldToClip());
         result_.frames.push_back({draw(light_->listVisible(frustum), light_->live()), {}});
-        result_.lamps = std::max(result_.lamps, light_->live().lamps.size());
+        result_.lamps = std::max(result_.lamps, light_->lampsDrawnLive());
         poses_.push_back(thing_->matrix());
         lastFrame_ = since(begin);
         if (lastFrame_ < kFrame)

@@ -4,7 +4,6 @@
 #include "PopFigures.h"
 
 #include "viewer/LightBlend.h"
-#include "viewer/LiveShaders.h"
 
 #include <glm/glm.hpp>
 
@@ -28,7 +27,6 @@ struct DragScript {
 
 struct DragOptions {
     BlendOptions blend;
-    LiveSampling sampling = LiveSampling::pixels;
     float elementSize = 0; ///< [m]; 0: the scene's
     bool indirect = true;  ///< else direct light alone, in black surroundings
     bool motion = false;   ///< what should be seen while it moves is worked out as well

@@ -1,6 +1,6 @@
 // penumbra_popping [office|gallery]: what can be seen of fast shadows turning into soft ones.
 //
-//   --vertices        live light at vertices, as where the processor draws; else at pixels
+//   --rays            fast shadows by rays, as where the processor draws; else by shadow maps
 //   --element-size M  of the mesh; else the scene's
 //   --direct-only     no indirect light: shadows are black, steps in them count for more
 //   --motion          what should be seen in the middle of the drag is worked out, too
@@ -95,15 +95,15 @@ void report(const DragScript& script, const char* variant, const DragResult& r) 
 
 int run(int argc, char** argv) {
     std::string only;
-    LiveSampling sampling = LiveSampling::pixels;
+    LiveBy by = LiveBy::maps;
     float elementSize = 0;
     bool indirect = true, motion = false;
     std::string keep;
     int variantWanted = -1;
     for (int i = 1; i < argc; ++i) {
         const std::string argument = argv[i];
-        if (argument == "--vertices")
-            sampling = LiveSampling::vertices;
+        if (argument == "--rays")
+            by = LiveBy::rays;
         else if (argument == "--direct-only")
             indirect = false;
         else if (argument == "--motion")
@@ -127,7 +127,7 @@ int run(int argc, char** argv) {
             DragOptions options;
             options.motion = motion;
             options.blend = variant.blend;
-            options.sampling = sampling;
+            options.blend.by = by;
             options.elementSize = elementSize;
             options.indirect = indirect;
             const DragResult result = runDrag(script, options);

@@ -70,8 +70,7 @@ public:
 
     LiveRoom room;
     LightBlend blend;
-    InteractiveRenderer renderer{
-        {.samples = 1, .precision = HdrTarget::Precision::single, .live = LiveSampling::vertices}};
+    InteractiveRenderer renderer{{.samples = 1, .precision = HdrTarget::Precision::single}};
     double time = 0;
 };
 

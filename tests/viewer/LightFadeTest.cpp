@@ -166,6 +166,57 @@ TEST(LightFade, WhoIsNotReadyStaysBehindAndFollows) {
     EXPECT_FALSE(surface.fade.anyBehind());
 }
 
+TEST(LightFade, WhoFollowsLateHasTheLightOfNowAllTheTime) {
+    // Factors 0.5 before and 0.8 now, which the live light gives in full: with the share o of what
+    // was before in a vertex, f + o (0.8 - 0.5) is 0.8 whenever the vertex follows.
+    Surface surface(3);
+    const auto frame = [&](double time) {
+        const double s = std::clamp(time / 0.25, 0.0, 1.0);
+        return LightFade::Frame{time, 0.25, 1, true, float(1 - s * s * (3 - 2 * s)), true};
+    };
+    const auto publish = [&](std::size_t block, Known known) {
+        surface.geometry.setBlock(block, [&](LitMeshData& data) {
+            for (std::size_t v = 0; v < LitGeometry::kBlock; ++v) {
+                data.lamps[0].factor[block * LitGeometry::kBlock + v] = 0.8f;
+                data.direct[block * LitGeometry::kBlock + v] = Rgb(160);
+            }
+            data.lamps[0].known[block] = known;
+        });
+    };
+    publish(0, Known::exact);
+    for (const std::size_t block : {1u, 2u}) publish(block, Known::stale);
+    EXPECT_TRUE(surface.fade.leaveBehind(surface.geometry, frame(0)));
+    for (int t = 0; t <= 60; ++t) {
+        const double time = t / 100.0;
+        if (t == 10) publish(1, Known::exact), publish(2, Known::exact);
+        surface.fade.advance(surface.geometry, frame(time));
+        const ShownLight& shown = surface.fade.shown();
+        for (const std::size_t v : {5u, 100u, 180u}) {
+            const float old = shown.behind[v] + (1 - shown.behind[v]) * frame(time).rest;
+            ASSERT_NEAR(shown.factors[v][0] + old * 0.3f, 0.8f, 1e-4) << v << " at " << time;
+        }
+    }
+    EXPECT_FALSE(surface.fade.anyBehind());
+}
+
+TEST(LightFade, AVertexThatComesToStandForACornerBeginsWithTheLightThere) {
+    Surface surface(2, 0);
+    const std::uint32_t corner = 5, own = 2 * LitGeometry::kBlock + 3;
+    surface.geometry.setTopology([&](LitMeshData& data) {
+        const std::size_t count = 3 * LitGeometry::kBlock;
+        data.positions.resize(count, data.positions[corner]);
+        data.normals.resize(count, glm::vec3(0, 0, 1));
+        data.direct.resize(count, Rgb(10));
+        data.indirect.resize(count, Rgb(20));
+        for (std::uint32_t& v : data.indices)
+            if (v == corner) v = own;
+    });
+    surface.show(1);
+    EXPECT_EQ(surface.direct(own), 100) << "what was shown at the corner";
+    surface.show(1.25);
+    EXPECT_EQ(surface.direct(own), 10);
+}
+
 TEST(LightFade, GoesOnFromWhatWasShownWhenTheSurfaceComesAnew) {
     Surface before, after;
     before.publish(0, 300);

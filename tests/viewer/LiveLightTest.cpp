@@ -1,4 +1,5 @@
-// Lamps drawn live: LivePass, LiveMaps and their shaders against radiosity.
+// Lamps drawn live, by shadow maps (LivePass, LiveMaps) and by rays (LiveVertices), against
+// radiosity.
 #include "LiveScenes.h"
 
 #include "io/PngWriter.h"
@@ -11,10 +12,10 @@ namespace {
 
 constexpr int kSize = 256;
 
-class LiveLightTest : public WithContext, public testing::WithParamInterface<LiveSampling> {
+class LiveLightTest : public WithContext, public testing::WithParamInterface<LiveBy> {
 protected:
     InteractiveOptions options() const {
-        return {.samples = 1, .precision = HdrTarget::Precision::single, .live = GetParam()};
+        return {.samples = 1, .precision = HdrTarget::Precision::single};
     }
     /// A picture for people, if they ask for it.
     static void keep(const std::string& name, const std::vector<Rgb>& picture, float white) {
@@ -46,8 +47,8 @@ TEST_P(LiveLightTest, WhatLiesInNoShadowHasTheValueOfItsRadiosity) {
     room.show(ownLight);
     const std::vector<Rgb> exact = room.draw(interactive, {}, kSize);
     room.show([](const LitMeshData&, std::size_t) { return Rgb(); });
-    const std::vector<Rgb> fast =
-        room.draw(interactive, room.live(now, std::make_shared<Arrangement>(dark)), kSize);
+    const std::vector<Rgb> fast = room.draw(
+        interactive, room.live(now, std::make_shared<Arrangement>(dark)), kSize, GetParam());
     // Where shadows are: any vertex of the triangle sees less than all of the lamp, or is not in
     // front of it: there the mesh cuts off light more coarsely than the lamp does.
     room.show([](const LitMeshData&, std::size_t) { return Rgb(); });
@@ -82,8 +83,8 @@ TEST_P(LiveLightTest, TakingHoldOfSomethingChangesNothing) {
     LiveLight held = room.live(now, room.arrangement());
     for (std::size_t o = 0; o < held.objects.size(); ++o)
         held.objects[o].moves = room.room.node->objects()[o].path == "/box";
-    const std::vector<Rgb> after = room.draw(interactive, held, kSize);
-    EXPECT_GT(interactive.statistics().shadowMaps, 0u);
+    const std::vector<Rgb> after = room.draw(interactive, held, kSize, GetParam());
+    EXPECT_EQ(interactive.statistics().shadowMaps > 0, GetParam() == LiveBy::maps);
     for (std::size_t i = 0; i < before.size(); ++i) {
         ASSERT_NEAR(after[i].r, before[i].r, 1e-6f * before[i].r);
         ASSERT_NEAR(after[i].b, before[i].b, 1e-6f * before[i].b);
@@ -115,7 +116,7 @@ TEST_P(LiveLightTest, AMovedThingTakesItsShadowAlong) {
         light.blockRevisions.assign(light.blockRevisions.size(), ++room.revision),
             light.revision = room.revision;
     const std::vector<Rgb> fast =
-        room.draw(interactive, room.live(room.arrangement(), then), kSize);
+        room.draw(interactive, room.live(room.arrangement(), then), kSize, GetParam());
     const std::vector<Rgb> stale = room.draw(interactive, {}, kSize);
     keep("moved-before", before, 30), keep("moved-exact", exact, 30), keep("moved-live", fast, 30);
 
@@ -131,10 +132,9 @@ TEST_P(LiveLightTest, AMovedThingTakesItsShadowAlong) {
     EXPECT_LT(percentile(errors, 0.99), 0.2f * whole);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sampling, LiveLightTest,
-                         testing::Values(LiveSampling::pixels, LiveSampling::vertices),
+INSTANTIATE_TEST_SUITE_P(Sampling, LiveLightTest, testing::Values(LiveBy::maps, LiveBy::rays),
                          [](const auto& tried) {
-                             return tried.param == LiveSampling::pixels ? "Pixels" : "Vertices";
+                             return tried.param == LiveBy::maps ? "Maps" : "Rays";
                          });
 
 } // namespace

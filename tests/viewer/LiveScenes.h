@@ -9,6 +9,8 @@
 #include "tests/support/LitNode.h"
 #include "viewer/Arrangements.h"
 #include "viewer/InteractiveRenderer.h"
+#include "viewer/LightBlend.h"
+#include "viewer/LiveVertices.h"
 #include "viewer/ShownLight.h"
 
 #include <algorithm>
@@ -79,11 +81,19 @@ public:
         return live;
     }
 
-    std::vector<Rgb> draw(InteractiveRenderer& renderer, const LiveLight& live, int size) {
+    std::vector<Rgb> draw(InteractiveRenderer& renderer, const LiveLight& live, int size,
+                          LiveBy by = LiveBy::maps) {
         const View view = viewInside(size);
         DrawList list = listVisible(room.node->lit(), Frustum(view.worldToClip()));
         for (DrawItem& item : list.items) item.shown = &shown[item.geometry];
-        renderer.drawScene(list, view, {}, size, size, live);
+        LiveVertices vertices(fineRoom().solving.samples);
+        if (by == LiveBy::rays) {
+            vertices.update(live, [&](const LitGeometry& geometry) { return &shown[&geometry]; });
+            for (DrawItem& item : list.items)
+                if (const ShownLight* const brought = vertices.shown(*item.geometry))
+                    item.shown = brought;
+        }
+        renderer.drawScene(list, view, {}, size, size, by == LiveBy::rays ? LiveLight() : live);
         return renderer.readLuminances();
     }
     static View viewInside(int size) {

@@ -1,0 +1,54 @@
+// The light of live lamps at vertices, where the processor draws.
+#pragma once
+
+#include "viewer/LiveLight.h"
+#include "viewer/LiveRows.h"
+#include "viewer/ShownLight.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+namespace penumbra {
+
+/// Brings the light that vertices carry up to date, as LiveLight says, before it is drawn: with
+/// visibility by rays (LiveRows) in place of shadow maps. Rays find few vertices faster than a
+/// processor draws maps, and as they are radiosity's own, the fast shadow is the soft one: there is
+/// nothing to be seen of its becoming exact.
+class LiveVertices {
+public:
+    explicit LiveVertices(int samples) : rows_(samples) {}
+
+    /// Makes ready for these geometries, so that the first frame of a move need not.
+    void require(const std::vector<std::shared_ptr<const LitGeometry>>& geometries) {
+        rows_.require(geometries);
+    }
+
+    using ShownOf = std::function<const ShownLight*(const LitGeometry&)>;
+    /// Once a frame. \param shown what is shown without live lamps
+    void update(const LiveLight& light, const ShownOf& shown);
+
+    /// What is shown of a geometry; null: what is shown without live lamps.
+    const ShownLight* shown(const LitGeometry& geometry) const;
+
+private:
+    struct Copy {
+        std::uint32_t object = 0;
+        ShownLight light;
+        std::vector<std::uint64_t> seen;   ///< block revisions of what is copied
+        std::vector<std::uint32_t> live;   ///< blocks that differ from that
+        std::vector<std::uint8_t> touched; ///< one a block
+    };
+    void follow(Copy& copy, const ShownLight& from);
+    void restore(Copy& copy, const ShownLight& from, std::uint32_t block);
+    void bringUpToDate(Copy& copy, const LiveLight& light, const ShownLight& from,
+                       const LiveRows::Reached& at);
+
+    LiveRows rows_;
+    std::unordered_map<const LitGeometry*, Copy> copies_;
+    std::uint64_t revision_ = 1; ///< never the same twice
+};
+
+} // namespace penumbra
