@@ -13,6 +13,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <ctime>
 #include <thread>
 
 namespace penumbra {
@@ -42,12 +45,7 @@ public:
         : script_(script), options_(options), walk_(load(script.scene)),
           renderer_({.samples = 1, .precision = HdrTarget::Precision::single}) {
         if (!script.camera.empty()) walk_.goTo(script.camera, script.scene);
-        RadiosityOptions light;
-        light.meshing.patchSize = float(walk_.scene().patchSize);
-        light.meshing.elementSize = options.elementSize;
-        light.trigger = Trigger::implicit;
-        light.solving.directOnly = !options.indirect;
-        light_ = std::make_unique<WalkLight>(walk_, light, makeThreadLink(), options.blend);
+        makeLight();
         for (const auto& place : walk_.loaded().addresses.places)
             if (place.prim == script.object) thing_ = place.node;
         if (!thing_) throw Error(script.scene + ": there is no '" + script.object + "' to move");
@@ -61,7 +59,11 @@ public:
         measureExposure();
         select();
         settle();
-        for (int i = 0; i < script_.idle; ++i) frame();
+        walk();
+        for (int i = 0; i < script_.idle; ++i) {
+            frame();
+            result_.idleWork += work_ / script_.idle;
+        }
         result_.grabbed = result_.frames.size();
         light_->node().grab(*thing_);
         for (int i = 0; i < script_.held; ++i) frame();
@@ -83,10 +85,19 @@ public:
         }
         settle();
         exact();
+        compareFromScratch();
         return std::move(result_);
     }
 
 private:
+    void makeLight() {
+        RadiosityOptions light;
+        light.meshing.patchSize = float(walk_.scene().patchSize);
+        light.meshing.elementSize = options_.elementSize;
+        light.trigger = Trigger::implicit;
+        light.solving.directOnly = !options_.indirect;
+        light_ = std::make_unique<WalkLight>(walk_, light, makeThreadLink(), options_.blend);
+    }
     View view() const { return walk_.rig().view(options_.size.x, options_.size.y); }
 
     bool settled() const {
@@ -109,6 +120,7 @@ private:
     }
     void frame() {
         const Clock::time_point begin = Clock::now();
+        const std::clock_t worked = std::clock();
         walk_.advance(kFrame);
         light_->update(walk_, view());
         const Frustum frustum(view().worldToClip());
@@ -116,6 +128,7 @@ private:
         result_.lamps = std::max(result_.lamps, light_->lampsDrawnLive());
         poses_.push_back(thing_->matrix());
         lastFrame_ = since(begin);
+        work_ = double(std::clock() - worked) / CLOCKS_PER_SEC;
         if (lastFrame_ < kFrame)
             std::this_thread::sleep_for(std::chrono::duration<double>(kFrame - lastFrame_));
     }
@@ -128,7 +141,41 @@ private:
             walk_.followScene();
             frame();
             result_.mean += lastFrame_ / script_.drag;
+            result_.dragWork += work_ / script_.drag;
             result_.slowest = std::max(result_.slowest, lastFrame_);
+        }
+    }
+    /// Looks aside and back.
+    void walk() {
+        const CameraPose pose = walk_.rig().pose();
+        for (int i = 0; i < script_.walk; ++i) {
+            CameraPose turned = pose;
+            turned.heading += 0.01 * (i + 1);
+            walk_.rig().put(turned, walk_.rig().lens());
+            frame();
+            result_.walkWork += work_ / script_.walk;
+        }
+        walk_.rig().put(pose, walk_.rig().lens());
+        result_.frames.clear();
+        poses_.clear();
+    }
+    /// As the tone curve's linear part shows it, in 8 bits.
+    int displayedByte(float nits) const {
+        const double shown = std::clamp(double(nits) * result_.toDisplay / 100, 0.0, 1.0);
+        return int(std::lround(255 * std::pow(shown, 1 / 2.2)));
+    }
+    void compareFromScratch() {
+        const std::vector<float> after =
+            draw(light_->listVisible(Frustum(view().worldToClip())), light_->live());
+        light_.reset();
+        makeLight();
+        settle();
+        const std::vector<float> anew =
+            draw(listVisible(light_->lit(), Frustum(view().worldToClip())), {});
+        for (std::size_t p = 0; p < after.size(); ++p) {
+            const int steps = std::abs(displayedByte(after[p]) - displayedByte(anew[p]));
+            result_.fromScratchMost = std::max(result_.fromScratchMost, steps);
+            result_.fromScratchBeyond += (steps > 1) / double(after.size());
         }
     }
     /// Notes when there is nothing any more to be waited for, and when all is at rest.
@@ -179,7 +226,7 @@ private:
     std::shared_ptr<Transform> thing_;
     glm::dmat4 start_{1.0};
     std::vector<glm::dmat4> poses_;
-    double lastFrame_ = 0;
+    double lastFrame_ = 0, work_ = 0; ///< of the last frame: by the clock, of processors [s]
     DragResult result_;
 };
 

@@ -21,6 +21,7 @@ struct DragScript {
     glm::dvec3 way{0};  ///< how far [m]
     int idle = 4;       ///< frames before it is taken hold of
     int held = 2;       ///< frames in the hand before it moves
+    int walk = 6;       ///< frames in which the camera turns, for their time alone
     int drag = 12;      ///< frames in motion
     int after = 40;     ///< frames after it is let go
 };
@@ -44,6 +45,13 @@ struct DragResult {
     std::size_t elements = 0;
     std::size_t lamps = 0;        ///< drawn live
     double slowest = 0, mean = 0; ///< frames in motion [s]
+    /// Processor time a frame, of all threads, when nothing moves, when the camera turns, and in
+    /// motion [s]; counts when other work keeps the machine busy.
+    double idleWork = 0, walkWork = 0, dragWork = 0;
+    /// The last picture, at rest, against that of a solution from scratch of how things stand: the
+    /// largest difference as displayed, in steps of 8 bits, and the share of pixels beyond one.
+    int fromScratchMost = 0;
+    double fromScratchBeyond = 0;
 };
 
 /// Plays it with the renderer off-screen, the blend by the script's clock, and the light in a
