@@ -42,8 +42,7 @@ PopFigures popFigures(std::span<const FramePair> frames, double toDisplay) {
         };
         double sum = 0, unit = 1;
         for (std::size_t t = 1; t < frames.size(); ++t) {
-            const double level =
-                displayed(0.5f * (frames[t - 1].exact[p] + frames[t].exact[p]), toDisplay);
+            const double level = displayed(frames[t].exact[p], toDisplay);
             unit = level * visibleStep(level);
             const double step = std::abs(error(t) - error(t - 1));
             largest[p] = std::max(largest[p], step / unit);

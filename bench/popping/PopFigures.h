@@ -24,9 +24,7 @@ struct FramePair {
     std::vector<float> shown, exact;
 };
 
-/// Changes of the error e = shown - exact, so that true motion does not count, in visible steps:
-/// those of the mean of what is right before and after, for an eye adapts to neither the darkness
-/// nor the light that a moving outline uncovers from one picture to the next.
+/// Changes of the error e = shown - exact, so that true motion does not count, in visible steps.
 struct PopFigures {
     double most = 0;    ///< of all pixels, of the largest step of each over time
     double p999 = 0;    ///< the 99.9th percentile of these
