@@ -34,27 +34,55 @@ void LitScene::build(const PlacedScene& scene, const MeshingOptions& meshing) {
     pieces_ = piecesOf(scene);
 }
 
+namespace {
+
+/// Of its object's frame, or of the world's in the fixed part.
+template <class T>
+const glm::dmat4& frameOf(const Placed<T>& placed, const PlacedScene& scene) {
+    return scene.objects[placed.object.value].movable ? placed.toObject : placed.toWorld;
+}
+
+} // namespace
+
 LitScene::Pieces LitScene::piecesOf(const PlacedScene& scene) {
     Pieces pieces;
     const auto add = [&](const auto& placed) {
-        const Object& object = scene.objects[placed.object.value];
-        pieces[object.path].push_back(
-            {placed.node, placed.path, object.movable ? placed.toObject : placed.toWorld});
+        pieces[scene.objects[placed.object.value].path].push_back(
+            {placed.node, placed.path, frameOf(placed, scene)});
     };
     for (const auto& mesh : scene.meshes) add(mesh);
     for (const auto& light : scene.lights) add(light);
     return pieces;
 }
 
-/// Whether the scene is made of the same pieces; movable objects may be missing.
-bool LitScene::sameStructure(const PlacedScene& now) const {
-    const Pieces pieces = piecesOf(now);
-    for (const auto& [path, list] : pieces) {
-        const auto known = pieces_.find(path);
-        if (known == pieces_.end() || known->second != list) return false;
+/// Whether all objects that are there are made of the same pieces.
+bool LitScene::samePieces(const PlacedScene& now) const {
+    struct Matched {
+        const std::vector<Piece>* pieces = nullptr;
+        std::size_t seen = 0;
+    };
+    std::vector<Matched> objects(now.objects.size());
+    for (std::size_t o = 0; o < objects.size(); ++o) {
+        const auto known = pieces_.find(now.objects[o].path);
+        if (known == pieces_.end()) return false;
+        objects[o].pieces = &known->second;
     }
-    std::unordered_map<std::string, const Object*> objects;
-    for (const Object& object : now.objects) objects[object.path] = &object;
+    const auto isNext = [&](const auto& placed) {
+        auto& [pieces, seen] = objects[placed.object.value];
+        if (seen == pieces->size()) return false;
+        const Piece& piece = (*pieces)[seen++];
+        return piece.node == placed.node && piece.path == placed.path &&
+               piece.frame == frameOf(placed, now);
+    };
+    return std::all_of(now.meshes.begin(), now.meshes.end(), isNext) &&
+           std::all_of(now.lights.begin(), now.lights.end(), isNext) &&
+           std::all_of(objects.begin(), objects.end(),
+                       [](const Matched& m) { return m.seen == m.pieces->size(); });
+}
+
+/// Whether the scene is made of the same pieces; movable objects may be missing.
+bool LitScene::sameStructure(const PlacedScene& now, const ObjectsByPath& objects) const {
+    if (!samePieces(now)) return false;
     for (const ObjectPart& part : built_.patches.objects) {
         const auto found = objects.find(part.path);
         if (found == objects.end()) {
@@ -101,10 +129,8 @@ bool LitScene::followColours(SceneChange& change) {
 }
 
 /// \return objects that were moved or removed: lamps may be in other closed things than before
-std::vector<ObjectId> LitScene::followObjects(const PlacedScene& now, SceneChange& change) {
+std::vector<ObjectId> LitScene::followObjects(const ObjectsByPath& objects, SceneChange& change) {
     PatchSet& set = built_.patches;
-    std::unordered_map<std::string, const Object*> objects;
-    for (const Object& object : now.objects) objects[object.path] = &object;
     std::vector<Bounds> before;
     std::vector<ObjectId> replaced;
     for (std::uint32_t o = 0; o < set.objects.size(); ++o) {
@@ -136,12 +162,14 @@ std::vector<ObjectId> LitScene::followObjects(const PlacedScene& now, SceneChang
 
 LitScene::Followed LitScene::follow(const PlacedScene& now) {
     Followed followed;
-    if (!sameStructure(now) || !followColours(followed.change)) {
+    ObjectsByPath objects;
+    for (const Object& object : now.objects) objects[object.path] = &object;
+    if (!sameStructure(now, objects) || !followColours(followed.change)) {
         build(now, sizesOf(built_.patches));
         followed = {true, {}};
         return followed;
     }
-    const std::vector<ObjectId> replaced = followObjects(now, followed.change);
+    const std::vector<ObjectId> replaced = followObjects(objects, followed.change);
     if (built_.enclosures.changed(built_.patches, replaced, built_.enclosuresLit)) {
         build(now, sizesOf(built_.patches));
         followed = {true, {}};

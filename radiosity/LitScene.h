@@ -10,6 +10,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -60,15 +61,16 @@ private:
         const void* node = nullptr;
         std::string path;
         glm::dmat4 frame{1.0}; ///< in its object's frame; in the world's for the fixed part
-        friend bool operator==(const Piece&, const Piece&) = default;
     };
     using Pieces = std::unordered_map<std::string, std::vector<Piece>>; ///< by object
+    using ObjectsByPath = std::unordered_map<std::string_view, const Object*>;
 
     void build(const PlacedScene& scene, const MeshingOptions& meshing);
     static Pieces piecesOf(const PlacedScene& scene);
-    bool sameStructure(const PlacedScene& now) const;
+    bool samePieces(const PlacedScene& now) const;
+    bool sameStructure(const PlacedScene& now, const ObjectsByPath& objects) const;
     bool followColours(SceneChange& change);
-    std::vector<ObjectId> followObjects(const PlacedScene& now, SceneChange& change);
+    std::vector<ObjectId> followObjects(const ObjectsByPath& objects, SceneChange& change);
 
     SolverOptions solving_;
     BuiltPatches built_;
