@@ -33,7 +33,7 @@ void OpenWork::setOrder(std::shared_ptr<const OrderOfWork> order) {
     rekey();
     for (std::uint32_t row = 0; row < rows_.size(); ++row)
         for (Entry& entry : rows_[row].entries)
-            if (entry.open) entry.putOff = false, enqueue(row, entry);
+            if (entry.open) entry.putOff = 0, enqueue(row, entry);
 }
 
 void OpenWork::rekey() {
@@ -88,9 +88,9 @@ void OpenWork::enqueue(std::uint32_t row, Entry& entry) {
 /// There is more to it now. What was not put off keeps its age.
 void OpenWork::enqueueAnew(std::uint32_t row, Entry& entry) {
     entry.looked = false;
-    if (!entry.putOff) return urgent_.rank(entry.handle, task(row, entry).worth);
+    if (!isPutOff(entry)) return urgent_.rank(entry.handle, task(row, entry).worth);
     later_.remove(entry.handle);
-    entry.putOff = false;
+    entry.putOff = 0;
     enqueue(row, entry);
 }
 
@@ -150,7 +150,7 @@ std::vector<OpenWork::AtBlock> OpenWork::atBlocks(double enough) const {
             if (!entry.open) continue;
             AtBlock& at = blocks[entry.block];
             ++(bound(entry.block) > enough ? at.rows : at.small);
-            const WorkQueue& queue = entry.putOff ? later_ : urgent_;
+            const WorkQueue& queue = isPutOff(entry) ? later_ : urgent_;
             at.worth = std::max(at.worth, queue.value(entry.handle));
         }
     return blocks;
@@ -168,8 +168,7 @@ std::optional<OpenBlock> OpenWork::next(double enough, std::size_t& steps) {
     for (; steps > 0 && pending(enough); --steps) {
         if (urgent_.empty()) {
             std::swap(urgent_, later_);
-            for (RowList& list : rows_)
-                for (Entry& entry : list.entries) entry.putOff = false;
+            ++swaps_; // nothing is put off any more
         }
         const std::optional<WorkQueue::Choice> choice = urgent_.choose(taken_);
         if (!choice) return {};
@@ -177,7 +176,7 @@ std::optional<OpenBlock> OpenWork::next(double enough, std::size_t& steps) {
         Entry& entry = *find(row, std::uint32_t(choice->task.id));
         if (enough > 0 && bound(entry.block) <= enough) {
             urgent_.remove(entry.handle);
-            entry.putOff = true;
+            entry.putOff = swaps_;
             enqueue(row, entry);
             continue;
         }

@@ -108,7 +108,8 @@ private:
         std::uint32_t block, since;
         float factor;
         WorkQueue::Handle handle = 0; ///< in its queue
-        bool open = false, putOff = false, looked = false;
+        bool open = false, looked = false;
+        std::uint32_t putOff = 0;  ///< the value of swaps_ when it was
         ExpectedFactor expected{}; ///< if it was looked at
     };
     struct RowList {
@@ -125,7 +126,8 @@ private:
     void enqueueAnew(std::uint32_t row, Entry& entry);
     void add(std::uint32_t block, double factor, double power, int count);
     Entry* find(std::uint32_t row, std::uint32_t block);
-    WorkQueue& queueOf(const Entry& entry) { return entry.putOff ? later_ : urgent_; }
+    bool isPutOff(const Entry& entry) const { return entry.putOff == swaps_; }
+    WorkQueue& queueOf(const Entry& entry) { return isPutOff(entry) ? later_ : urgent_; }
 
     std::vector<RowList> rows_;
     std::vector<Sum> sums_;            ///< a block of receivers each
@@ -133,6 +135,7 @@ private:
     std::size_t visitCost_;
     std::shared_ptr<const OrderOfWork> order_;
     WorkQueue urgent_, later_; ///< later_: those that were put off
+    std::uint32_t swaps_ = 1;  ///< of the two; what was put off before the last one is not now
     std::size_t count_ = 0;
     double taken_ = 0; ///< cost of all work so far: the queues' clock
 };
