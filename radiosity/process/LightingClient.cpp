@@ -29,6 +29,14 @@ double seconds() {
     return duration<double>(steady_clock::now().time_since_epoch()).count();
 }
 
+/// The head of a message; flush() puts in its serial number when it goes out.
+ByteWriter messageOf(MessageKind kind) {
+    ByteWriter body;
+    body.put(kind);
+    body.put(std::uint64_t(0));
+    return body;
+}
+
 } // namespace
 
 LightingClient::LightingClient(std::unique_ptr<LightingLink> link, const RadiosityOptions& options,
@@ -123,9 +131,7 @@ void LightingClient::sendScene() {
     message.region->reserve();
     std::copy(task.bytes().begin(), task.bytes().end(), message.region->bytes().begin());
     std::erase_if(queue_, [](const Message& m) { return m.key < kCameraKey || m.region; });
-    ByteWriter body;
-    body.put(MessageKind::scene);
-    body.put(std::uint64_t(0));
+    ByteWriter body = messageOf(MessageKind::scene);
     body.text(message.region->name());
     message.body = body.take();
     queue_.push_back(std::move(message));
@@ -136,18 +142,14 @@ void LightingClient::send(const GraphEdit& edit) {
     hopeless_ = false;
     if (unlitSince_ == 0) unlitSince_ = seconds();
     if (!control_) return; // the next worker is told with the scene
-    ByteWriter body;
-    body.put(MessageKind::edit);
-    body.put(std::uint64_t(0));
+    ByteWriter body = messageOf(MessageKind::edit);
     write(body, edit);
     if (body.bytes().size() > RingSender::longest(kRingBytes)) return sendScene();
     queue(keyOf(edit), std::move(body));
 }
 
 void LightingClient::invalidate(const Bounds& box) {
-    ByteWriter body;
-    body.put(MessageKind::invalidate);
-    body.put(std::uint64_t(0));
+    ByteWriter body = messageOf(MessageKind::invalidate);
     body.put(box);
     if (control_) queue(kNoKey, std::move(body));
     if (unlitSince_ == 0) unlitSince_ = seconds();
@@ -156,17 +158,13 @@ void LightingClient::invalidate(const Bounds& box) {
 void LightingClient::setCamera(const View& view) {
     camera_ = view;
     hasCamera_ = true;
-    ByteWriter body;
-    body.put(MessageKind::camera);
-    body.put(std::uint64_t(0));
+    ByteWriter body = messageOf(MessageKind::camera);
     body.put(view);
     if (control_) queue(kCameraKey, std::move(body));
 }
 
 void LightingClient::setLiveLamps(const std::vector<std::string>& paths, std::uint32_t serial) {
-    ByteWriter body;
-    body.put(MessageKind::liveLamps);
-    body.put(std::uint64_t(0));
+    ByteWriter body = messageOf(MessageKind::liveLamps);
     body.put(serial);
     body.put(std::uint64_t(paths.size()));
     for (const std::string& path : paths) body.text(path);
@@ -176,19 +174,17 @@ void LightingClient::setLiveLamps(const std::vector<std::string>& paths, std::ui
 
 void LightingClient::watchWork(std::uint32_t question) {
     question_ = question;
-    ByteWriter body;
-    body.put(MessageKind::watchWork);
-    body.put(std::uint64_t(0));
-    body.put(question);
-    if (control_) queue(kWorkKey, std::move(body));
+    sendValue(kWorkKey, MessageKind::watchWork, question);
 }
 
 void LightingClient::send(MessageKind kind, std::uint32_t value) {
-    ByteWriter body;
-    body.put(kind);
-    body.put(std::uint64_t(0));
+    sendValue(kNoKey, kind, value);
+}
+
+void LightingClient::sendValue(std::uint64_t key, MessageKind kind, std::uint32_t value) {
+    ByteWriter body = messageOf(kind);
     body.put(value);
-    if (control_) queue(kNoKey, std::move(body));
+    if (control_) queue(key, std::move(body));
 }
 
 void LightingClient::queue(std::uint64_t key, ByteWriter body) {

@@ -69,6 +69,7 @@ private:
     void launch();
     void failed(const std::string& why);
     void say(const std::string& text);
+    void sendValue(std::uint64_t key, MessageKind kind, std::uint32_t value);
     void queue(std::uint64_t key, ByteWriter body);
     void flush();
     void watch(double passed);
