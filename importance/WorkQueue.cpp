@@ -40,7 +40,9 @@ WorkQueue::Handle WorkQueue::add(const Task& task) {
     Slot& slot = slots_[handle];
     slot.task = task;
     slot.serial = ++serial_;
-    ages_.push_back({serial_, handle});
+    slot.older = std::exchange(youngest_, handle);
+    slot.younger = kNone;
+    (slot.older != kNone ? slots_[slot.older].younger : oldest_) = handle;
     ++size_;
     insert(handle);
     return handle;
@@ -143,6 +145,8 @@ void WorkQueue::remove(Handle handle) {
     Slot& slot = slots_[handle];
     assert(slot.serial != 0);
     slot.serial = 0;
+    (slot.older != kNone ? slots_[slot.older].younger : oldest_) = slot.younger;
+    (slot.younger != kNone ? slots_[slot.younger].older : youngest_) = slot.older;
     free_.push_back(handle);
     --size_;
 }
@@ -159,21 +163,14 @@ std::optional<WorkQueue::Handle> WorkQueue::best() {
     return {};
 }
 
-const WorkQueue::Age* WorkQueue::front() {
-    while (!ages_.empty() && slots_[ages_.front().slot].serial != ages_.front().serial)
-        ages_.pop_front();
-    return ages_.empty() ? nullptr : &ages_.front();
-}
-
 std::optional<WorkQueue::Choice> WorkQueue::choose(double now) {
-    const Age* const oldest = front();
-    if (!oldest) return {};
-    const Task& task = slots_[oldest->slot].task;
-    const bool overdue = now - task.since >= fairness_.patience;
+    if (empty()) return {};
+    const Slot& oldest = slots_[oldest_];
+    const bool overdue = now - oldest.task.since >= fairness_.patience;
     if (!overdue) owed_ = 0;
-    const bool itsTurn = overdue && !slots_[oldest->slot].chosen &&
-                         owed_ >= task.worth.cost * (1 - fairness_.reserve);
-    const std::optional<Handle> chosen = itsTurn ? oldest->slot : best();
+    const bool itsTurn =
+        overdue && !oldest.chosen && owed_ >= oldest.task.worth.cost * (1 - fairness_.reserve);
+    const std::optional<Handle> chosen = itsTurn ? oldest_ : best();
     if (!chosen) return {};
     slots_[*chosen].chosen = true;
     return Choice{*chosen, slots_[*chosen].task, itsTurn};
@@ -195,9 +192,8 @@ std::optional<WorkQueue::Task> WorkQueue::take(double now) {
     return choice->task;
 }
 
-double WorkQueue::oldest(double now) {
-    const Age* const age = front();
-    return age ? slots_[age->slot].task.since : now;
+double WorkQueue::oldest(double now) const {
+    return empty() ? now : slots_[oldest_].task.since;
 }
 
 void WorkQueue::place(std::size_t position, std::uint32_t index) {

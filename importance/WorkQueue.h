@@ -86,7 +86,7 @@ public:
     std::size_t size() const { return size_; }
     bool empty() const { return size_ == 0; }
     /// When the oldest task was added; `now` if there is none.
-    double oldest(double now);
+    double oldest(double now) const;
 
 private:
     /// A task in the order of its place. Serial numbers are also ages.
@@ -110,14 +110,12 @@ private:
     };
     struct Slot {
         Task task;
-        std::uint64_t serial = 0;  ///< 0: free
-        std::uint32_t ranking = 0; ///< how often it was ranked
-        bool chosen = false;       ///< and not ranked since
+        std::uint64_t serial = 0;              ///< 0: free
+        std::uint32_t ranking = 0;             ///< how often it was ranked
+        Handle older = kNone, younger = kNone; ///< beside it in age
+        bool chosen = false;                   ///< and not ranked since
     };
-    struct Age {
-        std::uint64_t serial;
-        std::uint32_t slot;
-    };
+    static constexpr Handle kNone = ~Handle(0);
     static constexpr std::size_t kOut = ~std::size_t(0);
 
     Place& placeAt(std::uint32_t index);
@@ -133,7 +131,6 @@ private:
     void order(Place& place);
     void skipStale(Place& place);
     std::optional<Handle> best();
-    const Age* front();
     void place(std::size_t position, std::uint32_t index);
     void rise(std::size_t position);
     void sink(std::size_t position);
@@ -146,7 +143,7 @@ private:
     std::vector<std::uint32_t> heap_; ///< places with open work, the one with the largest key first
     std::deque<Slot> slots_; ///< grows without being copied: that would take longer than a step
     std::vector<std::uint32_t> free_;
-    std::deque<Age> ages_; ///< in the order of serials; some are taken already
+    Handle oldest_ = kNone, youngest_ = kNone;
     std::uint64_t serial_ = 0;
     std::size_t size_ = 0;
     double owed_ = 0; ///< cost that overdue work may take ahead of its turn

@@ -13,6 +13,7 @@ namespace {
 
 /// What finding costs: looking into a row; and each block that is found [rays].
 constexpr std::size_t kLook = 16, kOpen = 2;
+constexpr std::size_t kStep = 4;       ///< putting a block off [rays]
 constexpr std::size_t kMostLooks = 64; ///< at blocks, at a time
 
 /// Bound of the form factor, F <= cos A / (pi d^2), of a sender onto any receiver in a box.
@@ -160,7 +161,7 @@ void RowUpdates::find(Look& look) const {
 
 void RowUpdates::find(std::size_t effort, const Facts& facts) {
     // What is found can't be told before: a few looks at a time.
-    const std::size_t few = std::clamp<std::size_t>(effort / kLook / 16, 8, 1024);
+    const std::size_t few = std::clamp<std::size_t>(effort / kLook / 16, 1, 1024);
     bool more = true;
     for (std::size_t cost = 0; more && cost < effort;) {
         std::vector<Look> looks;
@@ -207,7 +208,7 @@ std::size_t RowUpdates::lookAt(const Expect& expect) {
 /// when no other could be worth more, by what is known of it, is one of them taken.
 void RowUpdates::choose(std::size_t effort, double enough, const Expect& expect) {
     items_.clear();
-    std::size_t steps = effort;
+    std::size_t steps = effort / kStep + 1;
     for (std::size_t sum = 0; sum < effort;) {
         const std::optional<OpenBlock> item = open_.next(enough, steps);
         if (item && item->look && expect) {
