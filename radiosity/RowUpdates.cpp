@@ -119,7 +119,8 @@ bool RowUpdates::nextLook(Look& look, const Facts& facts) {
     }
     if (row_ == table_.size()) return false;
     look.change = &changeSince(table_.edits(row_));
-    if (table_[row_].size() > kRun) {
+    look.most = std::min<std::size_t>(table_[row_].size(), kRun);
+    if (look.most == kRun) {
         const auto blocks = std::uint32_t(table_.blocks().size());
         look.blocks = {block_, std::min(block_ + kRun, blocks)};
         block_ = look.blocks.end;
@@ -160,14 +161,15 @@ void RowUpdates::find(Look& look) const {
 }
 
 void RowUpdates::find(std::size_t effort, const Facts& facts) {
-    // What is found can't be told before: a few looks at a time.
-    const std::size_t few = std::clamp<std::size_t>(effort / kLook / 16, 1, 1024);
     bool more = true;
     for (std::size_t cost = 0; more && cost < effort;) {
+        // What is found can't be told before: no more looks at a time than may be paid for.
         std::vector<Look> looks;
         Look look;
-        while (looks.size() < few && (more = nextLook(look, facts)))
+        for (std::size_t most = 0; most < effort && (more = nextLook(look, facts));) {
+            most += kLook + kOpen * look.most;
             looks.push_back(std::move(look));
+        }
         parallelFor(looks.size(), 4, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) find(looks[i]);
         });

@@ -100,6 +100,7 @@ private:
         RowFacts facts;
         const PendingChange* change = nullptr;
         RowTable::Blocks blocks;
+        std::size_t most = 0; ///< that may be found
         std::vector<OpenBlock> found;
         std::vector<std::uint32_t> hidden; ///< blocks
     };
