@@ -30,8 +30,9 @@ namespace penumbra {
 
 namespace {
 
-constexpr int kFrames = 150, kRounds = 3; ///< of a walk; walks of each kind, in turn
+constexpr int kFrames = 60, kRounds = 3; ///< of a walk; walks of each kind, in turn
 constexpr int kWidth = 640, kHeight = 360;
+constexpr float kRegion = 0.25f; ///< of the scene's extent is evaluated over and over
 
 /// All threads of a process.
 void pin(pid_t process, int core) {
@@ -98,13 +99,15 @@ public:
     enum class Process { idle, busy, stopped };
     /// A turn on the spot, from the first camera of the scene.
     void go(Process process, Times& times) {
-        const Bounds everything = node_->placed().bounds;
+        const Bounds& all = node_->placed().bounds;
+        const glm::vec3 middle = 0.5f * (all.lower + all.upper), half = all.upper - middle;
+        const Bounds some{middle - kRegion * half, middle + kRegion * half};
         if (process == Process::stopped) kill(workerProcess(), SIGSTOP);
         for (int frame = 0; frame < kFrames; ++frame) {
             // Work without end that changes nothing, so that all kinds of walk draw the same.
             const bool settled = node_->state().phase == RadiosityState::Phase::settled;
             if (process == Process::stopped || (process == Process::busy && settled))
-                node_->invalidate(everything);
+                node_->invalidate(some);
             const Stopwatch watch;
             const long before = waitsSoFar();
             node_->update();
