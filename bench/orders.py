@@ -2,13 +2,15 @@
 """Compares orders of work by a fixed script of moves and cameras.
 
 Usage: bench/orders.py PROGRAM [--element-size M] [--orders A,B]
-                       [--all-light] [--cameras NAMES] [--out FOLDER]
+                       [--all-light] [--cameras NAMES] [--cut] [--out FOLDER]
 
 In the office, for each camera, `penumbra compare` plays three moves of the seat (20 cm, 1.2 m,
 3.3 m); figures are means over moves and cameras. The dirty set is that of bounding shafts: blocks
 whose shaft to the lamp meets the moved object's box, those in which it was a blocker, and its own.
-The settled solution of the same mesh is the truth. Writes a report (HTML, JSON) for each camera to
-FOLDER and a table to standard output."""
+The settled solution of the same mesh is the truth. Several seeds of a random order (random,random2,
+...) also make a row of their mean. With --cut the viewer looks through another camera until a tenth
+of the work is done. Writes a report (HTML, JSON) for each camera to FOLDER and a table to standard
+output."""
 import argparse
 import json
 import math
@@ -39,9 +41,23 @@ def samples(name, kind, values):
     return f"        {kind} {name}.timeSamples = {{\n{lines}\n        }}\n"
 
 
+def camera_prim(name, scene, camera):
+    at, turn = CAMERAS[scene][camera]
+    return f"""    def Camera "{name}"
+    {{
+        float2 clippingRange = (0.02, 200)
+        float focalLength = 21
+        float horizontalAperture = 36
+        float verticalAperture = 20.25
+        float3 xformOp:rotateXYZ = {turn}
+        double3 xformOp:translate = {at}
+        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
+    }}
+"""
+
+
 def layer(scene, camera):
     thing, places = MOVES[scene]
-    at, turn = CAMERAS[scene][camera]
     text = f"""#usda 1.0
 (
     defaultPrim = "World"
@@ -70,19 +86,8 @@ over "World"
         }}
     }}
 """
-    text += f"""    def Camera "Judge"
-    {{
-        float2 clippingRange = (0.02, 200)
-        float focalLength = 21
-        float horizontalAperture = 36
-        float verticalAperture = 20.25
-        float3 xformOp:rotateXYZ = {turn}
-        double3 xformOp:translate = {at}
-        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
-    }}
-}}
-"""
-    return text
+    before = "off-screen" if camera != "off-screen" else "on-screen"
+    return text + camera_prim("Judge", scene, camera) + camera_prim("Before", scene, before) + "}\n"
 
 
 def area(samples, last):
@@ -132,6 +137,16 @@ def figures(reports):
     return rows
 
 
+def with_mean_of_seeds(rows):
+    """Adds the mean of all random orders, edit by edit."""
+    seeds = [name for name in rows if name.startswith("random")]
+    if len(seeds) > 1:
+        edits = zip(*(rows[name] for name in seeds))
+        rows[f"random, {len(seeds)} seeds"] = [
+            {key: mean(edit[key] for edit in same) for key in same[0]} for same in edits]
+    return rows
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -141,6 +156,7 @@ def main():
     parser.add_argument("--cameras", default="")
     parser.add_argument("--orders", default="plain,random,bound,geometry,importance,oracle")
     parser.add_argument("--all-light", action="store_true", help="indirect light as well")
+    parser.add_argument("--cut", action="store_true", help="look elsewhere at first")
     parser.add_argument("--looks", default="1.15")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("orders"))
     args = parser.parse_args()
@@ -154,12 +170,14 @@ def main():
                    "--camera", "/World/Judge", "--element-size", args.element_size,
                    "--orders", args.orders, "--looks", args.looks, "--width", "320", "-o", report,
                    "--quiet"]
-        subprocess.run(command + ([] if args.all_light else ["--direct-only"]), check=True)
+        command += [] if args.all_light else ["--direct-only"]
+        command += ["--cut-from", "/World/Before"] if args.cut else []
+        subprocess.run(command, check=True)
         reports.append(json.loads(report.with_suffix(".json").read_text()))
     print("| order | area | work to -90 % | time to -90 % of plain's total | of plain's to -90 % |"
           " total time / plain | total work / plain |")
     print("| --- | ---: | ---: | ---: | ---: | ---: | ---: |")
-    for name, rows in figures(reports).items():
+    for name, rows in with_mean_of_seeds(figures(reports)).items():
         columns = [mean(r[k] for r in rows)
                    for k in ("area", "work90", "time90", "against", "total", "work")]
         print(f"| {name} | " + " | ".join(f"{c:.3f}" for c in columns) + " |")

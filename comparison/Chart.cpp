@@ -15,7 +15,7 @@ constexpr std::array kColours = {"#000000", "#d55e00", "#0072b2", "#009e73",
                                  "#cc79a7", "#e69f00", "#56b4e9", "#8a8a00"};
 constexpr std::array kDashes = {"", "9 3", "3 3", "12 3 3 3", "6 2 2 2", "2 2", "14 4", "8 2 8 6"};
 constexpr double kLeft = 62, kRight = 16, kTop = 34, kBottom = 48; ///< margins [pixels]
-constexpr double kLegendRow = 18;
+constexpr double kLegendRow = 18, kLegendGap = 14;
 
 /// From quantities to places in the drawing.
 struct Axes {
@@ -40,6 +40,13 @@ double niceStep(double last, int count) {
     return 10 * decade;
 }
 
+/// The legend stands beside the curves: it would cover some of them.
+double legendWidth(const std::vector<ChartSeries>& series) {
+    std::size_t longest = 0;
+    for (const ChartSeries& one : series) longest = std::max(longest, one.name.size());
+    return 52 + 7.2 * double(longest);
+}
+
 Axes axesOf(const std::vector<ChartSeries>& series, const ChartOptions& options) {
     double first = INFINITY, last = options.lastX, most = 0;
     for (const ChartSeries& one : series)
@@ -56,7 +63,7 @@ Axes axesOf(const std::vector<ChartSeries>& series, const ChartOptions& options)
             step * std::ceil(most / step - 1e-9),
             kLeft,
             kTop,
-            options.width - kLeft - kRight,
+            options.width - kLeft - kLegendGap - legendWidth(series) - kRight,
             options.height - kTop - kBottom};
 }
 
@@ -105,15 +112,8 @@ void drawCurve(std::string& svg, const ChartSeries& series, std::size_t index, c
 }
 
 void drawLegend(std::string& svg, const std::vector<ChartSeries>& series, const Axes& axes) {
-    std::size_t longest = 0;
-    for (const ChartSeries& one : series) longest = std::max(longest, one.name.size());
-    const double width = 52 + 7.2 * double(longest);
-    const double left = axes.left + axes.width - width - 8, top = axes.top + 8;
+    const double left = axes.left + axes.width + kLegendGap - 8, top = axes.top;
     const auto out = std::back_inserter(svg);
-    fmt::format_to(out,
-                   "<rect x='{:.1f}' y='{:.1f}' width='{:.1f}' height='{:.1f}' fill='#fff' "
-                   "fill-opacity='0.85' stroke='#ccc'/>\n",
-                   left, top, width, kLegendRow * double(series.size()) + 8);
     for (std::size_t i = 0; i < series.size(); ++i) {
         const double y = top + 4 + kLegendRow * (double(i) + 0.5);
         fmt::format_to(out,
@@ -166,7 +166,10 @@ std::string figure(double value) {
     return fmt::format("{:.3g}", value);
 }
 
-std::string lineChart(const std::vector<ChartSeries>& series, const ChartOptions& options) {
+std::string lineChart(const std::vector<ChartSeries>& series, const ChartOptions& given) {
+    ChartOptions options = given;
+    const double legend = kLegendRow * double(series.size()) + 8;
+    options.height = std::max(options.height, int(kTop + kBottom + legend));
     const Axes axes = axesOf(series, options);
     std::string svg = fmt::format(
         "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "

@@ -16,12 +16,13 @@ struct ChartSeries {
 
 struct ChartOptions {
     std::string title;
-    std::string xLabel, yLabel; ///< with their units
-    double lastX = 0;           ///< the axis ends here at least; 0: with the last point
-    int width = 720, height = 360;
+    std::string xLabel, yLabel;    ///< with their units
+    double lastX = 0;              ///< the axis ends here at least; 0: with the last point
+    int width = 760, height = 360; ///< higher if the legend needs it
 };
 
-/// A chart with a logarithmic x axis, a linear y axis from 0, a grid, and a legend. Self-contained:
+/// A chart with a logarithmic x axis, a linear y axis from 0, a grid, and a legend beside
+/// it. Self-contained:
 /// an <svg> element that needs no style sheet, script or font but what any browser has. Curves
 /// differ in dashes as well as in colour.
 std::string lineChart(const std::vector<ChartSeries>& series, const ChartOptions& options);
