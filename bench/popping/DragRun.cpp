@@ -85,6 +85,8 @@ public:
         }
         settle();
         exact();
+        result_.worstAtStart = nameWorst(result_.moved - 1, result_.moved + 2);
+        result_.worstAtHandOver = nameWorst(result_.released - 1, result_.frames.size());
         compareFromScratch();
         return std::move(result_);
     }
@@ -215,6 +217,29 @@ private:
             }
             result_.frames[i].exact = picture;
         }
+    }
+
+    /// The largest steps of a run of frames, and what is seen there; the camera has not moved.
+    std::vector<NamedStep> nameWorst(std::size_t first, std::size_t end) {
+        std::vector<NamedStep> named;
+        const auto frames = std::span(result_.frames).subspan(first, end - first);
+        for (PixelStep step : worstSteps(frames, result_.toDisplay, options_.named)) {
+            step.frame += first;
+            named.push_back({step, "nothing", {}});
+            thing_->setMatrix(poses_[step.frame]);
+            walk_.followScene();
+            const auto x = int(step.pixel % std::size_t(options_.size.x));
+            const auto y = int(step.pixel / std::size_t(options_.size.x));
+            const glm::dvec2 at = (glm::dvec2(x, y) + 0.5) / glm::dvec2(options_.size) * 2.0 - 1.0;
+            const glm::dmat4 back = glm::inverse(view().worldToClip());
+            const glm::dvec4 ahead = back * glm::dvec4(at, 0.5, 1);
+            const glm::dvec3 from = walk_.rig().pose().eye;
+            const auto touch = walk_.rays().touch(from, glm::dvec3(ahead) / ahead.w - from, 1e9);
+            if (!touch) continue;
+            named.back().object = touch->path;
+            named.back().position = touch->position;
+        }
+        return named;
     }
 
     const DragScript& script_;

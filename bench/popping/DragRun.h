@@ -30,8 +30,16 @@ struct DragOptions {
     BlendOptions blend;
     float elementSize = 0; ///< [m]; 0: the scene's
     bool indirect = true;  ///< else direct light alone, in black surroundings
+    std::size_t named = 0; ///< worst pixels to be looked at, see DragResult::worst
     bool motion = false;   ///< what should be seen while it moves is worked out as well
     glm::ivec2 size{640, 360};
+};
+
+/// A pixel with a step that can be seen, and what is there.
+struct NamedStep {
+    PixelStep step; ///< frames counted from the first of DragResult::frames
+    std::string object;
+    glm::dvec3 position{0}; ///< [m, world]
 };
 
 /// What came of it.
@@ -48,6 +56,8 @@ struct DragResult {
     /// Processor time a frame, of all threads, when nothing moves, when the camera turns, and in
     /// motion [s]; counts when other work keeps the machine busy.
     double idleWork = 0, walkWork = 0, dragWork = 0;
+    /// The worst of the first frames in motion, and of the release and what comes after.
+    std::vector<NamedStep> worstAtStart, worstAtHandOver;
     /// The last picture, at rest, against that of a solution from scratch of how things stand: the
     /// largest difference as displayed, in steps of 8 bits, and the share of pixels beyond one.
     int fromScratchMost = 0;

@@ -32,18 +32,39 @@ double visibleStep(double luminance) {
     return 1 / (0.417 * peak * std::pow(10, -lost));
 }
 
+namespace {
+
+/// Of one pixel [nit on the display].
+class ErrorOverTime {
+public:
+    ErrorOverTime(std::span<const FramePair> frames, double toDisplay, std::size_t pixel)
+        : frames_(frames), toDisplay_(toDisplay), pixel_(pixel) {}
+    double operator()(std::size_t t) const {
+        return toDisplay_ * (double(frames_[t].shown[pixel_]) - double(frames_[t].exact[pixel_]));
+    }
+    /// Luminance that is just seen to come or go.
+    double unit(std::size_t t) const {
+        const double level = displayed(frames_[t].exact[pixel_], toDisplay_);
+        return level * visibleStep(level);
+    }
+
+private:
+    std::span<const FramePair> frames_;
+    double toDisplay_;
+    std::size_t pixel_;
+};
+
+} // namespace
+
 PopFigures popFigures(std::span<const FramePair> frames, double toDisplay) {
     if (frames.size() < 2) return {};
     const std::size_t pixels = frames.front().shown.size();
     std::vector<double> largest(pixels), excess(pixels);
     for (std::size_t p = 0; p < pixels; ++p) {
-        const auto error = [&](std::size_t t) {
-            return toDisplay * (double(frames[t].shown[p]) - double(frames[t].exact[p]));
-        };
+        const ErrorOverTime error(frames, toDisplay, p);
         double sum = 0, unit = 1;
         for (std::size_t t = 1; t < frames.size(); ++t) {
-            const double level = displayed(frames[t].exact[p], toDisplay);
-            unit = level * visibleStep(level);
+            unit = error.unit(t);
             const double step = std::abs(error(t) - error(t - 1));
             largest[p] = std::max(largest[p], step / unit);
             sum += step;
@@ -58,6 +79,25 @@ PopFigures popFigures(std::span<const FramePair> frames, double toDisplay) {
     figures.p999 = percentileOf(largest, 0.999);
     figures.flicker = percentileOf(excess, 0.999);
     return figures;
+}
+
+std::vector<PixelStep> worstSteps(std::span<const FramePair> frames, double toDisplay,
+                                  std::size_t most) {
+    if (frames.size() < 2) return {};
+    std::vector<PixelStep> steps(frames.front().shown.size());
+    for (std::size_t p = 0; p < steps.size(); ++p) {
+        const ErrorOverTime error(frames, toDisplay, p);
+        steps[p].pixel = p;
+        for (std::size_t t = 1; t < frames.size(); ++t) {
+            const double size = std::abs(error(t) - error(t - 1)) / error.unit(t);
+            if (size > steps[p].size) steps[p] = {p, t, size};
+        }
+    }
+    most = std::min(most, steps.size());
+    std::partial_sort(steps.begin(), steps.begin() + std::ptrdiff_t(most), steps.end(),
+                      [](const PixelStep& a, const PixelStep& b) { return a.size > b.size; });
+    steps.resize(most);
+    return steps;
 }
 
 double visibleError(const FramePair& frame, double toDisplay, double p) {

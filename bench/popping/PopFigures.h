@@ -36,6 +36,15 @@ struct PopFigures {
 /// \param toDisplay nits on the display a nit of the scene
 PopFigures popFigures(std::span<const FramePair> frames, double toDisplay);
 
+/// The largest step of one pixel.
+struct PixelStep {
+    std::size_t pixel = 0, frame = 0; ///< from frame - 1 to frame
+    double size = 0;                  ///< in visible steps
+};
+/// The pixels with the largest steps, the largest first, at most so many.
+std::vector<PixelStep> worstSteps(std::span<const FramePair> frames, double toDisplay,
+                                  std::size_t most);
+
 /// The p-th percentile (in [0, 1]) of |e| in units of the contrast that is just seen of what stands
 /// still, at the frequency that is seen best.
 double visibleError(const FramePair& frame, double toDisplay, double p);

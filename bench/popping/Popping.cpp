@@ -5,6 +5,7 @@
 //   --direct-only     no indirect light: shadows are black, steps in them count for more
 //   --motion          what should be seen in the middle of the drag is worked out, too
 //   --variant N       0: 16 points of a lamp and 0.25 s, 1: one point, 2: no blend; else all
+//   --name N          names what the N worst pixels of the first frames and of the hand-over show
 //   --hd              1280 x 720 pixels; else 640 x 360
 //   --keep FOLDER     writes what was shown, what should have been, and the error, as PNG
 //
@@ -98,6 +99,19 @@ void report(const DragScript& script, const char* variant, const DragResult& r) 
         "turning %.1f, in motion %.1f; from scratch: at most %d of 255, beyond 1 %.3f %%\n",
         start.p999, 100 * start.share, 1000 * r.idleWork, 1000 * r.walkWork, 1000 * r.dragWork,
         r.fromScratchMost, 100 * r.fromScratchBeyond);
+    const auto name = [&](const char* when, const std::vector<NamedStep>& worst) {
+        for (const NamedStep& w : worst) {
+            const FramePair &before = r.frames[w.step.frame - 1], &after = r.frames[w.step.frame];
+            const std::size_t p = w.step.pixel;
+            std::printf("         %s: %6.2f at pixel %zu, frame %zu: shown %.4g -> %.4g, should be "
+                        "%.4g -> %.4g nit, %s at (%.3f, %.3f, %.3f)\n",
+                        when, w.step.size, p, w.step.frame - r.grabbed, double(before.shown[p]),
+                        double(after.shown[p]), double(before.exact[p]), double(after.exact[p]),
+                        w.object.c_str(), w.position.x, w.position.y, w.position.z);
+        }
+    };
+    name("first frames", r.worstAtStart);
+    name("hand-over   ", r.worstAtHandOver);
     std::fflush(stdout);
 }
 
@@ -109,6 +123,7 @@ int run(int argc, char** argv) {
     bool indirect = true, motion = false;
     std::string keep;
     int variantWanted = -1;
+    std::size_t named = 0;
     for (int i = 1; i < argc; ++i) {
         const std::string argument = argv[i];
         if (argument == "--rays")
@@ -119,6 +134,8 @@ int run(int argc, char** argv) {
             motion = true;
         else if (argument == "--variant" && i + 1 < argc)
             variantWanted = std::stoi(argv[++i]);
+        else if (argument == "--name" && i + 1 < argc)
+            named = std::stoul(argv[++i]);
         else if (argument == "--keep" && i + 1 < argc)
             keep = argv[++i];
         else if (argument == "--hd")
@@ -137,6 +154,7 @@ int run(int argc, char** argv) {
             if (variantWanted >= 0 && variantWanted != number) continue;
             DragOptions options;
             options.motion = motion;
+            options.named = named;
             options.blend = variant.blend;
             options.blend.by = by;
             options.size = size;
