@@ -282,7 +282,7 @@ BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& option
     out.patchSize = std::max(out.patchSize, out.elementSize);
     out.extent = options.extent > 0 ? options.extent : out.bounds.diagonal();
     refuseTooMuch(out, litArea(surfaces));
-    out.skin = std::max(1e-5f * out.extent, 1e-7f);
+    out.skin = skinOf(out.extent);
 
     for (const Surface& surface : surfaces) addWalls(surface, out);
     PatchAssembly assembly(out);

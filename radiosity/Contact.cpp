@@ -175,6 +175,10 @@ void makePrivate(const std::vector<ContactResolver::Result>& results,
 
 } // namespace
 
+float skinOf(float extent) {
+    return std::max(1e-5f * extent, 1e-7f);
+}
+
 float coverDistance(float elementSize, float skin) {
     return std::max(kCover * elementSize, 4 * skin);
 }

@@ -37,6 +37,9 @@ enum class Lie {
 Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point, glm::vec3 normal,
           float cover, ObjectId* by = nullptr);
 
+/// How far receivers hover over their surfaces in a scene with that diagonal [m].
+float skinOf(float extent);
+
 /// Something this close above a surface with elements of this size counts as lying on it [m].
 float coverDistance(float elementSize, float skin);
 

@@ -118,6 +118,7 @@ void Coverage::refresh(std::vector<std::uint32_t> elements, Change& change) {
     }
     makeUnique(change.vertices);
     makeUnique(change.patches);
+    if (set_.nodes.empty()) return; // only direct light is asked for
     for (std::uint32_t p : change.patches) {
         const Patch& patch = set_.patches[p];
         nodes.push_back(patch.centreNode);

@@ -21,16 +21,11 @@ LitScene::~LitScene() = default;
 
 void LitScene::build(const PlacedScene& scene, const MeshingOptions& meshing) {
     solver_.reset(); // from the last to the first: each refers to those before it
-    coverage_.reset();
-    rays_.reset();
+    standing_.reset();
     built_ = buildPatches(scene, meshing);
     PatchSet& set = built_.patches;
-    rays_ = std::make_unique<RayScene>(set.rayMeshes, set.extent);
-    for (std::uint32_t o = 0; o < set.objects.size(); ++o)
-        if (!set.objects[o].present) rays_->show({o}, false);
-    rays_->commit();
-    coverage_ = std::make_unique<Coverage>(set, *rays_);
-    solver_ = std::make_unique<Solver>(set, *rays_, solving_);
+    standing_ = std::make_unique<StandingPatches>(set);
+    solver_ = std::make_unique<Solver>(set, rays(), solving_);
     pieces_ = piecesOf(scene);
 }
 
@@ -131,7 +126,7 @@ bool LitScene::followColours(SceneChange& change) {
 /// \return objects that were moved or removed: lamps may be in other closed things than before
 std::vector<ObjectId> LitScene::followObjects(const ObjectsByPath& objects, SceneChange& change) {
     PatchSet& set = built_.patches;
-    std::vector<Bounds> before;
+    std::vector<StandingPatches::Stand> wanted;
     std::vector<ObjectId> replaced;
     for (std::uint32_t o = 0; o < set.objects.size(); ++o) {
         ObjectPart& part = set.objects[o];
@@ -142,21 +137,13 @@ std::vector<ObjectId> LitScene::followObjects(const ObjectsByPath& objects, Scen
         const Pose pose =
             found != objects.end() ? placementOf(found->second->toWorld).pose : part.pose;
         if (wasRemoved != part.removed || pose != part.pose) replaced.push_back({o});
-        if (present == part.present && pose == part.pose) continue;
-        change.objects.push_back({o});
-        before.push_back(part.present ? boundsOf(set, {o}) : Bounds());
-        if (present != part.present) rays_->show({o}, present);
-        part.present = present;
-        if (pose == part.pose) continue;
-        placeObject(set, {o}, pose);
-        rays_->move({o}, set.rayMeshes[o].vertices);
+        wanted.push_back({{o}, pose, present});
     }
-    if (change.objects.empty()) return replaced;
-    rays_->commit();
-    const Coverage::Change covered = coverage_->update(change.objects, before);
-    change.vertices = covered.vertices;
-    change.nodes = covered.nodes;
-    change.patches = covered.patches;
+    StandingPatches::Change moved = standing_->place(wanted);
+    change.objects = std::move(moved.objects);
+    change.vertices = std::move(moved.covered.vertices);
+    change.nodes = std::move(moved.covered.nodes);
+    change.patches = std::move(moved.covered.patches);
     return replaced;
 }
 

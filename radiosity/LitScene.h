@@ -2,10 +2,9 @@
 #pragma once
 
 #include "radiosity/BuildPatches.h"
-#include "radiosity/Coverage.h"
-#include "radiosity/RayScene.h"
 #include "radiosity/SceneChange.h"
 #include "radiosity/Solver.h"
+#include "radiosity/StandingPatches.h"
 #include "scenegraph/Objects.h"
 
 #include <memory>
@@ -50,7 +49,7 @@ public:
 
     const PatchSet& patches() const { return built_.patches; }
     const BuiltPatches& built() const { return built_; }
-    const RayScene& rays() const { return *rays_; }
+    const RayScene& rays() const { return standing_->rays(); }
     Solver& solver() { return *solver_; }
     const Solver& solver() const { return *solver_; }
     const std::vector<std::string>& warnings() const { return built_.warnings; }
@@ -74,8 +73,7 @@ private:
 
     SolverOptions solving_;
     BuiltPatches built_;
-    std::unique_ptr<RayScene> rays_;
-    std::unique_ptr<Coverage> coverage_;
+    std::unique_ptr<StandingPatches> standing_;
     std::unique_ptr<Solver> solver_;
     Pieces pieces_;
 };

@@ -5,6 +5,7 @@
 namespace penumbra {
 
 NodePatches::NodePatches(const PatchSet& set) : first_(set.nodes.size() + 1) {
+    if (set.nodes.empty()) return;
     const auto forEachNode = [&](auto visit) {
         for (std::uint32_t p = 0; p < set.patches.size(); ++p) {
             const Patch& patch = set.patches[p];

@@ -140,7 +140,8 @@ struct Wall {
 ///
 /// Vertices and nodes come in blocks of kBlock consecutive ones that belong to one object and lie
 /// near each other; what is left of an object's last block is padding that receives nothing.
-/// Vertices behind those of all objects are private corners that Coverage hands out.
+/// Vertices behind those of all objects are private corners that Coverage hands out. A set without
+/// nodes is one for direct light alone.
 struct PatchSet {
     static constexpr std::uint32_t kBlock = 64;
 

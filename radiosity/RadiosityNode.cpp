@@ -312,6 +312,10 @@ std::span<const LitObject> RadiosityNode::objects() const {
     return impl_->objects;
 }
 
+std::optional<PatchSet> RadiosityNode::patches() const {
+    return impl_->shown ? impl_->shown->patches() : std::nullopt;
+}
+
 const std::vector<Placed<Mesh>>& RadiosityNode::unlit() const {
     return impl_->unlit;
 }

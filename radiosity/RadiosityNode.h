@@ -1,6 +1,7 @@
 // The part of a scene graph that is lit by radiosity.
 #pragma once
 
+#include "radiosity/PatchSet.h"
 #include "radiosity/process/BlockWork.h"
 #include "radiosity/process/RadiosityOptions.h"
 #include "radiosity/process/RadiosityState.h"
@@ -106,6 +107,11 @@ public:
     const Group& lit() const { return *lit_; }
     /// The objects of lit(); LitGeometry::object() is the index.
     std::span<const LitObject> objects() const;
+    /// What of objects() receives light and stands in its way, without the light, for those who
+    /// trace rays of their own: objects, vertices and elements are those of the geometries, in the
+    /// same order (see readPatches()). Takes some time: to be kept as long as the geometries are
+    /// the same. None: there is no light, or none that makes sense.
+    std::optional<PatchSet> patches() const;
     /// What is visible, but not in lit(): toWorld is to the node's frame.
     const std::vector<Placed<Mesh>>& unlit() const;
     /// What is below, as update() saw it last.

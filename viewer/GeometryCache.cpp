@@ -15,16 +15,33 @@ namespace penumbra {
 
 namespace {
 
-/// Fills a new buffer and feeds it to a vertex attribute of as many floats as T has.
+/// Fills a new buffer with room for so many values, or for those that there are, and feeds it to a
+/// vertex attribute of as many floats as T has.
 template <class T>
-GlObject attributeBuffer(LitAttribute attribute, const std::vector<T>& values, GLenum usage) {
+GlObject attributeBuffer(LitAttribute attribute, const std::vector<T>& values, GLenum usage,
+                         std::size_t room = 0) {
     GlObject buffer = makeBuffer();
     glBindBuffer(GL_ARRAY_BUFFER, buffer.name());
-    glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(values.size() * sizeof(T)), values.data(), usage);
+    const auto bytes = GLsizeiptr(values.size() * sizeof(T));
+    if (room > values.size()) {
+        glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(room * sizeof(T)), nullptr, usage);
+        glBufferSubData(GL_ARRAY_BUFFER, 0, bytes, values.data());
+    } else {
+        glBufferData(GL_ARRAY_BUFFER, bytes, values.data(), usage);
+    }
     glVertexAttribPointer(attribute, GLint(sizeof(T) / sizeof(float)), GL_FLOAT, GL_FALSE, 0,
                           nullptr);
     glEnableVertexAttribArray(attribute);
     return buffer;
+}
+
+/// Writes values behind the first so many; returns how many bytes.
+template <class T>
+std::size_t writeValues(const GlObject& buffer, const std::vector<T>& values, std::size_t before) {
+    glBindBuffer(GL_ARRAY_BUFFER, buffer.name());
+    glBufferSubData(GL_ARRAY_BUFFER, GLintptr(before * sizeof(T)),
+                    GLsizeiptr(values.size() * sizeof(T)), values.data());
+    return values.size() * sizeof(T);
 }
 
 /// Copies values first ... first + count - 1; returns how many bytes.
@@ -37,14 +54,20 @@ std::size_t replaceValues(const GlObject& buffer, const std::vector<T>& values, 
     return count * sizeof(T);
 }
 
-/// Indices of all triangles, those of one material after those of another, and where each begins.
-std::vector<std::uint32_t> sortByMaterial(const LitMeshData& mesh,
-                                          std::vector<MaterialRange>& ranges) {
+/// The triangles, those of one material after those of another.
+std::vector<std::uint32_t> orderByMaterial(const LitMeshData& mesh) {
     std::vector<std::uint32_t> order(mesh.triangleMaterial.size());
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
         return mesh.triangleMaterial[a] < mesh.triangleMaterial[b];
     });
+    return order;
+}
+
+/// Indices of all triangles in that order, and where each material begins.
+std::vector<std::uint32_t> sortByMaterial(const LitMeshData& mesh,
+                                          std::vector<MaterialRange>& ranges) {
+    const std::vector<std::uint32_t> order = orderByMaterial(mesh);
     std::vector<std::uint32_t> indices;
     indices.reserve(mesh.indices.size());
     for (std::uint32_t triangle : order) {
@@ -94,14 +117,8 @@ GpuGeometry::GpuGeometry(const LitGeometry& geometry, const ShownLight* shown)
     const LitMeshData& mesh = geometry.data();
     assert(mesh.direct.size() == mesh.positions.size());
     assert(mesh.indirect.size() == mesh.positions.size());
-    assert(!shown || shown->direct.size() == mesh.positions.size());
+    makeBuffers(geometry, shown);
     glBindVertexArray(vertexArray_.name());
-    positions_ = attributeBuffer(kPosition, mesh.positions, GL_STATIC_DRAW);
-    normals_ = attributeBuffer(kNormal, mesh.normals, GL_STATIC_DRAW);
-    direct_ = attributeBuffer(kDirect, shown ? shown->direct : mesh.direct, GL_DYNAMIC_DRAW);
-    indirect_ =
-        attributeBuffer(kIndirect, shown ? shown->indirect : mesh.indirect, GL_DYNAMIC_DRAW);
-
     const std::vector<std::uint32_t> indices = sortByMaterial(mesh, ranges_);
     indices_ = makeBuffer();
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
@@ -110,6 +127,71 @@ GpuGeometry::GpuGeometry(const LitGeometry& geometry, const ShownLight* shown)
     glBindVertexArray(0);
     chunks_ = cutIntoChunks(indices, ranges_, mesh.positions);
     if (shown) requireFactors(*shown);
+    redraw(geometry, shown);
+}
+
+/// Fills buffers of vertices with the geometry and its light, and some room behind that for copies
+/// of vertices, if there are any.
+void GpuGeometry::makeBuffers(const LitGeometry& geometry, const ShownLight* shown) {
+    const LitMeshData& mesh = geometry.data();
+    const std::size_t copies = shown ? shown->copies.size() : 0;
+    assert(!shown || shown->direct.size() == mesh.positions.size() + copies);
+    room_ = mesh.positions.size() + (copies > 0 ? 2 * copies + LitGeometry::kBlock : 0);
+    glBindVertexArray(vertexArray_.name());
+    positions_ = attributeBuffer(kPosition, mesh.positions, GL_STATIC_DRAW, room_);
+    normals_ = attributeBuffer(kNormal, mesh.normals, GL_STATIC_DRAW, room_);
+    direct_ = attributeBuffer(kDirect, shown ? shown->direct : mesh.direct, GL_DYNAMIC_DRAW, room_);
+    indirect_ =
+        attributeBuffer(kIndirect, shown ? shown->indirect : mesh.indirect, GL_DYNAMIC_DRAW, room_);
+    redrawnRevision_ = 0; // copies have no places yet
+    glBindVertexArray(0);
+}
+
+/// Notes where triangles lie in the index buffer.
+void GpuGeometry::placeEntries(const LitMeshData& mesh) {
+    if (!trianglePlaces_.empty()) return;
+    const std::vector<std::uint32_t> order = orderByMaterial(mesh);
+    trianglePlaces_.resize(order.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) trianglePlaces_[order[i]] = i;
+}
+
+std::size_t GpuGeometry::writeEntry(std::uint32_t entry, std::uint32_t vertex) {
+    const std::size_t place = 3 * std::size_t(trianglePlaces_[entry / 3]) + entry % 3;
+    glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, GLintptr(place * sizeof vertex), sizeof vertex,
+                    &vertex);
+    return sizeof vertex;
+}
+
+/// Draws corners with copies of vertices, as the light wants it, and no others; returns how many
+/// bytes are copied.
+std::size_t GpuGeometry::redraw(const LitGeometry& geometry, const ShownLight* shown) {
+    const bool any = shown && !shown->copies.empty();
+    if (!any && redrawn_.empty()) return 0;
+    if (any && std::exchange(redrawnRevision_, shown->redrawnRevision) == shown->redrawnRevision)
+        return 0;
+    const LitMeshData& mesh = geometry.data();
+    placeEntries(mesh);
+    glBindVertexArray(vertexArray_.name()); // has the index buffer
+    std::size_t bytes = 0;
+    for (const std::uint32_t entry : std::exchange(redrawn_, {}))
+        bytes += writeEntry(entry, mesh.indices[entry]);
+    if (any) {
+        const auto first = std::uint32_t(mesh.positions.size());
+        for (const auto& [entry, copy] : shown->redrawn) {
+            bytes += writeEntry(entry, first + copy);
+            redrawn_.push_back(entry);
+        }
+        std::vector<glm::vec3> points, normals;
+        for (const std::uint32_t v : shown->copies) {
+            points.push_back(mesh.positions[v]);
+            normals.push_back(mesh.normals[v]);
+        }
+        bytes += writeValues(positions_, points, first) + writeValues(normals_, normals, first);
+    } else {
+        redrawnRevision_ = 0;
+    }
+    glBindVertexArray(0);
+    return bytes;
 }
 
 /// Makes room for the factors of live lamps, or removes it.
@@ -146,9 +228,16 @@ std::size_t GpuGeometry::refresh(const LitGeometry& geometry, const ShownLight* 
     if (std::exchange(revision_, newest) == newest && !otherLight) return 0;
     if (shown) requireFactors(*shown);
     const std::vector<std::uint64_t>& latest = blockRevisionsOf(geometry, shown);
-    if (otherLight) blockRevisions_.assign(latest.size(), 0);
-    const std::size_t vertices = geometry.data().direct.size();
+    if (otherLight) blockRevisions_.clear();
+    blockRevisions_.resize(latest.size(), 0);
+    const std::size_t vertices = shown ? shown->direct.size() : geometry.data().direct.size();
     std::size_t bytes = 0;
+    if (vertices > room_) {
+        makeBuffers(geometry, shown);
+        blockRevisions_ = latest;
+        bytes += vertices * (2 * sizeof(Rgb) + 2 * sizeof(glm::vec3));
+    }
+    bytes += redraw(geometry, shown);
     for (std::size_t block = 0; block < latest.size(); ++block) {
         const std::size_t begin = block;
         while (block < latest.size() && blockRevisions_[block] != latest[block]) ++block;

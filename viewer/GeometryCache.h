@@ -17,6 +17,8 @@
 
 namespace penumbra {
 
+struct LitMeshData;
+
 /// A run of a geometry's triangles that share a material.
 struct MaterialRange {
     std::uint32_t material = 0; ///< index into LitMeshData::materials
@@ -50,14 +52,22 @@ public:
     const std::vector<TriangleChunk>& chunks() const { return chunks_; }
 
 private:
+    void makeBuffers(const LitGeometry& geometry, const ShownLight* shown);
     std::size_t copyBlocks(const ShownLight* shown, const LitGeometry& geometry, std::size_t first,
                            std::size_t count);
+    std::size_t redraw(const LitGeometry& geometry, const ShownLight* shown);
+    void placeEntries(const LitMeshData& mesh);
+    std::size_t writeEntry(std::uint32_t entry, std::uint32_t vertex);
     void requireFactors(const ShownLight& shown);
 
     GlObject vertexArray_, positions_, normals_, direct_, indirect_, indices_;
     GlObject factors_, behind_; ///< of live lamps, when there first are any
+    std::size_t room_ = 0;      ///< for vertices
     std::vector<MaterialRange> ranges_;
     std::vector<TriangleChunk> chunks_;
+    std::vector<std::uint32_t> trianglePlaces_; ///< in indices_; empty: not needed so far
+    std::vector<std::uint32_t> redrawn_;        ///< see ShownLight
+    std::uint64_t redrawnRevision_ = 0;
     const ShownLight* shown_ = nullptr; ///< what light is in the buffers; only to be compared
     std::uint64_t revision_ = 0, topologyRevision_ = 0;
     std::vector<std::uint64_t> blockRevisions_; ///< of the light that is in the buffers

@@ -60,21 +60,37 @@ void LightFade::followTopology(const LitGeometry& geometry) {
     findBorders(data);
 }
 
-/// Vertices that no triangle had before take over what was shown at the corners that they stand for
-/// now.
+/// Vertices that stand for none of the corners that they stood for before take over what was shown
+/// at one of those that they stand for now.
 void LightFade::adopt(const LitMeshData& data) {
+    shown_.adopted.clear();
     if (corners_.size() != data.indices.size()) return;
-    std::vector<bool> used(data.positions.size());
-    for (const std::uint32_t v : corners_) used[v] = true;
+    std::vector<bool> settled(data.positions.size());
+    for (std::size_t i = 0; i < corners_.size(); ++i)
+        if (data.indices[i] == corners_[i]) settled[corners_[i]] = true;
+    struct Light {
+        Rgb direct, indirect;
+        glm::vec4 factors{-1};
+        float behind = 0;
+    };
+    std::vector<Light> lights; // all are read before any is written: a vertex may give and take
     for (std::size_t i = 0; i < corners_.size(); ++i) {
         const std::uint32_t v = data.indices[i], was = corners_[i];
-        if (v == was || used[v]) continue;
-        used[v] = true;
-        shown_.direct[v] = shown_.direct[was];
-        shown_.indirect[v] = shown_.indirect[was];
+        if (settled[v]) continue;
+        settled[v] = true;
+        shown_.adopted.push_back({v, was});
+        lights.push_back({shown_.direct[was], shown_.indirect[was]});
+        if (shown_.factors.empty()) continue;
+        lights.back().factors = shown_.factors[was];
+        lights.back().behind = shown_.behind[was];
+    }
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const std::uint32_t v = shown_.adopted[i].vertex;
+        shown_.direct[v] = lights[i].direct;
+        shown_.indirect[v] = lights[i].indirect;
         if (!shown_.factors.empty()) {
-            shown_.factors[v] = shown_.factors[was];
-            setBehind(v, shown_.behind[was]);
+            shown_.factors[v] = lights[i].factors;
+            setBehind(v, lights[i].behind);
         }
         Flight& flight = flightOf(v / kBlock);
         flight.direct[v % kBlock] = {};

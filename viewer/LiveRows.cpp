@@ -5,79 +5,30 @@
 #include "radiosity/Shaft.h"
 #include "viewer/Arrangements.h"
 
-#include <glm/gtc/matrix_inverse.hpp>
-
 #include <algorithm>
+#include <bit>
+#include <tuple>
 #include <utility>
 
 namespace penumbra {
 
-namespace {
-
-constexpr float kPullIn = 0.02f; // as radiosity/Contact.cpp pulls receivers into their elements
-constexpr float kSkin = 1e-5f;   // of the scene's diagonal, as radiosity/BuildPatches.cpp has it
-
-} // namespace
-
-/// Receivers lie a little towards the middle of what is around them: inside of a surface that is
-/// where they are, at its border it keeps them clear of what begins there.
-void LiveRows::describe(Surface& surface) const {
-    const LitMeshData& data = surface.geometry->data();
-    surface.topology = surface.geometry->topologyRevision();
-    surface.points.assign(data.positions.size(), glm::vec3(0));
-    std::vector<float> around(data.positions.size(), 0);
-    for (std::size_t t = 0; t < data.indices.size(); t += 3) {
-        glm::vec3 middle(0);
-        for (std::size_t k = 0; k < 3; ++k) middle += data.positions[data.indices[t + k]] / 3.0f;
-        for (std::size_t k = 0; k < 3; ++k) {
-            surface.points[data.indices[t + k]] += middle;
-            around[data.indices[t + k]] += 1;
-        }
-    }
-    surface.blocks.assign((data.positions.size() + kBlock - 1) / kBlock, {});
-    for (std::size_t v = 0; v < data.positions.size(); ++v) {
-        const glm::vec3 at = data.positions[v];
-        if (around[v] == 0) {
-            surface.points[v] = at;
-            continue;
-        }
-        surface.points[v] = glm::mix(at, surface.points[v] / around[v], kPullIn);
-        surface.blocks[v / kBlock].add(at);
-    }
-}
-
 void LiveRows::require(const std::vector<std::shared_ptr<const LitGeometry>>& geometries) {
-    const auto same = [](const Surface& s, const auto& g) { return s.geometry == g; };
-    if (rays_ &&
-        std::equal(surfaces_.begin(), surfaces_.end(), geometries.begin(), geometries.end(), same))
-        return;
-    surfaces_.assign(geometries.size(), {});
-    slots_.clear();
-    clear_.clear();
-    moves_.clear();
-    std::vector<RayMesh> meshes(geometries.size());
-    Bounds all;
-    for (std::size_t o = 0; o < geometries.size(); ++o) {
-        if (!geometries[o]) continue;
-        surfaces_[o].geometry = geometries[o];
-        const LitMeshData& data = geometries[o]->data();
-        meshes[o].vertices = data.positions;
-        surfaces_[o].inRays = data.positions.size();
-        for (std::size_t t = 0; t < data.indices.size(); t += 3)
-            meshes[o].triangles.push_back(
-                {data.indices[t], data.indices[t + 1], data.indices[t + 2]});
-        all.add(geometries[o]->bounds());
-    }
-    skin_ = kSkin * all.diagonal();
-    rays_ = std::make_unique<RayScene>(meshes, all.diagonal());
-    standsAs_.assign(geometries.size(), {});
+    if (geometries == geometries_) return;
+    forget();
+    geometries_ = geometries;
+    surfaces_.clear();
+    stage_.reset();
+    std::optional<PatchSet> patches = patches_();
+    if (!patches || patches->objects.size() != geometries.size()) return;
+    stage_ = std::make_unique<LiveStage>(std::move(*patches));
     for (std::uint32_t o = 0; o < geometries.size(); ++o)
-        rays_->show({o}, geometries[o] != nullptr);
-    rays_->commit();
+        if (geometries[o] && !LiveSurface::fits(*geometries[o], *stage_, o)) return stage_.reset();
+    for (std::uint32_t o = 0; o < geometries.size(); ++o)
+        surfaces_.push_back(geometries[o] ? LiveSurface(geometries[o], *stage_, o) : LiveSurface());
 }
 
-/// What is known holds no more if other things move, or other lamps are live.
-void LiveRows::startAnew(const LiveLight& light) {
+/// Whether what is known still holds: the same things move, the same lamps are live.
+bool LiveRows::sameMoves(const LiveLight& light) {
     std::vector<bool> moves, lampMoves;
     for (const auto& object : light.objects) moves.push_back(object.moves);
     for (const auto& lamp : light.lamps) lampMoves.push_back(lamp.moves);
@@ -85,24 +36,54 @@ void LiveRows::startAnew(const LiveLight& light) {
     bool same = moves == moves_ && lampMoves == lampMoves_ && lamps.size() == lamps_.size();
     for (std::size_t l = 0; same && l < lamps.size(); ++l)
         same = lampMoves[l] || sameLamp(lamps[l], lamps_[l]);
-    if (!same) {
-        clear_.clear();
-        slots_.clear();
-    }
     moves_ = std::move(moves);
     lampMoves_ = std::move(lampMoves);
     lamps_ = lamps;
+    return same;
+}
+
+/// Triangles may be made of other vertices than in the last frame.
+void LiveRows::followTriangles(const ShownOf& shown) {
     for (std::uint32_t o = 0; o < surfaces_.size(); ++o) {
-        Surface& surface = surfaces_[o];
-        if (!surface.geometry || surface.topology == surface.geometry->topologyRevision()) continue;
-        describe(surface);
-        const auto ofIt = [&](const auto& entry) { return entry.first >> 32 == o; };
-        std::erase_if(clear_, ofIt);
-        for (Slot& slot : slots_) std::erase_if(slot.table, ofIt);
+        LiveSurface& surface = surfaces_[o];
+        if (!surface || surface.isCurrent()) continue;
+        if (const ShownLight* const light = shown(*surface.geometry()))
+            carryOver(o, light->adopted);
+        surface.follow();
+        dropStandIns(o);
     }
 }
 
-LiveRows::Slot LiveRows::makeSlot(const LiveLight& light, const ArrangementPtr& of) const {
+/// Vertices that begin with the light of others have, in the arrangements that this is of, been lit
+/// where those were.
+void LiveRows::carryOver(std::uint32_t object, const std::vector<AdoptedVertex>& adopted) {
+    for (std::size_t s = 1; s < slots_.size(); ++s) {
+        std::vector<std::pair<Key, Receiver>> places;
+        for (const auto& [vertex, from] : adopted)
+            places.emplace_back(keyOf(object, vertex), receiver(slots_[s], object, from));
+        for (const auto& [vertex, place] : places) {
+            slots_[s].instead[vertex] = place;
+            const std::uint64_t bit = std::uint32_t(vertex) % kBlock;
+            for (std::size_t l = 0; l < kMostLampsDrawnLive; ++l) {
+                const Reached at{object, std::uint32_t(std::uint32_t(vertex) / kBlock)};
+                const auto known = slots_[s].table.find(keyOf(at, l));
+                if (known != slots_[s].table.end())
+                    known->second.vertices &= ~(std::uint64_t(1) << bit);
+            }
+        }
+    }
+}
+
+void LiveRows::dropStandIns(std::uint32_t object) {
+    const std::size_t first = surfaces_[object].blocks().size();
+    const auto isStandIn = [&](const auto& entry) {
+        return entry.first >> 32 == object && std::uint32_t(entry.first) >> 2 >= first;
+    };
+    std::erase_if(clear_, isStandIn);
+    for (Slot& slot : slots_) std::erase_if(slot.table, isStandIn);
+}
+
+LiveRows::Slot LiveRows::makeSlot(const LiveLight& light, const ArrangementPtr& of) {
     Slot slot;
     slot.of = of;
     for (const std::optional<Emitter>& lamp : of->lamps) {
@@ -110,10 +91,15 @@ LiveRows::Slot LiveRows::makeSlot(const LiveLight& light, const ArrangementPtr& 
         slot.senders.emplace_back();
         if (lamp) slot.senders.back().emplace(*lamp, base, std::min(4 * base, int(kBlock)));
     }
-    for (std::size_t o = 0; o < surfaces_.size(); ++o)
-        if (light.objects[o].moves && surfaces_[o].geometry && of->objects[o].visible)
-            slot.things.push_back(
-                transformed(surfaces_[o].geometry->bounds(), of->objects[o].toWorld));
+    for (std::uint32_t o = 0; o < surfaces_.size(); ++o) {
+        if (!light.objects[o].moves || !surfaces_[o]) continue;
+        const Arrangement::Place& place = of->objects[o];
+        slot.poses[o] = placementOf(place.toWorld).pose;
+        if (place.visible)
+            slot.things.push_back(transformed(surfaces_[o].geometry()->bounds(), place.toWorld));
+    }
+    stage_->stand(*of);
+    slot.touched = stage_->touched();
     return slot;
 }
 
@@ -121,143 +107,241 @@ LiveRows::Slot LiveRows::makeSlot(const LiveLight& light, const ArrangementPtr& 
 void LiveRows::chooseSlots(const LiveLight& light) {
     std::vector<ArrangementPtr> wanted{light.now};
     for (const auto& anchor : light.anchors) wanted.push_back(anchor.arrangement);
-    std::vector<Slot> slots;
-    for (const ArrangementPtr& of : wanted) {
+    std::vector<Slot> slots(wanted.size());
+    for (std::size_t s = wanted.size(); s-- > 0;) { // now last: things stay as they stand there
         const auto known = std::find_if(slots_.begin(), slots_.end(),
-                                        [&](const Slot& slot) { return slot.of == of; });
-        slots.push_back(known != slots_.end() ? std::move(*known) : makeSlot(light, of));
+                                        [&](const Slot& slot) { return slot.of == wanted[s]; });
+        slots[s] = known != slots_.end() ? std::move(*known) : makeSlot(light, wanted[s]);
         if (known != slots_.end()) known->of = nullptr;
     }
     slots_ = std::move(slots);
 }
 
-/// Whether something that moves may stand between a lamp and a block.
-bool LiveRows::inTheWay(const LiveLight& light, const Slot& slot, const Bounds& block,
-                        std::size_t lamp) const {
-    if (light.lamps[lamp].moves) return true;
-    return slot.senders[lamp] &&
-           std::any_of(slot.things.begin(), slot.things.end(), [&](const Bounds& thing) {
-               return shaftMeets(slot.senders[lamp]->box(), block, thing);
-           });
+/// Lamps between which and a box something that moves may stand.
+unsigned LiveRows::lampsThrough(const LiveLight& light, const Slot& slot, const Bounds& box) const {
+    unsigned lamps = 0;
+    for (std::size_t l = 0; l < light.lamps.size(); ++l) {
+        const auto inTheWay = [&](const Bounds& thing) {
+            return shaftMeets(slot.senders[l]->box(), box, thing);
+        };
+        if (light.lamps[l].moves ||
+            (slot.senders[l] && std::any_of(slot.things.begin(), slot.things.end(), inTheWay)))
+            lamps |= 1u << l;
+    }
+    return lamps;
+}
+
+/// Lamps whose light a change may take from what lies in a box of an object [m, local], or give it.
+unsigned LiveRows::lampsReaching(const LiveLight& light, std::uint32_t object,
+                                 const Bounds& box) const {
+    unsigned lamps = light.objects[object].moves ? (1u << light.lamps.size()) - 1 : 0;
+    const Bounds place =
+        grown(transformed(box, light.now->objects[object].toWorld), stage_->skin());
+    for (const Slot& slot : slots_) lamps |= lampsThrough(light, slot, place);
+    return lamps;
 }
 
 void LiveRows::findReached(const LiveLight& light) {
     reached_.clear();
-    const unsigned all = (1u << light.lamps.size()) - 1;
     for (std::uint32_t o = 0; o < surfaces_.size(); ++o) {
-        if (!surfaces_[o].geometry) continue;
-        const glm::dmat4& place = light.now->objects[o].toWorld;
-        for (std::uint32_t b = 0; b < surfaces_[o].blocks.size(); ++b) {
-            if (surfaces_[o].blocks[b].empty()) continue;
-            unsigned lamps = light.objects[o].moves ? all : 0;
-            const Bounds box = grown(transformed(surfaces_[o].blocks[b], place), skin_);
-            for (std::size_t l = 0; lamps != all && l < light.lamps.size(); ++l)
-                for (const Slot& slot : slots_)
-                    if (inTheWay(light, slot, box, l)) lamps |= 1u << l;
-            if (lamps != 0) reached_.push_back({o, b, lamps});
+        if (!surfaces_[o]) continue;
+        const std::span<const Bounds> blocks = surfaces_[o].blocks();
+        for (std::uint32_t b = 0; b < blocks.size(); ++b) {
+            if (blocks[b].empty()) continue;
+            if (const unsigned lamps = lampsReaching(light, o, blocks[b]))
+                reached_.push_back({o, b, lamps});
         }
+        findReachedStandIns(light, o);
     }
 }
 
-/// Moves what does not stand that way.
-void LiveRows::place(const Arrangement& arrangement) {
-    bool any = false;
-    std::vector<glm::vec3> world;
-    for (std::uint32_t o = 0; o < surfaces_.size(); ++o) {
-        const Arrangement::Place& wanted = arrangement.objects[o];
-        if (!surfaces_[o].geometry || wanted == standsAs_[o]) continue;
-        world.clear();
-        const std::vector<glm::vec3>& points = surfaces_[o].geometry->data().positions;
-        for (const glm::vec3 p : std::span(points).first(surfaces_[o].inRays))
-            world.push_back(glm::vec3(wanted.toWorld * glm::dvec4(p, 1)));
-        rays_->move({o}, world);
-        rays_->show({o}, wanted.visible);
-        standsAs_[o] = wanted;
-        any = true;
+/// Vertices that stand for corners lie all over the object: each is looked at by itself. What
+/// touches one of the elements around a corner concerns it as well.
+void LiveRows::findReachedStandIns(const LiveLight& light, std::uint32_t object) {
+    for (const auto& [vertex, corner] : surfaces_[object].standIns()) {
+        const Bounds box = surfaces_[object].elementBox(corner);
+        const unsigned lamps = lampsReaching(light, object, grown(box, box.diagonal()));
+        if (lamps == 0) continue;
+        const auto block = std::uint32_t(vertex / kBlock);
+        if (reached_.empty() || reached_.back().object != object || reached_.back().block != block)
+            reached_.push_back({object, block, 0, 0});
+        reached_.back().lamps |= lamps;
+        reached_.back().vertices |= std::uint64_t(1) << vertex % kBlock;
     }
-    if (any) rays_->commit();
 }
 
-Receiver LiveRows::receiver(const Surface& surface, const glm::dmat4& toWorld,
-                            std::size_t v) const {
-    const glm::vec3 normal = surface.geometry->data().normals[v];
-    if (normal == glm::vec3(0)) return {};
-    const glm::dmat3 turn = glm::inverseTranspose(glm::dmat3(toWorld));
-    const glm::vec3 up(glm::normalize(turn * glm::dvec3(normal)));
-    return {glm::vec3(toWorld * glm::dvec4(surface.points[v], 1)) + skin_ * up, up};
+/// Corners that are touched now and drawn with vertices that they share with others; what these are
+/// lit by must be known.
+void LiveRows::findTouched(const LiveLight& light) {
+    touched_.clear();
+    const auto before = [](const Reached& a, const Reached& b) {
+        return std::tie(a.object, a.block) < std::tie(b.object, b.block);
+    };
+    std::vector<Reached> more;
+    for (const TouchedCorner& corner : slots_.front().touched) {
+        const LiveSurface& surface = surfaces_[corner.object];
+        if (!surface) continue;
+        const std::uint32_t vertex = surface.drawnAt(corner.corner);
+        if (vertex >= surface.ownVertices()) continue;
+        touched_.push_back({corner.object, corner.corner, vertex});
+        more.push_back({corner.object, std::uint32_t(vertex / kBlock),
+                        (1u << light.lamps.size()) - 1, std::uint64_t(1) << vertex % kBlock});
+    }
+    reached_.insert(reached_.end(), more.begin(), more.end());
+    std::sort(reached_.begin(), reached_.end(), before);
+    std::size_t kept = 0;
+    for (const Reached& at : reached_) {
+        if (kept == 0 || before(reached_[kept - 1], at))
+            reached_[kept++] = at;
+        else
+            reached_[kept - 1].lamps |= at.lamps, reached_[kept - 1].vertices |= at.vertices;
+    }
+    reached_.resize(kept);
+    for (Touched& touched : touched_) {
+        const Reached at{touched.object, std::uint32_t(touched.vertex / kBlock)};
+        touched.reached = std::size_t(
+            std::lower_bound(reached_.begin(), reached_.end(), at, before) - reached_.begin());
+    }
+}
+
+/// Where a vertex takes its light in an arrangement, whatever it carries.
+Receiver LiveRows::ownReceiver(const Slot& slot, std::uint32_t object, std::size_t vertex) const {
+    const LiveSurface& surface = surfaces_[object];
+    if (vertex >= surface.ownVertices()) {
+        const std::optional<std::uint32_t> corner = surface.cornerOf(vertex);
+        if (!corner) return {};
+        const auto at =
+            std::lower_bound(slot.touched.begin(), slot.touched.end(), std::pair(object, *corner),
+                             [](const TouchedCorner& t, const auto& key) {
+                                 return std::pair(t.object, t.corner) < key;
+                             });
+        if (at != slot.touched.end() && at->object == object && at->corner == *corner)
+            return at->at;
+        vertex = surface.ownVertexAt(*corner);
+    }
+    const auto pose = slot.poses.find(object);
+    return pose != slot.poses.end() ? stage_->receiver(object, vertex, pose->second)
+                                    : stage_->receiver(object, vertex);
+}
+
+/// Where the light that it carries of an arrangement was taken.
+Receiver LiveRows::receiver(const Slot& slot, std::uint32_t object, std::size_t vertex) const {
+    if (!slot.instead.empty()) {
+        const auto at = slot.instead.find(keyOf(object, vertex));
+        if (at != slot.instead.end()) return at->second;
+    }
+    return ownReceiver(slot, object, vertex);
+}
+
+void LiveRows::run(const Task& task, RowBuilder& builder) const {
+    std::array<Receiver, kBlock> receivers{};
+    std::uint64_t wanted = 0;
+    const std::size_t begin = task.at->block * kBlock;
+    for (std::size_t i = 0; i < kBlock; ++i) {
+        if (!(task.missing >> i & 1)) continue;
+        receivers[i] = receiver(*task.slot, task.at->object, begin + i);
+        if (!isPadding(receivers[i])) wanted |= std::uint64_t(1) << i;
+    }
+    RowBlock block;
+    builder.updateEmitterBlock(*task.slot->senders[task.lamp], {receivers, wanted, 0}, wanted, {},
+                               block);
+    block.forEach([&](int i, float factor) { task.known->factors[std::size_t(i)] = factor; });
 }
 
 void LiveRows::trace(const LiveLight& light, Slot& slot) {
-    struct Task {
-        const Reached* at;
-        std::size_t lamp;
-        Factors* factors;
-    };
     std::vector<Task> tasks;
     for (const Reached& at : reached_) {
-        const Bounds box = grown(
-            transformed(surfaces_[at.object].blocks[at.block], slot.of->objects[at.object].toWorld),
-            skin_);
+        const std::span<const Bounds> blocks = surfaces_[at.object].blocks();
+        const bool own = light.objects[at.object].moves || at.block >= blocks.size();
+        const unsigned hidden =
+            own ? ~0u
+                : lampsThrough(
+                      light, slot,
+                      grown(transformed(blocks[at.block], slot.of->objects[at.object].toWorld),
+                            stage_->skin()));
         for (std::size_t l = 0; l < slot.senders.size(); ++l) {
             if (!(at.lamps >> l & 1)) continue;
-            const bool own = light.objects[at.object].moves;
-            Table& table = own || inTheWay(light, slot, box, l) ? slot.table : clear_;
-            const auto [entry, fresh] = table.try_emplace(keyOf(at, l), Factors{});
-            if (fresh && slot.senders[l]) tasks.push_back({&at, l, &entry->second});
+            Known& known = (hidden >> l & 1 ? slot.table : clear_)[keyOf(at, l)];
+            const std::uint64_t missing = at.vertices & ~known.vertices;
+            known.vertices |= missing;
+            for (std::uint64_t bits = missing; bits != 0; bits &= bits - 1)
+                known.factors[std::size_t(std::countr_zero(bits))] = 0;
+            if (missing != 0 && slot.senders[l]) tasks.push_back({&slot, &at, l, &known, missing});
         }
     }
     if (tasks.empty()) return;
-    place(*slot.of);
+    stage_->stand(*slot.of);
     parallelFor(tasks.size(), 8, [&](std::size_t first, std::size_t last) {
-        RowBuilder builder(*rays_);
-        std::array<Receiver, kBlock> receivers;
-        for (std::size_t t = first; t < last; ++t) {
-            const Surface& surface = surfaces_[tasks[t].at->object];
-            const std::size_t begin = tasks[t].at->block * kBlock;
-            const std::size_t count = std::min(kBlock, surface.points.size() - begin);
-            std::uint64_t wanted = 0;
-            for (std::size_t i = 0; i < count; ++i) {
-                receivers[i] =
-                    receiver(surface, slot.of->objects[tasks[t].at->object].toWorld, begin + i);
-                if (!isPadding(receivers[i])) wanted |= std::uint64_t(1) << i;
-            }
+        RowBuilder builder(stage_->rays());
+        for (std::size_t t = first; t < last; ++t) run(tasks[t], builder);
+    });
+}
+
+/// What is touched now: a few corners, looked at anew in each frame.
+void LiveRows::traceTouched() {
+    if (touched_.empty()) return;
+    const Slot& now = slots_.front();
+    stage_->stand(*now.of);
+    std::vector<Receiver> receivers; // both lists are by object and corner
+    for (std::size_t i = 0, t = 0; t < touched_.size(); ++i)
+        if (now.touched[i].object == touched_[t].object &&
+            now.touched[i].corner == touched_[t].corner)
+            receivers.push_back(now.touched[i].at), ++t;
+    const std::size_t blocks = (touched_.size() + kBlock - 1) / kBlock;
+    parallelFor(blocks * now.senders.size(), 1, [&](std::size_t first, std::size_t last) {
+        RowBuilder builder(stage_->rays());
+        for (std::size_t job = first; job < last; ++job) {
+            const std::size_t lamp = job % now.senders.size();
+            const std::size_t begin = job / now.senders.size() * kBlock;
+            const std::size_t count = std::min(kBlock, touched_.size() - begin);
+            if (!now.senders[lamp]) continue;
+            const std::uint64_t all = ~std::uint64_t(0) >> (kBlock - count);
             RowBlock block;
-            builder.updateEmitterBlock(*slot.senders[tasks[t].lamp],
-                                       {std::span(receivers).first(count), wanted, 0}, wanted, {},
-                                       block);
-            block.forEach(
-                [&](int i, float factor) { (*tasks[t].factors)[std::size_t(i)] = factor; });
+            builder.updateEmitterBlock(*now.senders[lamp],
+                                       {std::span(receivers).subspan(begin, count), all, 0}, all,
+                                       {}, block);
+            block.forEach([&](int i, float factor) {
+                touched_[begin + std::size_t(i)].factors[lamp] = factor;
+            });
+            for (std::size_t i = 0; i < count; ++i)
+                touched_[begin + i].unoccluded[lamp] =
+                    now.senders[lamp]->formFactor(receivers[begin + i]);
         }
     });
 }
 
-void LiveRows::prepare(const LiveLight& light) {
+void LiveRows::prepare(const LiveLight& light, const ShownOf& shown) {
     std::vector<std::shared_ptr<const LitGeometry>> geometries;
     for (const auto& object : light.objects) geometries.push_back(object.geometry);
     require(geometries);
-    startAnew(light);
+    if (!stage_) return;
+    if (!sameMoves(light)) forget();
+    followTriangles(shown);
     chooseSlots(light);
     findReached(light);
+    findTouched(light);
     for (std::size_t s = slots_.size(); s-- > 0;) trace(light, slots_[s]); // now last: it stays
+    traceTouched();
 }
 
 void LiveRows::forget() {
     slots_.clear();
     clear_.clear();
     reached_.clear();
+    touched_.clear();
 }
 
 const LiveRows::Factors& LiveRows::factors(std::size_t slot, const Reached& at,
                                            std::size_t lamp) const {
     const auto own = slots_[slot].table.find(keyOf(at, lamp));
-    return own != slots_[slot].table.end() ? own->second : clear_.at(keyOf(at, lamp));
+    return (own != slots_[slot].table.end() ? own->second : clear_.at(keyOf(at, lamp))).factors;
 }
 
 float LiveRows::unoccluded(const Reached& at, std::size_t lamp, std::size_t vertex) const {
     const Slot& now = slots_.front();
     if (!now.senders[lamp]) return 0;
-    const Receiver at1 = receiver(surfaces_[at.object], now.of->objects[at.object].toWorld, vertex);
-    return isPadding(at1) ? 0 : now.senders[lamp]->formFactor(at1);
+    const Receiver receiver = ownReceiver(now, at.object, vertex);
+    return isPadding(receiver) ? 0 : now.senders[lamp]->formFactor(receiver);
 }
 
 } // namespace penumbra

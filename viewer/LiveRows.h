@@ -2,12 +2,15 @@
 #pragma once
 
 #include "radiosity/EmitterSender.h"
-#include "radiosity/RayScene.h"
 #include "viewer/LiveLight.h"
+#include "viewer/LiveStage.h"
+#include "viewer/LiveSurface.h"
+#include "viewer/ShownLight.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,79 +19,118 @@
 
 namespace penumbra {
 
+class RowBuilder;
+
 /// Rows of the shadow-form-factor-list for the live lamps, of those vertices alone that a change
 /// may reach: the same closed forms, samples and rays as radiosity takes (RowBuilder), at the same
-/// places, so that both come to the same light. Kept arrangement by arrangement as long as that is
-/// asked for: what stands still is traced once, and where what moves is not in the way of a lamp it
-/// does not matter where it is.
+/// places (LiveStage), so that both come to the same light. Kept arrangement by arrangement as long
+/// as that is asked for: what stands still is traced once, and where what moves is not in the way
+/// of a lamp it does not matter where it is.
+///
+/// A vertex takes its light, in an arrangement, where it took it when it was lit: those that stand
+/// for corners at the place that was found for these then. Corners that something touches now are
+/// listed by themselves.
 class LiveRows {
 public:
     static constexpr std::size_t kBlock = LitGeometry::kBlock;
-    using Factors = std::array<float, kBlock>; ///< F V of the vertices of a block
+
+    /// What surfaces are made of, see RadiosityNode::patches(); asked when there are others.
+    using PatchesOf = std::function<std::optional<PatchSet>()>;
+    using ShownOf = std::function<const ShownLight*(const LitGeometry&)>;
 
     /// \param samples as SolverOptions::samples
-    explicit LiveRows(int samples) : samples_(samples) {}
+    LiveRows(int samples, PatchesOf patches) : samples_(samples), patches_(std::move(patches)) {}
 
-    /// Indexes the triangles of these geometries (null: none) for rays, unless it has them.
+    /// Indexes these geometries (null: none) for rays, unless they are.
     void require(const std::vector<std::shared_ptr<const LitGeometry>>& geometries);
 
-    /// A block that a live change may reach, and by which lamps: a bit each.
+    /// A block that a live change may reach, by which lamps, and which of its vertices: a bit each.
     struct Reached {
         std::uint32_t object = 0, block = 0;
         unsigned lamps = 0;
+        std::uint64_t vertices = ~std::uint64_t(0);
     };
-    /// Traces what is missing. \param light with LiveLight::active()
-    void prepare(const LiveLight& light);
+    /// Traces what is missing. \param light with LiveLight::active() \param shown what vertices
+    /// carry
+    void prepare(const LiveLight& light, const ShownOf& shown);
     /// Drops what is known.
     void forget();
     std::span<const Reached> reached() const { return reached_; }
 
+    using Factors = std::array<float, kBlock>; ///< F V of the vertices of a block
     /// Of a lamp that reaches the block. \param slot 0: now; 1 ...: the anchors
     const Factors& factors(std::size_t slot, const Reached& at, std::size_t lamp) const;
     /// What a lamp gives to a vertex now when nothing is in its way.
     float unoccluded(const Reached& at, std::size_t lamp, std::size_t vertex) const;
 
-private:
-    struct Surface {
-        std::shared_ptr<const LitGeometry> geometry;
-        std::uint64_t topology = 0;
-        std::size_t inRays = 0;        ///< vertices of its mesh there; others may have been added
-        std::vector<glm::vec3> points; ///< where vertices receive, but for the hair [m, local]
-        std::vector<Bounds> blocks;    ///< [m, local]
+    /// A corner that something touches now, but is drawn with a vertex that it shares.
+    struct Touched {
+        std::uint32_t object = 0, corner = 0; ///< see TouchedCorner
+        std::uint32_t vertex = 0;             ///< that is drawn there
+        std::size_t reached = 0;              ///< the vertex's block in reached()
+        std::array<float, kMostLampsDrawnLive> factors{}, unoccluded{}; ///< now
     };
+    std::span<const Touched> touched() const { return touched_; }
+    const LiveSurface& surface(std::uint32_t object) const { return surfaces_[object]; }
+
+private:
     using Key = std::uint64_t;
-    using Table = std::unordered_map<Key, Factors>;
+    struct Known {
+        Factors factors{};
+        std::uint64_t vertices = 0; ///< bits: that are known
+    };
+    using Table = std::unordered_map<Key, Known>;
     struct Slot {
         ArrangementPtr of;
         std::vector<std::optional<EmitterSender>> senders; ///< by lamp; none: hidden
         std::vector<Bounds> things; ///< boxes around what moves, one a thing [m, world]
+        std::unordered_map<std::uint32_t, Pose> poses; ///< of objects that move
+        std::vector<TouchedCorner> touched;
+        std::unordered_map<Key, Receiver> instead; ///< of vertices that are lit somewhere else
         Table table;
     };
+    struct Task {
+        const Slot* slot;
+        const Reached* at;
+        std::size_t lamp;
+        Known* known;
+        std::uint64_t missing;
+    };
+    static Key keyOf(std::uint32_t object, std::uint64_t piece) {
+        return Key(object) << 32 | piece;
+    }
     static Key keyOf(const Reached& at, std::size_t lamp) {
-        return Key(at.object) << 32 | Key(at.block) << 2 | lamp;
+        return keyOf(at.object, std::uint64_t(at.block) << 2 | lamp);
     }
 
-    void describe(Surface& surface) const;
-    void startAnew(const LiveLight& light);
+    bool sameMoves(const LiveLight& light);
+    void followTriangles(const ShownOf& shown);
+    void carryOver(std::uint32_t object, const std::vector<AdoptedVertex>& adopted);
+    void dropStandIns(std::uint32_t object);
     void chooseSlots(const LiveLight& light);
-    Slot makeSlot(const LiveLight& light, const ArrangementPtr& of) const;
-    bool inTheWay(const LiveLight& light, const Slot& slot, const Bounds& block,
-                  std::size_t lamp) const;
+    Slot makeSlot(const LiveLight& light, const ArrangementPtr& of);
+    unsigned lampsThrough(const LiveLight& light, const Slot& slot, const Bounds& box) const;
+    unsigned lampsReaching(const LiveLight& light, std::uint32_t object, const Bounds& box) const;
     void findReached(const LiveLight& light);
-    void place(const Arrangement& arrangement);
+    void findReachedStandIns(const LiveLight& light, std::uint32_t object);
+    void findTouched(const LiveLight& light);
     void trace(const LiveLight& light, Slot& slot);
-    Receiver receiver(const Surface& surface, const glm::dmat4& toWorld, std::size_t v) const;
+    void traceTouched();
+    void run(const Task& task, RowBuilder& builder) const;
+    Receiver receiver(const Slot& slot, std::uint32_t object, std::size_t vertex) const;
+    Receiver ownReceiver(const Slot& slot, std::uint32_t object, std::size_t vertex) const;
 
     int samples_;
-    std::vector<Surface> surfaces_; ///< by object
-    std::unique_ptr<RayScene> rays_;
-    std::vector<Arrangement::Place> standsAs_; ///< in rays_
-    float skin_ = 0;                           ///< how far receivers hover [m]
+    PatchesOf patches_;
+    std::vector<std::shared_ptr<const LitGeometry>> geometries_; ///< that were required
+    std::unique_ptr<LiveStage> stage_;
+    std::vector<LiveSurface> surfaces_; ///< by object
     std::vector<Slot> slots_;
     Table clear_; ///< where nothing that moves is in the way
     std::vector<bool> moves_, lampMoves_;
     std::vector<std::optional<Emitter>> lamps_; ///< that clear_ is of
     std::vector<Reached> reached_;
+    std::vector<Touched> touched_;
 };
 
 } // namespace penumbra

@@ -8,6 +8,10 @@ namespace {
 
 constexpr std::size_t kBlock = LitGeometry::kBlock;
 
+Rgb atLeastNone(Rgb light) {
+    return {std::max(0.0f, light.r), std::max(0.0f, light.g), std::max(0.0f, light.b)};
+}
+
 } // namespace
 
 void LiveVertices::restore(Copy& copy, const ShownLight& from, std::uint32_t block) {
@@ -22,10 +26,11 @@ void LiveVertices::restore(Copy& copy, const ShownLight& from, std::uint32_t blo
 /// Takes over what has changed of the light, and takes back what the last frame did to it.
 void LiveVertices::follow(Copy& copy, const ShownLight& from) {
     const std::size_t blocks = from.blockRevisions.size();
-    if (copy.seen.size() != blocks || copy.light.direct.size() != from.direct.size()) {
-        copy.light.direct.resize(from.direct.size());
-        copy.light.indirect.resize(from.direct.size());
-        copy.light.blockRevisions.resize(blocks, 0);
+    if (copy.seen.size() != blocks || copy.vertices != from.direct.size()) {
+        copy.vertices = from.direct.size();
+        copy.light.direct.resize(copy.vertices);
+        copy.light.indirect.resize(copy.vertices);
+        copy.light.blockRevisions.assign(blocks, 0);
         copy.seen.assign(blocks, 0);
     }
     copy.touched.assign(blocks, 0);
@@ -39,8 +44,23 @@ void LiveVertices::follow(Copy& copy, const ShownLight& from) {
     }
 }
 
-/// The formula of LiveLight. There is no more light than without obstacles: a corner that something
-/// covered has its light from beside it, which is not to be added to that of the corner itself.
+/// The formula of LiveLight for one lamp, over its exitance. There is no less light than none, and
+/// no more than without obstacles.
+float LiveVertices::change(const LiveLight& light, const ShownLight& from,
+                           const LiveRows::Reached& at, std::size_t lamp, std::size_t vertex,
+                           float now, float unoccluded) const {
+    float change = 0;
+    for (std::size_t a = 0; a < light.anchors.size(); ++a) {
+        const LiveLight::Anchor& anchor = light.anchors[a];
+        const float share = glm::mix(anchor.rest, anchor.behind, from.behind[vertex]);
+        change += share * (now - rows_.factors(a + 1, at, lamp)[vertex % kBlock]);
+    }
+    const float known = from.factors[vertex][int(lamp)];
+    if (known < 0) return change;
+    if (change > 0) change = std::min(change, std::max(0.0f, unoccluded - known));
+    return std::max(change, -known);
+}
+
 void LiveVertices::bringUpToDate(Copy& copy, const LiveLight& light, const ShownLight& from,
                                  const LiveRows::Reached& at) {
     const std::size_t begin = at.block * kBlock, end = std::min(begin + kBlock, from.direct.size());
@@ -48,33 +68,64 @@ void LiveVertices::bringUpToDate(Copy& copy, const LiveLight& light, const Shown
     for (std::size_t l = 0; l < light.lamps.size(); ++l) {
         if (!(at.lamps >> l & 1)) continue;
         const LiveRows::Factors& now = rows_.factors(0, at, l);
-        std::array<const LiveRows::Factors*, 3> then{};
-        for (std::size_t a = 0; a < light.anchors.size(); ++a)
-            then[a] = &rows_.factors(a + 1, at, l);
         for (std::size_t v = begin; v < end; ++v) {
-            float change = 0;
-            for (std::size_t a = 0; a < light.anchors.size(); ++a) {
-                const LiveLight::Anchor& anchor = light.anchors[a];
-                const float share = glm::mix(anchor.rest, anchor.behind, from.behind[v]);
-                change += share * (now[v - begin] - (*then[a])[v - begin]);
-            }
-            if (change == 0) continue;
-            const float known = from.factors[v][int(l)];
-            if (known >= 0) {
-                if (change > 0)
-                    change = std::min(change, std::max(0.0f, rows_.unoccluded(at, l, v) - known));
-                change = std::max(change, -known);
-            }
-            copy.light.direct[v] = copy.light.direct[v] + light.lamps[l].exitance * change;
+            if (!(at.vertices >> (v - begin) & 1)) continue;
+            const float most = rows_.unoccluded(at, l, v);
+            const float by = change(light, from, at, l, v, now[v - begin], most);
+            if (by == 0) continue;
+            copy.light.direct[v] = copy.light.direct[v] + light.lamps[l].exitance * by;
             any = true;
         }
     }
     if (!any) return;
     for (std::size_t v = begin; v < end; ++v)
-        for (int c = 0; c < 3; ++c)
-            (&copy.light.direct[v].r)[c] = std::max(0.0f, (&copy.light.direct[v].r)[c]);
+        copy.light.direct[v] = atLeastNone(copy.light.direct[v]);
     copy.touched[at.block] = 1;
     copy.live.push_back(at.block);
+}
+
+/// Corners that something touches now get vertices of their own for as long as the geometry has
+/// none for them.
+void LiveVertices::drawTouched(Copy& copy, std::span<const LiveRows::Touched> touched,
+                               const LiveLight& light, const ShownLight& from) {
+    std::vector<std::uint32_t> copies;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> redrawn;
+    copy.light.direct.resize(copy.vertices);
+    copy.light.indirect.resize(copy.vertices);
+    for (const LiveRows::Touched& corner : touched) {
+        const LiveSurface& surface = rows_.surface(corner.object);
+        for (const std::uint32_t entry : surface.entriesOf(corner.corner))
+            redrawn.emplace_back(entry, std::uint32_t(copies.size()));
+        copies.push_back(corner.vertex);
+        Rgb direct = from.direct[corner.vertex];
+        for (std::size_t l = 0; l < light.lamps.size(); ++l)
+            direct = direct + light.lamps[l].exitance *
+                                  change(light, from, rows_.reached()[corner.reached], l,
+                                         corner.vertex, corner.factors[l], corner.unoccluded[l]);
+        copy.light.direct.push_back(atLeastNone(direct));
+        copy.light.indirect.push_back(from.indirect[corner.vertex]);
+    }
+    const std::size_t blocks = (copy.light.direct.size() + kBlock - 1) / kBlock;
+    copy.light.blockRevisions.resize(blocks);
+    copy.touched.resize(blocks, 1);
+    if (!copies.empty())
+        std::fill(copy.touched.begin() + std::ptrdiff_t(copy.vertices / kBlock), copy.touched.end(),
+                  1);
+    if (copies == copy.light.copies && redrawn == copy.light.redrawn) return;
+    copy.light.copies = std::move(copies);
+    copy.light.redrawn = std::move(redrawn);
+    copy.light.redrawnRevision = copy.light.revision = ++revision_;
+}
+
+void LiveVertices::drawAllTouched(const LiveLight& light, const ShownOf& shown) {
+    for (auto& [geometry, copy] : copies_) {
+        const ShownLight* const from = shown(*geometry);
+        if (!from || from->factors.empty()) continue;
+        const auto [first, last] = std::equal_range(
+            rows_.touched().begin(), rows_.touched().end(), LiveRows::Touched{copy.object},
+            [](const auto& a, const auto& b) { return a.object < b.object; });
+        drawTouched(copy, {first, last}, light, *from);
+    }
 }
 
 void LiveVertices::update(const LiveLight& light, const ShownOf& shown) {
@@ -83,7 +134,7 @@ void LiveVertices::update(const LiveLight& light, const ShownOf& shown) {
         rows_.forget();
         return;
     }
-    rows_.prepare(light);
+    rows_.prepare(light, shown);
     for (const LiveRows::Reached& at : rows_.reached()) {
         const LitGeometry& geometry = *light.objects[at.object].geometry;
         if (shown(geometry)) copies_[&geometry].object = at.object;
@@ -95,6 +146,7 @@ void LiveVertices::update(const LiveLight& light, const ShownOf& shown) {
         const ShownLight* const from = shown(geometry);
         if (from && !from->factors.empty()) bringUpToDate(copies_[&geometry], light, *from, at);
     }
+    drawAllTouched(light, shown);
     for (auto& [geometry, copy] : copies_)
         for (std::size_t block = 0; block < copy.touched.size(); ++block)
             if (copy.touched[block])

@@ -6,9 +6,10 @@
 #include "viewer/ShownLight.h"
 
 #include <cstdint>
-#include <functional>
 #include <memory>
+#include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace penumbra {
@@ -19,14 +20,15 @@ namespace penumbra {
 /// nothing to be seen of its becoming exact.
 class LiveVertices {
 public:
-    explicit LiveVertices(int samples) : rows_(samples) {}
+    /// \param samples as SolverOptions::samples \param patches see LiveRows
+    LiveVertices(int samples, LiveRows::PatchesOf patches) : rows_(samples, std::move(patches)) {}
 
     /// Makes ready for these geometries, so that the first frame of a move need not.
     void require(const std::vector<std::shared_ptr<const LitGeometry>>& geometries) {
         rows_.require(geometries);
     }
 
-    using ShownOf = std::function<const ShownLight*(const LitGeometry&)>;
+    using ShownOf = LiveRows::ShownOf;
     /// Once a frame. \param shown what is shown without live lamps
     void update(const LiveLight& light, const ShownOf& shown);
 
@@ -36,6 +38,7 @@ public:
 private:
     struct Copy {
         std::uint32_t object = 0;
+        std::size_t vertices = 0; ///< of the geometry; copies are behind them
         ShownLight light;
         std::vector<std::uint64_t> seen;   ///< block revisions of what is copied
         std::vector<std::uint32_t> live;   ///< blocks that differ from that
@@ -43,8 +46,13 @@ private:
     };
     void follow(Copy& copy, const ShownLight& from);
     void restore(Copy& copy, const ShownLight& from, std::uint32_t block);
+    float change(const LiveLight& light, const ShownLight& from, const LiveRows::Reached& at,
+                 std::size_t lamp, std::size_t vertex, float now, float unoccluded) const;
     void bringUpToDate(Copy& copy, const LiveLight& light, const ShownLight& from,
                        const LiveRows::Reached& at);
+    void drawTouched(Copy& copy, std::span<const LiveRows::Touched> touched, const LiveLight& light,
+                     const ShownLight& from);
+    void drawAllTouched(const LiveLight& light, const ShownOf& shown);
 
     LiveRows rows_;
     std::unordered_map<const LitGeometry*, Copy> copies_;

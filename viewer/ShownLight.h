@@ -6,9 +6,15 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace penumbra {
+
+/// A vertex that began with the light of another one, in whose place triangles have it.
+struct AdoptedVertex {
+    std::uint32_t vertex = 0, from = 0;
+};
 
 /// In place of what a LitGeometry carries: the same vertices, in the same blocks.
 struct ShownLight {
@@ -19,6 +25,17 @@ struct ShownLight {
     /// Share of the light that is of the arrangement which most vertices have left behind, in
     /// [0, 1] (see LiveLight::Anchor). As long as factors.
     std::vector<float> behind;
+
+    /// Those of the last time that triangles came to be made of other vertices.
+    std::vector<AdoptedVertex> adopted;
+
+    /// Corners of triangles that are drawn with light of their own: `direct` and `indirect` go on
+    /// behind the vertices of the geometry with vertices that lie where these do,
+    std::vector<std::uint32_t> copies;
+    /// and these entries of LitMeshData::indices are drawn with those, counted from the first one
+    /// of the geometry.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> redrawn;
+    std::uint64_t redrawnRevision = 0; ///< rises when copies or redrawn change
 
     std::vector<std::uint64_t> blockRevisions; ///< one a block, rises when any of this changes
     std::uint64_t revision = 1;                ///< rises when any of these does

@@ -17,7 +17,7 @@ WalkLight::WalkLight(const Walkthrough& walk, const RadiosityOptions& options,
       mostLamps_(std::min(blend.lamps, kMostLampsDrawnLive)), trigger_(options.trigger),
       order_(options.solving.order) {
     node_->add(walk.scene().root);
-    if (blend.by == LiveBy::rays) vertices_.emplace(options.solving.samples);
+    if (blend.by == LiveBy::rays) vertices_.emplace(options.solving.samples, [this] { return node_->patches(); });
 }
 
 WalkLight::~WalkLight() = default;

@@ -86,6 +86,7 @@ public:
         settle();
         exact();
         result_.worstAtStart = nameWorst(result_.moved - 1, result_.moved + 2);
+        if (options_.motion) result_.worstInMotion = nameWorst(result_.moved, result_.released);
         result_.worstAtHandOver = nameWorst(result_.released - 1, result_.frames.size());
         compareFromScratch();
         return std::move(result_);
@@ -107,10 +108,12 @@ private:
         return state.phase == RadiosityState::Phase::settled && state.queued == 0 &&
                state.held == 0;
     }
+    /// Until nothing is put off any more either: yardsticks are exact.
     void settle() {
         for (int still = 0; still < 5;) {
             walk_.advance(kFrame);
-            still = light_->update(walk_, view()) || !settled() ? 0 : still + 1;
+            const bool news = light_->update(walk_, view());
+            still = news || !settled() || !light_->state().complete ? 0 : still + 1;
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
     }

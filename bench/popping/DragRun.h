@@ -56,8 +56,9 @@ struct DragResult {
     /// Processor time a frame, of all threads, when nothing moves, when the camera turns, and in
     /// motion [s]; counts when other work keeps the machine busy.
     double idleWork = 0, walkWork = 0, dragWork = 0;
-    /// The worst of the first frames in motion, and of the release and what comes after.
-    std::vector<NamedStep> worstAtStart, worstAtHandOver;
+    /// The worst of the first frames in motion, of all of them if that is known, and of the release
+    /// and what comes after.
+    std::vector<NamedStep> worstAtStart, worstInMotion, worstAtHandOver;
     /// The last picture, at rest, against that of a solution from scratch of how things stand: the
     /// largest difference as displayed, in steps of 8 bits, and the share of pixels beyond one.
     int fromScratchMost = 0;

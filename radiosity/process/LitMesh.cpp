@@ -45,15 +45,17 @@ void writeHead(ByteWriter& out, const LitScene& scene, const GraphCopy& graph) {
 /// Movable objects in their stretched frames, where they never change; the others in the world.
 void writeVertices(ByteWriter& out, const PatchSet& set, const ObjectPart& part,
                    std::uint32_t count) {
-    std::vector<glm::vec3> positions(count), normals(count);
+    std::vector<glm::vec3> positions(count), normals(count), receivers(count);
     for (std::uint32_t i = 0; i < part.vertices.count; ++i) {
         const Vertex& vertex =
             part.movable ? part.shape.vertices[i] : set.vertices[part.vertices.first + i];
         positions[i] = vertex.position;
         normals[i] = vertex.receiver.normal;
+        receivers[i] = vertex.receiver.position;
     }
     out.list(positions);
     out.list(normals);
+    out.list(receivers);
 }
 
 void writeElements(ByteWriter& out, const PatchSet& set, std::uint32_t object,
@@ -72,6 +74,12 @@ void writeElements(ByteWriter& out, const PatchSet& set, std::uint32_t object,
     out.list(patches);
 }
 
+void writeRays(ByteWriter& out, const ObjectPart& part, const RayMesh& rays) {
+    out.list(part.movable ? part.shape.rayVertices : rays.vertices);
+    out.list(rays.triangles);
+    out.list(rays.solid);
+}
+
 } // namespace
 
 std::vector<std::byte> describeMesh(const LitScene& scene, const GraphCopy& graph,
@@ -87,9 +95,12 @@ std::vector<std::byte> describeMesh(const LitScene& scene, const GraphCopy& grap
         out.text(part.path);
         out.put(inverseOrOne(part.movable ? glm::dmat4(part.stretch) : toWorld[o]));
         out.put(part.vertices.first / kBlock);
+        out.put(std::uint32_t(part.movable));
+        out.put(std::uint32_t(part.present));
         const std::uint32_t blocks = (part.vertices.count + kBlock - 1) / kBlock;
         writeVertices(out, set, part, blocks * kBlock);
         writeElements(out, set, o, elements[o]);
+        writeRays(out, part, set.rayMeshes[o]);
     }
     return out.take();
 }
@@ -115,11 +126,17 @@ std::optional<LitMeshObject> LitMeshReader::next() {
     object.path = reader_.text();
     object.toObject = reader_.get<glm::dmat4>();
     object.firstBlock = reader_.get<std::uint32_t>();
+    object.movable = reader_.get<std::uint32_t>();
+    object.present = reader_.get<std::uint32_t>();
     object.positions = reader_.list<glm::vec3>();
     object.normals = reader_.list<glm::vec3>();
+    object.receivers = reader_.list<glm::vec3>();
     object.elements = reader_.list<std::array<std::uint32_t, 4>>();
     object.elementMaterial = reader_.list<std::uint32_t>();
     object.elementPatch = reader_.list<std::uint32_t>();
+    object.rays.vertices = reader_.list<glm::vec3>();
+    object.rays.triangles = reader_.list<std::array<std::uint32_t, 3>>();
+    object.rays.solid = reader_.list<std::uint8_t>();
     if (!reader_.ok() || !sound(object)) {
         reader_.fail();
         return std::nullopt;
@@ -129,6 +146,19 @@ std::optional<LitMeshObject> LitMeshReader::next() {
     ++next_;
     return object;
 }
+
+namespace {
+
+bool sound(const RayMesh& rays) {
+    return rays.solid.size() == rays.triangles.size() &&
+           std::all_of(rays.vertices.begin(), rays.vertices.end(), finite) &&
+           std::all_of(rays.triangles.begin(), rays.triangles.end(), [&](const auto& triangle) {
+               return std::all_of(triangle.begin(), triangle.end(),
+                                  [&](std::uint32_t v) { return v < rays.vertices.size(); });
+           });
+}
+
+} // namespace
 
 bool LitMeshReader::sound(const LitMeshObject& object) const {
     const std::size_t vertices = object.positions.size();
@@ -140,10 +170,12 @@ bool LitMeshReader::sound(const LitMeshObject& object) const {
         vertices == 0 || (object.firstBlock >= nextBlock_ && object.firstBlock <= blocks_ &&
                           vertices / kBlock <= blocks_ - object.firstBlock);
     return vertices % kBlock == 0 && place && object.normals.size() == vertices &&
+           object.receivers.size() == vertices && penumbra::sound(object.rays) &&
            object.elementMaterial.size() == object.elements.size() &&
            object.elementPatch.size() == object.elements.size() &&
            std::all_of(object.positions.begin(), object.positions.end(), finite) &&
            std::all_of(object.normals.begin(), object.normals.end(), finite) &&
+           std::all_of(object.receivers.begin(), object.receivers.end(), finite) &&
            std::all_of(object.elements.begin(), object.elements.end(),
                        [&](const std::array<std::uint32_t, 4>& corners) {
                            return std::all_of(corners.begin(), corners.end(),

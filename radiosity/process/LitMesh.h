@@ -24,10 +24,15 @@ struct LitMeshObject {
     std::string path;
     glm::dmat4 toObject{1.0}; ///< of the frame of these vertices to the object's own
     std::uint32_t firstBlock = 0;
+    std::uint32_t movable = 0; ///< 1: vertices and rays are in the stretched frame, see Pose.h
+    std::uint32_t present = 0; ///< 0: was hidden when it was meshed
     std::vector<glm::vec3> positions, normals;
+    std::vector<glm::vec3> receivers; ///< where vertices take their light, see Vertex
     std::vector<std::array<std::uint32_t, 4>> elements; ///< see Element; of this object's vertices
     std::vector<std::uint32_t> elementMaterial;
-    std::vector<std::uint32_t> elementPatch; ///< any number, the same for those of one patch
+    std::vector<std::uint32_t> elementPatch; ///< any number, the same for those of one patch;
+                                             ///< Element::kNone: covered all over
+    RayMesh rays;                            ///< what blocks rays
 };
 
 /// Where a colour comes from: numbers of the graph image, kNone if there is none.

@@ -1,5 +1,6 @@
 #include "radiosity/process/LitObjects.h"
 
+#include "radiosity/process/LitPatches.h"
 #include "scenegraph/Error.h"
 
 #include <algorithm>
@@ -221,6 +222,10 @@ void LitObjects::writeTriangles() {
         part.changed.clear();
     }
     changedParts_.clear();
+}
+
+std::optional<PatchSet> LitObjects::patches() const {
+    return readPatches(store_->mesh(), store_->shape().firstPrivate);
 }
 
 void LitObjects::finish(std::uint32_t object) {

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,8 @@ public:
     const std::vector<Entry>& entries() const { return entries_; }
     const MeshingOptions& sizes() const { return mesh_.head().sizes; }
     std::uint64_t blocksTaken() const { return blocksTaken_; }
+    /// What rays meet of all that, see readPatches(); none: it does not make sense any more.
+    std::optional<PatchSet> patches() const;
     /// Rises when a geometry comes into being.
     std::uint64_t revision() const { return revision_; }
 

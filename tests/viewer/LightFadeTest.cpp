@@ -217,6 +217,23 @@ TEST(LightFade, AVertexThatComesToStandForACornerBeginsWithTheLightThere) {
     EXPECT_EQ(surface.direct(own), 10);
 }
 
+TEST(LightFade, AVertexThatIsGivenToAnotherCornerBeginsWithTheLightThere) {
+    // Vertices are handed out again in the same update in which they are given back.
+    Surface surface(3, 0);
+    surface.publish(0, 300), surface.publish(1, 500);
+    surface.show(1), surface.show(2);
+    const std::uint32_t own = 2 * LitGeometry::kBlock + 3;
+    surface.geometry.setTopology([&](LitMeshData& data) {
+        for (std::uint32_t& v : data.indices) v = v == own ? 5 : v == 70 ? own : v;
+    });
+    surface.show(3);
+    EXPECT_EQ(surface.direct(own), 500) << "of vertex 70, whose corners it has now";
+    EXPECT_EQ(surface.direct(5), 300) << "it has its old corners, too";
+    ASSERT_EQ(surface.fade.shown().adopted.size(), 1u);
+    EXPECT_EQ(surface.fade.shown().adopted[0].vertex, own);
+    EXPECT_EQ(surface.fade.shown().adopted[0].from, 70u);
+}
+
 TEST(LightFade, GoesOnFromWhatWasShownWhenTheSurfaceComesAnew) {
     Surface before, after;
     before.publish(0, 300);

@@ -86,7 +86,7 @@ public:
         const View view = viewInside(size);
         DrawList list = listVisible(room.node->lit(), Frustum(view.worldToClip()));
         for (DrawItem& item : list.items) item.shown = &shown[item.geometry];
-        LiveVertices vertices(fineRoom().solving.samples);
+        LiveVertices vertices(fineRoom().solving.samples, [this] { return room.node->patches(); });
         if (by == LiveBy::rays) {
             vertices.update(live, [&](const LitGeometry& geometry) { return &shown[&geometry]; });
             for (DrawItem& item : list.items)

@@ -1,0 +1,44 @@
+// The patches of a scene where its movable objects stand, for rays and with their contacts.
+#pragma once
+
+#include "radiosity/Coverage.h"
+#include "radiosity/PatchSet.h"
+#include "radiosity/RayScene.h"
+
+#include <span>
+#include <vector>
+
+namespace penumbra {
+
+/// Keeps a PatchSet, the rays through it and what its objects cover of each other true to where
+/// they stand. All three depend on that alone and not on how things came there, apart from which
+/// private vertices stand for which corners.
+class StandingPatches {
+public:
+    /// Everything stands as the set says. \param set must outlive this
+    explicit StandingPatches(PatchSet& set);
+    StandingPatches(const StandingPatches&) = delete;
+    StandingPatches& operator=(const StandingPatches&) = delete;
+
+    /// Where a movable object is to stand.
+    struct Stand {
+        ObjectId object;
+        Pose pose;
+        bool present = true;
+    };
+    struct Change {
+        std::vector<ObjectId> objects; ///< that did not stand so before
+        Coverage::Change covered;
+    };
+    /// Puts objects elsewhere, hides or shows them; costs what changes.
+    Change place(std::span<const Stand> wanted);
+
+    const RayScene& rays() const { return rays_; }
+
+private:
+    PatchSet& set_;
+    RayScene rays_;
+    Coverage coverage_;
+};
+
+} // namespace penumbra

@@ -1,0 +1,75 @@
+#include "viewer/LiveStage.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace penumbra {
+
+LiveStage::LiveStage(PatchSet set)
+    : set_(std::move(set)), standing_(set_), standsAs_(set_.objects.size()) {}
+
+/// Has a thing of the fixed part be moved. Radiosity will mesh the scene anew; until then what the
+/// rest of the fixed part made of it stays.
+void LiveStage::free(std::uint32_t object) {
+    ObjectPart& part = set_.objects[object];
+    part.movable = true;
+    const auto first = set_.vertices.begin() + part.vertices.first;
+    part.shape.vertices.assign(first, first + part.vertices.count);
+    part.shape.patches.resize(part.patches.count);
+    part.shape.rayVertices = set_.rayMeshes[object].vertices;
+}
+
+void LiveStage::stand(const Arrangement& arrangement) {
+    std::vector<StandingPatches::Stand> wanted;
+    const std::size_t count = std::min(standsAs_.size(), arrangement.objects.size());
+    for (std::uint32_t o = 0; o < count; ++o) {
+        const Arrangement::Place& place = arrangement.objects[o];
+        if (standsAs_[o] == place) continue;
+        const bool known = std::exchange(standsAs_[o], place).has_value();
+        if (!set_.objects[o].movable) {
+            if (!known) continue; // it is where it was when it was meshed
+            free(o);
+        }
+        wanted.push_back({{o}, placementOf(place.toWorld).pose, place.visible});
+    }
+    standing_.place(wanted);
+}
+
+Receiver LiveStage::receiver(std::uint32_t object, std::size_t vertex) const {
+    return set_.vertices[set_.objects[object].vertices.first + vertex].receiver;
+}
+
+Receiver LiveStage::receiver(std::uint32_t object, std::size_t vertex, const Pose& pose) const {
+    const ObjectPart& part = set_.objects[object];
+    if (!part.movable) return receiver(object, vertex);
+    const Receiver& own = part.shape.vertices[vertex].receiver;
+    return {pose.point(own.position), pose.direction(own.normal)};
+}
+
+std::vector<TouchedCorner> LiveStage::touched() const {
+    std::vector<TouchedCorner> found;
+    for (std::size_t i = 0; i < set_.privateElement.size(); ++i) {
+        const std::size_t vertex = set_.firstPrivate + i;
+        const Receiver& at = set_.vertices[vertex].receiver;
+        if (isPadding(at)) continue;
+        const std::uint32_t element = set_.privateElement[i];
+        const ObjectId object = set_.elementObject[element];
+        const auto& corners = set_.elements[element].vertices;
+        const auto k = std::find(corners.begin(), corners.end(), vertex) - corners.begin();
+        if (k == 4) continue;
+        const std::uint32_t local = element - set_.objects[object.value].elements.first;
+        found.push_back({object.value, 4 * local + std::uint32_t(k), at});
+    }
+    std::sort(found.begin(), found.end(), [](const TouchedCorner& a, const TouchedCorner& b) {
+        return std::tie(a.object, a.corner) < std::tie(b.object, b.corner);
+    });
+    return found;
+}
+
+std::span<const Element> LiveStage::elements(std::uint32_t object) const {
+    const Range& range = set_.objects[object].elements;
+    return std::span(set_.uncoveredElements).subspan(range.first, range.count);
+}
+
+} // namespace penumbra
