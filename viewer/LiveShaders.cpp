@@ -92,9 +92,10 @@ float diskFactor(vec3 p, vec3 n, vec3 centre, vec3 axis, float radius) {
     const float kStep = 2.0 * kPi / 24.0;
     float wide = radius * sqrt(kStep / sin(kStep));
     Contour contour = Contour(0.0, vec3(0.0), vec3(0.0), false);
-    vec3 from = way + wide * u;
-    for (int i = 1; i <= sides; ++i) {
-        vec3 to = way + wide * (cos(float(i) * kStep) * u + sin(float(i) * kStep) * v);
+    vec3 first = way + wide * u, from = first;
+    for (int i = 1; i <= sides; ++i) { // it ends where it began, bit for bit: a corner on the
+        float turn = float(i) * kStep; // horizon is on the same side of it both times
+        vec3 to = i < sides ? way + wide * (cos(turn) * u + sin(turn) * v) : first;
         follow(contour, from, to, n);
         from = to;
     }
@@ -145,7 +146,9 @@ int mostOf(vec3 v) {
 // anything at all): of its points, weighed by cos cos / d^2 as radiosity weighs its samples.
 //
 // A map is compared with the receiver's plane at the middle of the texel: a plane casts no shadow
-// on itself, however coarse the map, and the margin can be less than a texel is wide.
+// on itself, however coarse the map, and the margin can be less than a texel is wide. A point that
+// lies all but in that plane is taken to be seen: within a texel the plane goes through all depths,
+// and a map can't tell it from what is in front of it.
 float hidden(int row, vec3 p, vec3 n, bool own) {
     bool cube = entry(row, 0).y > 0.5;
     vec4 across = entry(row, 9), lampNormal = entry(row, 10), ranges = entry(row, 11);
@@ -179,6 +182,7 @@ float hidden(int row, vec3 p, vec3 n, bool own) {
         vec2 texel = clamp(floor(at * size), vec2(0.0), vec2(size - 1.0));
         vec2 middle = ((texel + 0.5) / size - offset) / scale;
         float inverse = dot(n, axis + right * middle.x + up * middle.y) / min(-here, -1e-6);
+        bool tells = inverse > 0.8 / z && inverse < 1.25 / z;
         inverse = clamp(inverse, 0.8 / z, 1.25 / z);
         inverse += (1e-3 + across.w * z) * inverse * inverse;
         ivec3 place = ivec3(ivec2(texel) + ivec2(tile % tiles, tile / tiles) * int(size),
@@ -187,7 +191,7 @@ float hidden(int row, vec3 p, vec3 n, bool own) {
         float movedDepth = texelFetch(movedMaps, place, 0).r;
         bool byFixed = fixedDepth < 1.0 && fixedDepth < ranges.z - ranges.w * inverse;
         bool byMoved = !cube && movedDepth < 1.0 && movedDepth < ranges.x - ranges.y * inverse;
-        bool counts = covered && (own || cube ? byFixed || byMoved : byMoved && !byFixed);
+        bool counts = covered && tells && (own || cube ? byFixed || byMoved : byMoved && !byFixed);
         dark += counts ? weight : 0.0;
     }
     return total > 0.0 ? dark / total : 0.0;

@@ -130,12 +130,14 @@ RadiosityOptions LitRoom::smallRoomOptions() {
     return options;
 }
 
-LitRoom::LitRoom(std::unique_ptr<LightingLink> link, const RadiosityOptions& wanted)
-    : options(wanted), node(std::make_shared<RadiosityNode>("lit", wanted, std::move(link))) {
+LitRoom::LitRoom(std::unique_ptr<LightingLink> link, const RadiosityOptions& wanted,
+                 const LightShape& lamp, double lampHeight)
+    : options(wanted), light(std::make_shared<Light>("light", lamp, Rgb(100))),
+      node(std::make_shared<RadiosityNode>("lit", wanted, std::move(link))) {
     node->add(
         object("room", boxData(glm::vec3(-2, -2, 0), glm::vec3(2, 2, 2.5f), true, wallPaint)));
     node->add(box);
-    node->add(placed("lamp", moved(0, 0, 2.4), {light}));
+    node->add(placed("lamp", moved(0, 0, lampHeight), {light}));
 }
 
 } // namespace penumbra

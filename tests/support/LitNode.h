@@ -26,7 +26,8 @@ std::string differenceFromScratch(const RadiosityNode& node, const RadiosityOpti
 /// A room with a lamp and a box that can be moved, as an application would build it.
 struct LitRoom {
     explicit LitRoom(std::unique_ptr<LightingLink> link = makeThreadLink(),
-                     const RadiosityOptions& wanted = smallRoomOptions());
+                     const RadiosityOptions& wanted = smallRoomOptions(),
+                     const LightShape& lamp = RectShape{0.5f, 0.5f}, double lampHeight = 2.4);
     static RadiosityOptions smallRoomOptions();
     std::string difference() const { return differenceFromScratch(*node, options); }
 
@@ -35,8 +36,7 @@ struct LitRoom {
     std::shared_ptr<Transform> box = movable(
         "box",
         {std::make_shared<Mesh>("mesh", boxData({-0.3f, -0.3f, 0}, {0.3f, 0.3f, 0.6f}, false))});
-    std::shared_ptr<Light> light =
-        std::make_shared<Light>("light", RectShape{0.5f, 0.5f}, Rgb(100));
+    std::shared_ptr<Light> light; ///< of 100 nit
     std::shared_ptr<RadiosityNode> node;
 };
 

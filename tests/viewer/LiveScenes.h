@@ -31,8 +31,9 @@ inline RadiosityOptions fineRoom() {
 /// The room of LitRoom, finely meshed, with its light as the renderer is given it.
 class LiveRoom {
 public:
-    explicit LiveRoom(const RadiosityOptions& options = fineRoom())
-        : room(makeThreadLink(), options) {}
+    explicit LiveRoom(const RadiosityOptions& options = fineRoom(),
+                      const LightShape& lamp = RectShape{0.5f, 0.5f}, double lampHeight = 2.4)
+        : room(makeThreadLink(), options, lamp, lampHeight) {}
 
     bool settle() { return updateUntilSettled(*room.node); }
     ArrangementPtr arrangement() const {
