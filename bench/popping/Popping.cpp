@@ -4,7 +4,8 @@
 //   --element-size M  of the mesh; else the scene's
 //   --direct-only     no indirect light: shadows are black, steps in them count for more
 //   --motion          what should be seen in the middle of the drag is worked out, too
-//   --variant N       0: 16 points of a lamp and 0.25 s, 1: one point, 2: no blend; else all
+//   --variant N       0: a fade of 0.25 s and maps from 16 points of a lamp, 1: from one point (not
+//                     with --rays), 2: no fade; else all
 //   --name N          names what the N worst pixels of the first frames and of the hand-over show
 //   --hd              1280 x 720 pixels; else 640 x 360
 //   --keep FOLDER     writes what was shown, what should have been, and the error, as PNG
@@ -37,13 +38,13 @@ const std::vector<DragScript> kScripts{
 };
 
 struct Variant {
-    const char* name;
+    const char *byMaps, *byRays; ///< null: rays have no points to choose, it would be the first
     BlendOptions blend;
 };
 const std::vector<Variant> kVariants{
-    {"16 points, 0.25 s", {.seconds = 0.25, .points = 16}},
-    {"1 point, 0.25 s", {.seconds = 0.25, .points = 1}},
-    {"16 points, no blend", {.seconds = 0, .points = 16}},
+    {"16 maps, 0.25 s", "rays, 0.25 s", {.seconds = 0.25, .points = 16}},
+    {"1 map, 0.25 s", nullptr, {.seconds = 0.25, .points = 1}},
+    {"16 maps, no blend", "rays, no blend", {.seconds = 0, .points = 16}},
 };
 
 /// Writes frames as PNG: shown, exact, and the error around grey.
@@ -111,6 +112,7 @@ void report(const DragScript& script, const char* variant, const DragResult& r) 
         }
     };
     name("first frames", r.worstAtStart);
+    name("in motion   ", r.worstInMotion);
     name("hand-over   ", r.worstAtHandOver);
     std::fflush(stdout);
 }
@@ -151,7 +153,8 @@ int run(int argc, char** argv) {
         if (!only.empty() && only != script.scene) continue;
         for (const Variant& variant : kVariants) {
             const auto number = int(&variant - kVariants.data());
-            if (variantWanted >= 0 && variantWanted != number) continue;
+            const char* const name = by == LiveBy::rays ? variant.byRays : variant.byMaps;
+            if (!name || (variantWanted >= 0 && variantWanted != number)) continue;
             DragOptions options;
             options.motion = motion;
             options.named = named;
@@ -164,7 +167,7 @@ int run(int argc, char** argv) {
 
             std::printf("%s: %zu elements, %zu lamps drawn live\n", script.scene.c_str(),
                         result.elements, result.lamps);
-            report(script, variant.name, result);
+            report(script, name, result);
             if (!keep.empty())
                 keepFrames(result, options.size, keep + "/" + script.scene + std::to_string(number),
                            4);
