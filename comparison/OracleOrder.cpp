@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace penumbra {
 
@@ -30,6 +31,16 @@ OracleOrder::OracleOrder(const PatchSet& patches, std::span<const Row> now,
 }
 
 WorkQueue::Task OracleOrder::rank(const BlockOfWork& work) const {
+    std::array<float, PatchSet::kBlock> gain;
+    gains(work, {}, gain);
+    WorkQueue::Task task;
+    task.worth.change = std::accumulate(gain.begin(), gain.end(), 0.0f);
+    task.worth.cost = float(work.cost);
+    return task;
+}
+
+void OracleOrder::gains(const BlockOfWork& work, std::span<const float>,
+                        std::span<float> gains) const {
     const std::size_t first = std::size_t(work.block) * PatchSet::kBlock;
     const std::vector<float>& settled = settled_[work.row];
     std::array<float, PatchSet::kBlock> change{}; // of F V
@@ -38,16 +49,11 @@ WorkQueue::Task OracleOrder::rank(const BlockOfWork& work) const {
     now_[work.row][work.block].forEach(
         [&](int r, float factor) { change[std::size_t(r)] -= factor; });
     const double power = luminance(patches_.emitters[work.row].exitance);
-    double gain = 0;
     for (std::size_t r = 0; r < change.size(); ++r) {
         const std::size_t v = first + r;
         const double nits = std::abs(change[r]) * power * reflectance_[v] * std::numbers::inv_pi;
-        gain += workValue({pixels_[v], perThreshold_, false}, nits, 1);
+        gains[r] = float(workValue({pixels_[v], perThreshold_, false}, nits, 1));
     }
-    WorkQueue::Task task;
-    task.worth.change = float(gain);
-    task.worth.cost = float(work.cost);
-    return task;
 }
 
 PlaceValue OracleOrder::value(std::uint32_t) const {

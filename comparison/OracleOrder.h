@@ -31,6 +31,9 @@ public:
                 const DrawnView& drawn, double adaptation);
 
     WorkQueue::Task rank(const BlockOfWork& work) const override;
+    bool looks() const override { return true; } // for what work costs
+    void gains(const BlockOfWork& work, std::span<const float> change,
+               std::span<float> gains) const override;
     PlaceValue value(std::uint32_t place) const override;
 
 private:

@@ -3,7 +3,9 @@
 #include "importance/ContrastSensitivity.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cassert>
 #include <limits>
 #include <numbers>
 
@@ -31,6 +33,11 @@ std::uint32_t mixed(std::uint64_t x) {
 }
 
 } // namespace
+
+void OrderOfWork::gains(const BlockOfWork&, std::span<const float> change,
+                        std::span<float> gains) const {
+    std::copy(change.begin(), change.end(), gains.begin());
+}
 
 WorkQueue::Task PlainOrder::rank(const BlockOfWork& work) const {
     return taskFor(work.row, 1, 1);
@@ -63,11 +70,18 @@ WorkQueue::Task ImportanceOrder::rank(const BlockOfWork& work) const {
     const bool known =
         work.block < placeOf_.size() && placeOf_[work.block] != PlaceClusters::kNowhere;
     const auto none = std::uint32_t(placeOf_.size());
-    const double change = work.expected ? work.expected->change : work.bound;
-    WorkQueue::Task task =
-        taskFor(known ? placeOf_[work.block] : none, change * std::numbers::inv_pi, work.cost);
-    if (work.expected) task.worth.share = float(work.expected->share);
-    return task;
+    return taskFor(known ? placeOf_[work.block] : none, work.bound * std::numbers::inv_pi,
+                   work.cost);
+}
+void ImportanceOrder::gains(const BlockOfWork& work, std::span<const float> change,
+                            std::span<float> gains) const {
+    std::array<PlaceValue, 64> values;
+    assert(change.size() <= values.size());
+    std::uint64_t which = 0;
+    for (std::size_t r = 0; r < change.size(); ++r) which |= std::uint64_t(change[r] > 0) << r;
+    closeLook_(work.block, which, values);
+    for (std::size_t r = 0; r < change.size(); ++r)
+        gains[r] = float(workValue(values[r], double(change[r]) * std::numbers::inv_pi, 1));
 }
 PlaceValue ImportanceOrder::value(std::uint32_t place) const {
     if (!attention_) return {1e-12, 1, false};

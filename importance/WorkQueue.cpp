@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numbers>
 #include <utility>
 
 namespace penumbra {
@@ -176,13 +177,30 @@ std::optional<WorkQueue::Choice> WorkQueue::choose(double now) {
     return Choice{*chosen, slots_[*chosen].task, itsTurn};
 }
 
+WorkQueue::Worth WorkQueue::worthOf(std::uint32_t place, double gain, double cost) {
+    constexpr double kOne = std::numbers::phi; // g(kOne) = 1, see workValue()
+    const PlaceValue& at = placeAt(place).value;
+    const double share = at.weight > 0 ? gain / at.weight : 0;
+    return {float(kOne / at.perThreshold), std::max(float(share), 1e-30f), float(cost)};
+}
+
 void WorkQueue::finish(const Choice& choice) {
+    spend(choice);
+    remove(choice.handle);
+}
+
+void WorkQueue::finishPart(const Choice& choice, const Worth& rest) {
+    spend(choice);
+    rank(choice.handle, rest);
+}
+
+/// Overdue work has a share of all work.
+void WorkQueue::spend(const Choice& choice) {
     const double cost = slots_[choice.handle].task.worth.cost;
     if (choice.overdue)
         owed_ -= cost * (1 - fairness_.reserve);
     else
         owed_ += cost * fairness_.reserve;
-    remove(choice.handle);
 }
 
 std::optional<WorkQueue::Task> WorkQueue::take(double now) {

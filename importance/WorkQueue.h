@@ -34,6 +34,7 @@ public:
     };
 
     explicit WorkQueue(Fairness fairness) : fairness_(fairness) {}
+    void setPatience(double patience) { fairness_.patience = patience; }
     WorkQueue() : WorkQueue(Fairness()) {}
 
     /// What a task is ranked by, besides its place.
@@ -77,6 +78,11 @@ public:
     std::optional<Choice> choose(double now);
     /// A task that was chosen is going to be done.
     void finish(const Choice& choice);
+    /// A part of it is going to be done; it stays open, and the rest is worth so much.
+    void finishPart(const Choice& choice, const Worth& rest);
+    /// What a task at a place is worth that gains so much as the viewer sees it now: when the view
+    /// changes, it gains as much more or less as others there.
+    Worth worthOf(std::uint32_t place, double gain, double cost);
     /// Chooses a task to be done.
     std::optional<Task> take(double now);
 
@@ -128,6 +134,7 @@ private:
         const Slot& slot = slots_[ranked.slot];
         return slot.serial != ranked.serial || slot.ranking != ranked.ranking || slot.chosen;
     }
+    void spend(const Choice& choice);
     void order(Place& place);
     void skipStale(Place& place);
     std::optional<Handle> best();

@@ -24,7 +24,6 @@ struct WorkPlace {
 struct ValueFactors {
     bool change = true;    ///< how far the light may change; else all changes count alike
     bool look = true;      ///< looking at work for what to expect of it; else all that is possible
-    bool feedback = true;  ///< what came of the work beside it
     bool contrast = true;  ///< what of it can be seen at all; else luminance counts as it is
     bool size = true;      ///< how many pixels it covers
     bool frustum = true;   ///< whether it is in the picture
@@ -40,6 +39,7 @@ struct Attention {
     double adaptation = 100;     ///< see Adaptation [nit]
     std::optional<Bounds> moved; ///< the object being moved [m, world]
     ValueFactors factors;
+    bool whole = false; ///< blocks are shown as wholes: none is done in parts
 };
 
 /// What work at one place is worth, as far as that is a matter of the place alone.

@@ -10,131 +10,160 @@ namespace penumbra {
 
 namespace {
 
-/// What 16 samples may have missed: this share of the block changes whatever they say.
+/// What rays may have missed: this share of F changes whatever they say.
 constexpr float kLeastShare = 0.01f;
-
-/// Who hides a sample; ObjectId::kNone if it is visible.
-std::uint32_t blockerOf(const RowBlock::Draft& draft, int sample) {
-    for (int b = 0; b < draft.blockerCount; ++b)
-        if (draft.blockers[std::size_t(b)].samples >> sample & 1)
-            return draft.blockers[std::size_t(b)].object;
-    return ObjectId::kNone;
-}
+/// Of entries that are evaluated anew, one in so many has a ray.
+constexpr std::size_t kAnewGroup = 4;
+/// Rays of an entry in half-shadow for its further samples, as it may be one.
+constexpr float kFurther = 8;
 
 bool moves(std::span<const MovedObject> moved, std::uint32_t object) {
     return std::any_of(moved.begin(), moved.end(),
                        [&](const MovedObject& m) { return m.object == object; });
 }
 
-glm::vec3 originOf(const ShadowRays& rays, int i) {
-    return {rays.originX[i], rays.originY[i], rays.originZ[i]};
+float weightOf(const SampleGroup& group, std::uint32_t lanes) {
+    float sum = 0;
+    for (; lanes != 0; lanes &= lanes - 1) sum += group.weight[std::countr_zero(lanes)];
+    return sum;
 }
-glm::vec3 directionOf(const ShadowRays& rays, int i) {
-    return {rays.directionX[i], rays.directionY[i], rays.directionZ[i]};
+
+/// One of some lanes; another one for each receiver, as likely as any.
+int oneOf(std::uint32_t lanes, std::size_t receiver) {
+    const int place = int(7 * receiver + 3) % std::popcount(lanes);
+    for (int i = 0; i < place; ++i) lanes &= lanes - 1;
+    return std::countr_zero(lanes);
 }
 
 } // namespace
 
-ExpectedFactor ChangeLook::at(const EmitterSender& sender, const ReceiverBlock& receivers,
-                              std::uint64_t anew, std::span<const MovedObject> moved,
-                              const RowBlock& block) {
+ExpectedFactors ChangeLook::at(const EmitterSender& sender, const ReceiverBlock& receivers,
+                               std::uint64_t anew, std::span<const MovedObject> moved,
+                               const RowBlock& block) {
     block.decode(std::span(drafts_).first(receivers.receivers.size()));
-    whole_.used = alone_.used = hidden_ = traced_ = released_ = 0;
-    count_ = 0;
-    // Every fourth receiver, in each row of a square block another one; samples all over the
-    // sender.
-    for (int lane = 0; lane < ShadowRays::kMost; ++lane) {
-        const auto r = std::size_t(4 * lane + (lane / 2) % 4);
-        probes_[lane] = {};
-        if (r >= receivers.receivers.size() || isPadding(receivers.receivers[r])) continue;
-        ++count_;
-        probe(lane, sender, receivers, r, (7 * lane + 3) % 16, anew >> r & 1, moved);
+    ExpectedFactors expected;
+    probes_.fill({});
+    for (std::size_t r = 0; r < receivers.receivers.size(); ++r) {
+        const Receiver& receiver = receivers.receivers[r];
+        if (!(receivers.some >> r & 1) || (isPadding(receiver) && !(anew >> r & 1))) continue;
+        float& rays = expected.rays[r];
+        const bool open = anew >> r & 1 ? probeAnew(sender, receivers, r, rays)
+                                        : probeStored(sender, receiver, r, moved, rays);
+        expected.open |= std::uint64_t(open) << r;
     }
-    trace(moved);
-    return summary();
+    trace(alone_, moved);
+    trace(whole_, {});
+    for (std::size_t r = 0; r < receivers.receivers.size(); ++r) {
+        Probe& probe = probes_[r];
+        const bool group = anew >> r & 1; // shares the ray of its group's first one
+        if (group && r % kAnewGroup != 0) probe.hidden = probes_[r - r % kAnewGroup].hidden;
+        const float change = group ? probe.now * (probe.hidden ? 0.0f : 1.0f) - probe.before
+                                   : probe.now * ((probe.stillHidden ? 0 : probe.uncovered) -
+                                                  (probe.hidden ? probe.covered : 0));
+        expected.factor[r] =
+            std::max(std::abs(change), kLeastShare * std::max(probe.now, probe.before));
+    }
+    return expected;
 }
 
-void ChangeLook::probe(int lane, const EmitterSender& sender, const ReceiverBlock& receivers,
-                       std::size_t r, int sample, bool anew, std::span<const MovedObject> moved) {
+/// \return whether there is anything to be done
+bool ChangeLook::probeStored(const EmitterSender& sender, const Receiver& receiver, std::size_t r,
+                             std::span<const MovedObject> moved, float& rays) {
     const RowBlock::Draft& draft = drafts_[r];
-    const Receiver& receiver = receivers.receivers[r];
-    Probe& probe = probes_[lane];
-    const std::uint32_t bit = 1u << lane;
-    ShadowRays* rays = nullptr;
-    if (anew) {
-        const bool wanted = receivers.wanted >> r & 1;
-        const float visibility = draft.visible != 0 ? draft.visibility : 0.0f;
-        probe = {draft.formFactor * (draft.blockerCount == 0 ? 1.0f : visibility),
-                 wanted ? sender.formFactor(receiver) : 0.0f, true};
-        rays = &whole_;
-    } else if (draft.formFactor > 0) {
-        const std::uint32_t blocker = blockerOf(draft, sample);
-        const bool visible = blocker == ObjectId::kNone;
-        if (!visible && !moves(moved, blocker)) return; // stays hidden
-        if (!visible) released_ |= bit;
-        probe = {visible ? draft.formFactor : 0.0f, draft.formFactor, false};
-        rays = &alone_;
+    if (!(draft.formFactor > 0)) return false;
+    std::uint64_t byMoved = 0, byOthers = 0;
+    for (int b = 0; b < draft.blockerCount; ++b) {
+        const Blocker& blocker = draft.blockers[std::size_t(b)];
+        (moves(moved, blocker.object) ? byMoved : byOthers) |= blocker.samples;
     }
-    if (!(probe.unoccluded > 0)) return;
+    const bool crossed = (draft.blockerCount == 0 || draft.visible != 0) &&
+                         std::any_of(moved.begin(), moved.end(), [&](const MovedObject& m) {
+                             const Bounds point{receiver.position, receiver.position};
+                             return m.present && shaftMeets(point, sender.box(), m.box);
+                         });
+    if (!crossed && byMoved == 0) return false;
     SampleGroup group;
     sender.sampleGroup(receiver, 0, group);
-    if (!(group.rays.used >> sample & 1)) { // of a sender that is turned away in part
-        hidden_ |= probe.before > 0 ? 0 : bit;
-        return;
+    const std::uint32_t used = group.rays.used, uncovered = used & std::uint32_t(byMoved);
+    std::uint32_t covered = 0;
+    for (const MovedObject& m : moved)
+        if (m.present) covered |= lanesThatMeet(group.rays, used, m.box);
+    covered &= ~std::uint32_t(byMoved | byOthers);
+    const float total = weightOf(group, used);
+    Probe& probe = probes_[r];
+    probe = {draft.formFactor, draft.formFactor, 0, 0};
+    rays = float(std::popcount(covered) + std::popcount(uncovered));
+    if (total > 0 && covered != 0) {
+        probe.covered = weightOf(group, covered) / total;
+        add(alone_, group, oneOf(covered, r), probe.hidden, moved);
     }
-    const glm::vec3 origin = originOf(group.rays, sample);
-    rays->set(lane, origin, origin + directionOf(group.rays, sample));
+    if (total > 0 && uncovered != 0) {
+        probe.uncovered = weightOf(group, uncovered) / total;
+        add(alone_, group, oneOf(uncovered, r), probe.stillHidden, moved);
+    }
+    if (rays > 0) rays += kFurther;
+    return true;
 }
 
-void ChangeLook::trace(std::span<const MovedObject> moved) {
-    const auto note = [&](const ShadowRays& rays) {
-        for (std::uint32_t left = rays.used; left != 0; left &= left - 1) {
-            const int i = std::countr_zero(left);
-            if (rays.blocker[i] != ObjectId::kNone) hidden_ |= 1u << i;
-        }
+bool ChangeLook::probeAnew(const EmitterSender& sender, const ReceiverBlock& receivers,
+                           std::size_t r, float& rays) {
+    const RowBlock::Draft& draft = drafts_[r];
+    const Receiver& receiver = receivers.receivers[r];
+    const bool wanted = (receivers.wanted >> r & 1) && !isPadding(receiver);
+    Probe& probe = probes_[r];
+    probe.before = draft.formFactor * (draft.blockerCount == 0 ? 1.0f
+                                       : draft.visible != 0    ? draft.visibility
+                                                               : 0.0f);
+    probe.now = wanted ? sender.formFactor(receiver) : 0.0f;
+    if (!(probe.now > 0)) return draft.formFactor > 0;
+    rays = float(sender.baseSamples()) + kFurther;
+    if (r % kAnewGroup != 0) return true;
+    SampleGroup group;
+    sender.sampleGroup(receiver, 0, group);
+    if (group.rays.used != 0)
+        add(whole_, group, oneOf(group.rays.used, r), probe.hidden, {});
+    else
+        probe.hidden = true;
+    return true;
+}
+
+void ChangeLook::add(Packet& packet, const SampleGroup& group, int sample, bool& answer,
+                     std::span<const MovedObject> moved) {
+    if (packet.count == ShadowRays::kMost) trace(packet, moved);
+    const glm::vec3 origin(group.rays.originX[sample], group.rays.originY[sample],
+                           group.rays.originZ[sample]);
+    const glm::vec3 along(group.rays.directionX[sample], group.rays.directionY[sample],
+                          group.rays.directionZ[sample]);
+    packet.answers[std::size_t(packet.count)] = &answer;
+    packet.rays.set(packet.count++, origin, origin + along);
+}
+
+/// \param moved the objects to trace against; none: the whole scene
+void ChangeLook::trace(Packet& packet, std::span<const MovedObject> moved) {
+    const std::uint32_t all = packet.rays.used;
+    std::uint32_t blocked = 0;
+    const auto traced = [&](std::uint32_t lanes) {
+        for (; lanes != 0; lanes &= lanes - 1)
+            if (const int i = std::countr_zero(lanes); packet.rays.blocker[i] != ObjectId::kNone)
+                blocked |= 1u << i;
     };
-    traced_ = released_;
-    if (whole_.used != 0) {
-        rays_.occluded(whole_);
-        traced_ |= whole_.used;
-        rayCount_.full += std::uint64_t(std::popcount(whole_.used));
-        note(whole_);
+    if (&packet == &whole_ && all != 0) {
+        rays_.occluded(packet.rays);
+        rayCount_.full += std::uint64_t(std::popcount(all));
+        traced(all);
     }
     for (const MovedObject& m : moved) {
         if (!m.present) continue;
-        ShadowRays some = alone_;
-        for (std::uint32_t left = alone_.used & ~hidden_; left != 0; left &= left - 1) {
-            const int i = std::countr_zero(left);
-            const glm::vec3 origin = originOf(alone_, i), along = directionOf(alone_, i);
-            if (!sweepMeets({origin, origin}, along, along, 1.0f, m.box)) some.used &= ~(1u << i);
-        }
-        some.used &= ~hidden_;
-        if (some.used == 0) continue;
-        rays_.occludedBy({m.object}, some);
-        traced_ |= some.used;
-        rayCount_.single += std::uint64_t(std::popcount(some.used));
-        note(some);
+        const std::uint32_t some = lanesThatMeet(packet.rays, all & ~blocked, m.box);
+        if (some == 0) continue;
+        packet.rays.used = some;
+        rays_.occludedBy({m.object}, packet.rays);
+        rayCount_.single += std::uint64_t(std::popcount(some));
+        traced(some);
     }
-}
-
-ExpectedFactor ChangeLook::summary() const {
-    constexpr float kPerProbe = 64; // rays: four receivers, 16 samples
-    float change = 0, unoccluded = 0;
-    int changed = 0, open = 0;
-    const float rays = kPerProbe * float(std::popcount(traced_));
-    for (int lane = 0; lane < ShadowRays::kMost; ++lane) {
-        const Probe& probe = probes_[lane];
-        const float now = hidden_ >> lane & 1 ? 0.0f : probe.unoccluded;
-        const float difference = std::abs(now - probe.before);
-        change += difference;
-        changed += difference > 0;
-        unoccluded += std::max(probe.unoccluded, probe.before);
-        open += probe.unoccluded > 0 || probe.before > 0;
-    }
-    if (changed > 0)
-        return {change / float(changed), std::max(kLeastShare, float(changed) / float(count_)),
-                rays};
-    return {open > 0 ? unoccluded / float(open) : 0.0f, kLeastShare, rays};
+    for (int i = 0; i < packet.count; ++i) *packet.answers[std::size_t(i)] = blocked >> i & 1;
+    packet.rays.used = 0;
+    packet.count = 0;
 }
 
 } // namespace penumbra

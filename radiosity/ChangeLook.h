@@ -1,4 +1,4 @@
-// What to expect of open work on direct light, before it is done: a few rays where it takes many.
+// What to expect of open work on direct light, before it is done: a ray where it takes many.
 #pragma once
 
 #include "radiosity/EmitterSender.h"
@@ -7,6 +7,7 @@
 #include "radiosity/Row.h"
 #include "radiosity/RowBuilder.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -14,53 +15,64 @@
 
 namespace penumbra {
 
-/// Takes samples of a block's entries, one of each of up to 16 receivers, and compares what was
-/// stored of them with what they are now:
+/// Says of each entry of a block how far F V may be expected to change, from what is stored of it
+/// and a ray or two:
 ///
-/// - a sample that was visible is hidden if it meets a moved object where that stands now;
-/// - a sample that a moved object hid is visible if it meets none of them: what else may hide it is
-///   not looked for;
-/// - a sample that something else hides stays hidden;
-/// - an entry that is to be evaluated anew is: form factor, and one sample against the whole scene,
-///   against F V as it was. So what goes dark counts as much as what becomes light.
+/// - of the samples that were visible, those that point at a moved object's box where it stands now
+///   are hidden if one of them is found to meet the object;
+/// - the samples that a moved object hid are visible if one of them is found to meet none of them:
+///   what else may hide it is not looked for;
+/// - the samples that something else hides stay hidden;
+/// - an entry that is to be evaluated anew has its form factor, and is as visible as a sample of it
+///   or of one of its neighbours, against the whole scene. So what goes dark counts as much as what
+///   becomes light.
 ///
-/// The first three cost rays against single objects. What is found is unbiased but for the second,
-/// and decides about an order only. One look a thread at a time, for it owns scratch space.
+/// An entry of which nothing points at a moved object, and no sample was hidden by one, stays what
+/// it is: there is nothing to be done. What is found decides about an order only. One look a thread
+/// at a time, for it owns scratch space.
 ///
 /// It is the estimate from stored blockers of [MuellerSchoeffel1994]'s list, with rays against the
 /// moved object alone.
 class ChangeLook {
 public:
-    static constexpr std::size_t kCost = 40; ///< of a look, about [rays]
+    static constexpr std::size_t kCost = 100; ///< of a look, about [rays]
 
     explicit ChangeLook(const RayScene& rays) : rays_(rays), drafts_(RowBlock::kSize) {}
 
+    /// \param receivers with those of which anything is to be known
     /// \param anew bits: entries to be evaluated anew; \param moved as for RowBuilder
-    ExpectedFactor at(const EmitterSender& sender, const ReceiverBlock& receivers,
-                      std::uint64_t anew, std::span<const MovedObject> moved,
-                      const RowBlock& block);
+    ExpectedFactors at(const EmitterSender& sender, const ReceiverBlock& receivers,
+                       std::uint64_t anew, std::span<const MovedObject> moved,
+                       const RowBlock& block);
 
     /// Rays since the last call.
     RayCount takeRayCount() { return std::exchange(rayCount_, {}); }
 
 private:
-    /// One sample of one receiver.
+    /// What is known of an entry before its rays are traced.
     struct Probe {
-        float before = 0, unoccluded = 0; ///< F V that was known of it; F now
-        bool anew = false;
+        float before = 0, now = 0;        ///< F V that was; F
+        float covered = 0, uncovered = 0; ///< shares of the samples that may become hidden; visible
+        bool hidden = false, stillHidden = false; ///< what rays said of these
     };
-    void probe(int lane, const EmitterSender& sender, const ReceiverBlock& receivers,
-               std::size_t receiver, int sample, bool anew, std::span<const MovedObject> moved);
-    void trace(std::span<const MovedObject> moved);
-    ExpectedFactor summary() const;
+    /// Rays that wait for company.
+    struct Packet {
+        ShadowRays rays;
+        std::array<bool*, ShadowRays::kMost> answers; ///< where it says that a ray is blocked
+        int count = 0;
+    };
+    bool probeStored(const EmitterSender& sender, const Receiver& receiver, std::size_t r,
+                     std::span<const MovedObject> moved, float& rays);
+    bool probeAnew(const EmitterSender& sender, const ReceiverBlock& receivers, std::size_t r,
+                   float& rays);
+    void add(Packet& packet, const SampleGroup& group, int sample, bool& answer,
+             std::span<const MovedObject> moved);
+    void trace(Packet& packet, std::span<const MovedObject> moved);
 
     const RayScene& rays_;
     std::vector<RowBlock::Draft> drafts_;
-    Probe probes_[ShadowRays::kMost];
-    ShadowRays whole_, alone_; ///< against the whole scene; against moved objects
-    /// Bits: probes of which the sample is hidden; was hidden by what moved; that took a ray.
-    std::uint32_t hidden_ = 0, released_ = 0, traced_ = 0;
-    int count_ = 0; ///< of receivers that were probed
+    std::array<Probe, RowBlock::kSize> probes_;
+    Packet whole_, alone_; ///< against the whole scene; against moved objects
     RayCount rayCount_;
 };
 

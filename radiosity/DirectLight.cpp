@@ -171,7 +171,7 @@ bool DirectLight::updateRows(std::size_t effort, double enough) {
     const auto receiversFor = [&](const OpenBlock& item) {
         const bool present = set_.objects[set_.emitters[item.row].object.value].present &&
                              set_.objects[set_.vertexBlockObject[item.block].value].present;
-        ReceiverBlock receivers{receiversOf(item.block), 0, 0};
+        ReceiverBlock receivers{receiversOf(item.block), 0, 0, item.receivers};
         if (present && item.anew != 0) receivers.wanted = ~hidden(item.row, item.block, item.anew);
         return receivers;
     };

@@ -37,6 +37,8 @@ public:
         updates_.open().setOrder(std::move(order));
     }
     void rekey() { updates_.open().rekey(); }
+    void setPatience(double rays) { updates_.open().setPatience(rays); } ///< see OpenWork
+    void setWhole(bool whole) { updates_.open().setWhole(whole); }
     /// Sums what the rows, as they are now, give to the vertices: all of it, or about `effort`
     /// rays' worth.
     void sumUp(std::size_t effort = ~std::size_t(0));

@@ -8,12 +8,39 @@ namespace penumbra {
 
 namespace {
 
-/// What waits for longer than this gets a share of the work, whatever else is worth more [rays]:
-/// about a second of one thread.
+/// See setPatience(): until it is told how fast work is done.
 constexpr WorkQueue::Fairness kFairness{.patience = 4e6, .reserve = 0.25};
 
-/// What a block costs besides its rays, if their number is known [rays].
-constexpr double kVisit = 48;
+/// What a block costs besides its rays, if their number is known, and each of its entries [rays].
+constexpr float kVisit = 48, kEntry = 0.5f;
+
+/// Of a block's open receivers the part that makes the most of a visit.
+struct Part {
+    std::uint64_t receivers = 0;
+    double gain = 0, cost = kVisit;
+};
+/// \param whole all of them
+Part bestPart(std::uint64_t open, std::span<const float> gains, std::span<const float> rays,
+              bool whole) {
+    std::array<std::uint8_t, ExpectedFactors::kSize> by;
+    int count = 0;
+    for (; open != 0; open &= open - 1)
+        by[std::size_t(count++)] = std::uint8_t(std::countr_zero(open));
+    const auto cost = [&](std::uint8_t r) { return kEntry + rays[r]; };
+    std::sort(by.begin(), by.begin() + count, [&](std::uint8_t a, std::uint8_t b) {
+        const float one = gains[a] * cost(b), other = gains[b] * cost(a);
+        return one != other ? one > other : a < b;
+    });
+    Part all, best;
+    for (int i = 0; i < count; ++i) {
+        const std::uint8_t r = by[std::size_t(i)];
+        all.receivers |= std::uint64_t(1) << r;
+        all.gain += gains[r];
+        all.cost += cost(r);
+        if (whole || all.gain * best.cost >= best.gain * all.cost) best = all;
+    }
+    return best;
+}
 
 } // namespace
 
@@ -30,15 +57,33 @@ std::size_t OpenWork::cost(const OpenBlock& block) const {
 void OpenWork::setOrder(std::shared_ptr<const OrderOfWork> order) {
     order_ = std::move(order);
     urgent_ = later_ = WorkQueue(kFairness);
+    setPatience(patience_);
     rekey();
     for (std::uint32_t row = 0; row < rows_.size(); ++row)
         for (Entry& entry : rows_[row].entries)
-            if (entry.open) entry.putOff = 0, enqueue(row, entry);
+            if (entry.open) {
+                entry.putOff = 0;
+                if (!order_->looks()) setExpected(entry, nullptr);
+                enqueue(row, entry);
+            }
 }
 
 void OpenWork::rekey() {
     for (WorkQueue* queue : {&urgent_, &later_})
         queue->rekey([order = order_](std::uint32_t place) { return order->value(place); });
+}
+
+void OpenWork::setPatience(double rays) {
+    patience_ = rays;
+    urgent_.setPatience(rays);
+    later_.setPatience(rays);
+}
+
+void OpenWork::setWhole(bool whole) {
+    if (std::exchange(whole_, whole) == whole) return;
+    for (std::uint32_t row = 0; row < rows_.size(); ++row)
+        for (Entry& entry : rows_[row].entries)
+            if (entry.open) queueOf(entry).rank(entry.handle, worthOf(row, entry));
 }
 
 void OpenWork::setReceivers(std::vector<Receivers> blocks) {
@@ -64,30 +109,65 @@ void OpenWork::add(std::uint32_t block, double factor, double power, int count) 
     sum.factor = sum.count == 0 ? 0 : std::max(0.0, sum.factor + factor);
 }
 
+/// About [rays].
+double OpenWork::costOf(const Entry& entry, std::uint64_t receivers) const {
+    if (!entry.expected) return double(cost({0, entry.block, entry.anew & receivers, 0, 0}));
+    double cost = kVisit;
+    for (; receivers != 0; receivers &= receivers - 1)
+        cost += kEntry + entry.expected->rays[std::size_t(std::countr_zero(receivers))];
+    return cost;
+}
+
 WorkQueue::Task OpenWork::task(std::uint32_t row, const Entry& entry) const {
     const Receivers& r = receivers_[entry.block];
-    const auto change = [&](double factor) {
-        return double(r.reflectance) * factor * (rows_[row].power + double(r.light));
-    };
+    const double bound =
+        double(r.reflectance) * double(entry.factor) * (rows_[row].power + double(r.light));
     const OpenBlock block{row, entry.block, entry.anew, entry.since, entry.factor};
-    BlockOfWork work{row, entry.block, change(entry.factor), double(cost(block))};
-    if (entry.looked) {
-        work.expected = ExpectedChange{change(entry.expected.factor), entry.expected.share};
-        work.cost = kVisit + double(entry.expected.rays);
-    }
-    WorkQueue::Task task = order_->rank(work);
+    // A look may find that all the change is in a few receivers.
+    const double expense = order_->looks() ? double(kVisit) : double(cost(block));
+    WorkQueue::Task task = order_->rank({row, entry.block, bound, expense});
     task.id = std::uint64_t(row) << 32 | entry.block;
     task.since = taken_;
     return task;
 }
 
+/// Of a block that was looked at: which of the receivers that are left come next, and what that is
+/// worth.
+WorkQueue::Worth OpenWork::choosePart(std::uint32_t row, Entry& entry) {
+    const Receivers& r = receivers_[entry.block];
+    std::array<float, ExpectedFactors::kSize> change, gains;
+    for (std::size_t i = 0; i < change.size(); ++i)
+        change[i] = float(double(r.reflectance) * double(entry.expected->factor[i]) *
+                          (rows_[row].power + double(r.light)));
+    const WorkQueue::Task known = task(row, entry);
+    order_->gains({row, entry.block, 0, 0}, change, gains);
+    const Part part = bestPart(entry.left, gains, entry.expected->rays, whole_);
+    entry.part = part.receivers;
+    entry.view = order_->view();
+    return queueOf(entry).worthOf(known.place, part.gain, part.cost);
+}
+
+WorkQueue::Worth OpenWork::worthOf(std::uint32_t row, Entry& entry) {
+    return entry.expected ? choosePart(row, entry) : task(row, entry).worth;
+}
+
+void OpenWork::setExpected(Entry& entry, std::unique_ptr<ExpectedFactors> expected) {
+    entry.expected = std::move(expected);
+    if (entry.expected)
+        entry.left &= entry.expected->open;
+    else
+        entry.part = entry.left;
+}
+
 void OpenWork::enqueue(std::uint32_t row, Entry& entry) {
     entry.handle = queueOf(entry).add(task(row, entry));
+    if (entry.expected) queueOf(entry).rank(entry.handle, choosePart(row, entry));
 }
 
 /// There is more to it now. What was not put off keeps its age.
 void OpenWork::enqueueAnew(std::uint32_t row, Entry& entry) {
-    entry.looked = false;
+    entry.left = ~std::uint64_t(0);
+    setExpected(entry, nullptr);
     if (!isPutOff(entry)) return urgent_.rank(entry.handle, task(row, entry).worth);
     later_.remove(entry.handle);
     entry.putOff = 0;
@@ -102,9 +182,9 @@ void OpenWork::open(std::uint32_t row, std::span<const OpenBlock> blocks) {
     auto old = list.entries.begin();
     for (const OpenBlock& block : blocks) {
         for (; old != list.entries.end() && old->block < block.block; ++old)
-            if (old->open) merged.push_back(*old);
+            if (old->open) merged.push_back(std::move(*old));
         const bool same = old != list.entries.end() && old->block == block.block;
-        Entry entry = same ? *old++ : Entry{};
+        Entry entry = same ? std::move(*old++) : Entry{};
         if (entry.open) {
             const float before = entry.factor;
             entry.anew |= block.anew;
@@ -113,15 +193,16 @@ void OpenWork::open(std::uint32_t row, std::span<const OpenBlock> blocks) {
             add(entry.block, double(entry.factor) - double(before), list.power, 0);
             enqueueAnew(row, entry);
         } else {
-            entry = {block.anew, block.block, block.since, block.factor, 0, true};
+            entry = {block.anew, block.block, block.since, block.factor};
+            entry.open = true;
             add(entry.block, entry.factor, list.power, 1);
             ++list.open;
             enqueue(row, entry);
         }
-        merged.push_back(entry);
+        merged.push_back(std::move(entry));
     }
     for (; old != list.entries.end(); ++old)
-        if (old->open) merged.push_back(*old);
+        if (old->open) merged.push_back(std::move(*old));
     list.entries = std::move(merged);
 }
 
@@ -180,12 +261,20 @@ std::optional<OpenBlock> OpenWork::next(double enough, std::size_t& steps) {
             enqueue(row, entry);
             continue;
         }
+        const bool looks = !choice->overdue && order_->looks();
+        if (looks && entry.expected && entry.view != order_->view()) { // the viewer has moved
+            urgent_.rank(entry.handle, choosePart(row, entry));
+            continue;
+        }
+        const std::uint64_t receivers = choice->overdue ? entry.left : entry.part;
         return OpenBlock{row,
                          entry.block,
-                         entry.anew,
+                         entry.anew & receivers,
                          entry.since,
                          entry.factor,
-                         !entry.looked && !choice->overdue && order_->looks(),
+                         receivers,
+                         costOf(entry, receivers),
+                         looks && !entry.expected,
                          choice->overdue};
     }
     return {};
@@ -194,35 +283,28 @@ std::optional<OpenBlock> OpenWork::next(double enough, std::size_t& steps) {
 void OpenWork::close(const OpenBlock& block) {
     Entry& entry = *find(block.row, block.block);
     RowList& list = rows_[block.row];
-    urgent_.finish({entry.handle, {}, block.overdue});
+    const WorkQueue::Choice choice{entry.handle, {}, block.overdue};
+    taken_ += block.cost;
+    entry.left &= ~block.receivers;
+    entry.anew &= ~block.receivers;
+    if (entry.left != 0) return urgent_.finishPart(choice, worthOf(block.row, entry));
+    urgent_.finish(choice);
     add(entry.block, -double(entry.factor), list.power, -1);
     entry.open = false;
+    entry.expected.reset();
     if (--list.open == 0) list.entries.clear();
-    taken_ += double(cost(block));
 }
 
-void OpenWork::expect(std::uint32_t row, std::uint32_t block, const ExpectedFactor& expected) {
+void OpenWork::expect(std::uint32_t row, std::uint32_t block, const ExpectedFactors& expected) {
     Entry* const entry = find(row, block);
     if (!entry) return;
-    entry->looked = true;
-    entry->expected = expected;
-    queueOf(*entry).rank(entry->handle, task(row, *entry).worth);
+    setExpected(*entry, std::make_unique<ExpectedFactors>(expected));
+    queueOf(*entry).rank(entry->handle, choosePart(row, *entry));
 }
 
 void OpenWork::putBack(const OpenBlock& block) {
-    const Entry& entry = *find(block.row, block.block);
-    queueOf(entry).rank(entry.handle, task(block.row, entry).worth);
-}
-
-void OpenWork::learn(const OpenBlock& done, float share) {
-    constexpr float kAlike = 0.5f; // as much as the block beside it, that is likely
-    if (!order_->learns()) return;
-    for (const std::uint32_t beside : {done.block - 1, done.block + 1}) {
-        Entry* const entry = find(done.row, beside);
-        if (!entry || !entry->looked || entry->expected.share >= kAlike * share) continue;
-        entry->expected.share = kAlike * share;
-        queueOf(*entry).rank(entry->handle, task(done.row, *entry).worth);
-    }
+    Entry& entry = *find(block.row, block.block);
+    queueOf(entry).rank(entry.handle, worthOf(block.row, entry));
 }
 
 std::optional<OpenBlock> OpenWork::take(double enough, std::size_t& steps) {

@@ -4,6 +4,7 @@
 
 #include "importance/OrderOfWork.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -15,18 +16,22 @@ namespace penumbra {
 /// One block of one row that edits concern.
 struct OpenBlock {
     std::uint32_t row = 0, block = 0;
-    std::uint64_t anew = 0;  ///< bits: entries to be evaluated anew
-    std::uint32_t since = 0; ///< how many edits its entries have taken in
-    float factor = 0;        ///< F V of no entry changes by more
-    bool look = false;       ///< from next(): is to be looked at first, see expect()
-    bool overdue = false;    ///< from next(): comes for its age
+    std::uint64_t anew = 0;                      ///< bits: entries to be evaluated anew
+    std::uint32_t since = 0;                     ///< how many edits its entries have taken in
+    float factor = 0;                            ///< F V of no entry changes by more
+    std::uint64_t receivers = ~std::uint64_t(0); ///< bits: of which entries are to be worked on
+    double cost = 1;                             ///< from next(): about [rays]
+    bool look = false;                           ///< from next(): look first, see expect()
+    bool overdue = false;                        ///< from next(): comes for its age
 };
 
-/// How F V of a block's entries may be expected to change.
-struct ExpectedFactor {
-    float factor = 0; ///< mean over those that change
-    float share = 1;  ///< of them, in (0, 1]
-    float rays = 0;   ///< that it takes to find out
+/// What to expect of the entries of a block.
+struct ExpectedFactors {
+    static constexpr std::size_t kSize = 64;
+
+    std::uint64_t open = 0;            ///< bits: entries that may change at all
+    std::array<float, kSize> factor{}; ///< by how much F V changes, more or less
+    std::array<float, kSize> rays{};   ///< that it takes to find out
 };
 
 /// Open work, with a bound of what it may change found before any ray is traced. An entry of a
@@ -38,6 +43,13 @@ struct ExpectedFactor {
 /// its light is divided (docs/radiosity.md, section 6), changes by f as well. Bounds are summed up
 /// for each block of receivers, over all senders. Where the sum is small enough already, the rest
 /// of the work is put off: it stays open, and its bound is part of what is reported.
+///
+/// An order that looks at blocks has them done in parts: of the receivers that are still open, in
+/// the order of what is gained at each per ray, as many as make the most of a visit,
+///
+///     max over n of (gain_1 + ... + gain_n) / (visit + rays_1 + ... + rays_n)
+///
+/// come first, and the rest is worth what the next such part is.
 class OpenWork {
 public:
     /// In the order of bound / cost, until another is set. \param visitCost of a block of which
@@ -47,6 +59,11 @@ public:
     void setOrder(std::shared_ptr<const OrderOfWork> order);
     /// The viewer has moved: what work is worth is asked for again.
     void rekey();
+    /// What waits for longer than this gets a share of the work, whatever else is worth more
+    /// [rays].
+    void setPatience(double rays);
+    /// Whether blocks are never done in parts, as where they are shown as wholes only.
+    void setWhole(bool whole);
     /// What working on a block costs, about [rays].
     std::size_t cost(const OpenBlock& block) const;
 
@@ -69,16 +86,14 @@ public:
     /// \param steps tasks of the queue to go through at most; those that were are taken off
     /// \return nothing: none is left, or no step
     std::optional<OpenBlock> next(double enough, std::size_t& steps);
-    /// Is worked on, and not open any more. \param block from next()
+    /// Is worked on, and not open any more but for receivers that are not among its own.
+    /// \param block from next()
     void close(const OpenBlock& block);
     /// What is expected of an open block; one that is not open is left alone.
-    void expect(std::uint32_t row, std::uint32_t block, const ExpectedFactor& expected);
+    void expect(std::uint32_t row, std::uint32_t block, const ExpectedFactors& expected);
     void putBack(const OpenBlock& block); ///< from next(): not now
     /// next() and close().
     std::optional<OpenBlock> take(double enough, std::size_t& steps);
-    /// What came of a block says what to expect of those beside it.
-    /// \param share of its entries that changed, in [0, 1]
-    void learn(const OpenBlock& done, float share);
 
     /// Whether take() may give anything.
     bool pending(double enough) const { return count_ > 0 && (enough <= 0 || !urgent_.empty()); }
@@ -108,9 +123,11 @@ private:
         std::uint32_t block, since;
         float factor;
         WorkQueue::Handle handle = 0; ///< in its queue
-        bool open = false, looked = false;
-        std::uint32_t putOff = 0;  ///< the value of swaps_ when it was
-        ExpectedFactor expected{}; ///< if it was looked at
+        bool open = false;
+        std::uint32_t putOff = 0; ///< the value of swaps_ when it was
+        std::uint32_t view = 0;   ///< the order's, when the next part was chosen
+        std::uint64_t left = ~std::uint64_t(0), part = ~std::uint64_t(0); ///< bits: receivers
+        std::unique_ptr<ExpectedFactors> expected{};                      ///< if it was looked at
     };
     struct RowList {
         std::vector<Entry> entries; ///< by block
@@ -122,6 +139,10 @@ private:
         std::uint32_t count = 0;
     };
     WorkQueue::Task task(std::uint32_t row, const Entry& entry) const;
+    double costOf(const Entry& entry, std::uint64_t receivers) const;
+    WorkQueue::Worth choosePart(std::uint32_t row, Entry& entry);
+    WorkQueue::Worth worthOf(std::uint32_t row, Entry& entry);
+    void setExpected(Entry& entry, std::unique_ptr<ExpectedFactors> expected);
     void enqueue(std::uint32_t row, Entry& entry);
     void enqueueAnew(std::uint32_t row, Entry& entry);
     void add(std::uint32_t block, double factor, double power, int count);
@@ -134,6 +155,8 @@ private:
     std::vector<Receivers> receivers_; ///< likewise
     std::size_t visitCost_;
     std::shared_ptr<const OrderOfWork> order_;
+    bool whole_ = false;
+    double patience_ = 4e6;    ///< [rays]
     WorkQueue urgent_, later_; ///< later_: those that were put off
     std::uint32_t swaps_ = 1;  ///< of the two; what was put off before the last one is not now
     std::size_t count_ = 0;

@@ -38,6 +38,9 @@ public:
         return true;
     }
 
+    /// How long a ray's worth of a kind of work takes [s].
+    double secondsPerRay(Kind kind) const { return perRay_[kind]; }
+
 private:
     static constexpr double kFirstGuess = 1e-6; ///< [s/ray]
 

@@ -33,6 +33,9 @@ struct alignas(64) ShadowRays {
     }
 };
 
+/// Those of some segments (bits) that meet a box.
+std::uint32_t lanesThatMeet(const ShadowRays& rays, std::uint32_t lanes, const Bounds& box);
+
 /// The objects of a scene, each one geometry of its own in one flat Embree scene, so that an object
 /// can be moved by refitting, and traced alone. Tracing is thread-safe, changes are not.
 class RayScene {

@@ -32,27 +32,6 @@ std::uint32_t blockerOf(const RowBlock::Draft& draft, int sample) {
     return kNone;
 }
 
-/// Segments of `lanes` that meet a box.
-std::uint32_t lanesThatMeet(const ShadowRays& rays, std::uint32_t lanes, const Bounds& box) {
-    float first[16], last[16];
-    for (int i = 0; i < 16; ++i) first[i] = 0, last[i] = 1;
-    const auto clip = [&](const float* origin, const float* direction, float lower, float upper) {
-        for (int i = 0; i < 16; ++i) {
-            const float inverse = 1.0f / direction[i];
-            const float a = (lower - origin[i]) * inverse, b = (upper - origin[i]) * inverse;
-            const float near = a < b ? a : b, far = a < b ? b : a;
-            first[i] = near > first[i] ? near : first[i]; // not a number: changes nothing
-            last[i] = far < last[i] ? far : last[i];
-        }
-    };
-    clip(rays.originX, rays.directionX, box.lower.x, box.upper.x);
-    clip(rays.originY, rays.directionY, box.lower.y, box.upper.y);
-    clip(rays.originZ, rays.directionZ, box.lower.z, box.upper.z);
-    std::uint32_t meet = 0;
-    for (int i = 0; i < 16; ++i) meet |= std::uint32_t(first[i] <= last[i]) << i;
-    return meet & lanes;
-}
-
 bool segmentMeets(glm::vec3 from, glm::vec3 to, const Bounds& box) {
     const Bounds start{from, from};
     return sweepMeets(start, to - from, to - from, 1.0f, box);
@@ -193,6 +172,7 @@ int RowBuilder::updateEmitterBlock(const EmitterSender& sender, const ReceiverBl
     int changed = 0;
     for (std::size_t r = 0; r < drafts.size(); ++r) {
         RowBlock::Draft& draft = drafts[r];
+        if (!(receivers.some >> r & 1)) continue;
         if (anew >> r & 1) {
             const bool before = draft.formFactor > 0, wanted = receivers.wanted >> r & 1;
             draft.begin(wanted ? sender.formFactor(receivers.receivers[r]) : 0.0f);

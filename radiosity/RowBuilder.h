@@ -36,6 +36,7 @@ struct ReceiverBlock {
     std::span<const Receiver> receivers;
     std::uint64_t wanted = ~std::uint64_t(0); ///< bits: receivers that need an entry
     std::uint32_t key = 0;                    ///< of the first; names it in every scene that has it
+    std::uint64_t some = ~std::uint64_t(0);   ///< bits: of which entries are brought up to date
 };
 
 /// An object that is not where it was.
@@ -75,7 +76,8 @@ public:
     /// the form factor (1, 4 or 16); which ones is a fixed function of the pair's keys.
     void patchBlock(const PatchSender& sender, const ReceiverBlock& receivers, RowBlock& block);
 
-    /// Brings a block up to date: direct light from an emitter, indirect light from a patch.
+    /// Brings a block up to date: direct light from an emitter, of some of its entries, or indirect
+    /// light from a patch.
     /// \param anew bits: entries to be evaluated anew
     /// \return the number of entries that are not what they were
     int updateEmitterBlock(const EmitterSender& sender, const ReceiverBlock& receivers,

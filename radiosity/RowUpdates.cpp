@@ -193,7 +193,7 @@ void RowUpdates::allFound() {
 std::size_t RowUpdates::lookAt(const Expect& expect) {
     constexpr std::size_t kGrain = 8;
     while (looks_.size() < kMostLooks / kGrain) looks_.emplace_back(rayScene_);
-    std::vector<ExpectedFactor> expected(unseen_.size());
+    std::vector<ExpectedFactors> expected(unseen_.size());
     parallelFor(unseen_.size(), kGrain, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             expected[i] = expect(looks_[first / kGrain], unseen_[i], movedSince(unseen_[i].since));
@@ -204,6 +204,26 @@ std::size_t RowUpdates::lookAt(const Expect& expect) {
     const std::size_t cost = unseen_.size() * ChangeLook::kCost;
     unseen_.clear();
     return cost;
+}
+
+/// Parts of the same block are worked on as one.
+void RowUpdates::uniteParts() {
+    const auto isPart = [](const OpenBlock& item) { return ~item.receivers != 0; };
+    if (std::none_of(items_.begin(), items_.end(), isPart)) return;
+    std::sort(items_.begin(), items_.end(), [](const OpenBlock& a, const OpenBlock& b) {
+        return a.row != b.row ? a.row < b.row : a.block < b.block;
+    });
+    std::size_t count = 0;
+    for (const OpenBlock& item : items_) {
+        OpenBlock* const last = count > 0 ? &items_[count - 1] : nullptr;
+        if (last && last->row == item.row && last->block == item.block) {
+            last->receivers |= item.receivers;
+            last->anew |= item.anew;
+        } else {
+            items_[count++] = item;
+        }
+    }
+    items_.resize(count);
 }
 
 /// Takes what is to be worked on next. Blocks that might come first are looked at before that: only
@@ -222,12 +242,13 @@ void RowUpdates::choose(std::size_t effort, double enough, const Expect& expect)
         } else if (item) {
             open_.close(*item);
             items_.push_back(*item);
-            sum += open_.cost(*item);
+            sum += std::size_t(item->cost);
         } else {
             break;
         }
     }
     if (!unseen_.empty()) lookAt(expect);
+    uniteParts();
 }
 
 std::span<const OpenBlock> RowUpdates::work(std::size_t effort, double enough, const Facts& facts,
@@ -239,7 +260,6 @@ std::span<const OpenBlock> RowUpdates::work(std::size_t effort, double enough, c
     }
     choose(effort, enough, expect);
     const auto items = std::span<const OpenBlock>(items_);
-    std::vector<int> entriesOf(items.size());
     const std::size_t tasks = (items.size() + grain_ - 1) / grain_;
     while (builders_.size() < std::min<std::size_t>(tasks, 64)) builders_.emplace_back(rayScene_);
     // A builder a task of a round: results do not depend on which thread does what.
@@ -253,7 +273,6 @@ std::span<const OpenBlock> RowUpdates::work(std::size_t effort, double enough, c
             for (std::size_t i = begin; i < end; ++i) {
                 const OpenBlock& item = items[first + i];
                 const int entries = update(builder, item, movedSince(item.since), first + i);
-                entriesOf[first + i] = entries;
                 if (entries == 0) continue;
                 changed[begin / grain_] += std::uint64_t(entries);
                 RowTable::listBlockers(set_, item.row, item.block, table_[item.row][item.block],
@@ -263,8 +282,6 @@ std::span<const OpenBlock> RowUpdates::work(std::size_t effort, double enough, c
         for (std::uint64_t n : changed) entriesChanged_ += n;
         for (const auto& some : notes) table_.note(some);
     }
-    for (std::size_t i = 0; i < items.size(); ++i)
-        if (items[i].anew == 0) open_.learn(items[i], float(entriesOf[i]) / PatchSet::kBlock);
     for (RowBuilder& builder : builders_) rays_ += builder.takeRayCount();
     blocksVisited_ += items.size();
     if (open_.count() == 0) moved_.clear(), movedWhen_.clear();

@@ -56,8 +56,8 @@ public:
     using Update = std::function<int(RowBuilder& builder, const OpenBlock& item,
                                      std::span<const MovedObject> moved, std::size_t index)>;
     /// Says what to expect of a block, if the order asks for it; called on several threads.
-    using Expect = std::function<ExpectedFactor(ChangeLook& look, const OpenBlock& item,
-                                                std::span<const MovedObject> moved)>;
+    using Expect = std::function<ExpectedFactors(ChangeLook& look, const OpenBlock& item,
+                                                 std::span<const MovedObject> moved)>;
     /// Does a piece of about `effort` rays' worth: finds what edits concern, or works on it.
     /// \param enough what may stay open, see OpenWork::take()
     /// \param update called for each item on several threads; `index` counts from 0
@@ -93,6 +93,7 @@ private:
     void allFound();
     void choose(std::size_t effort, double enough, const Expect& expect);
     std::size_t lookAt(const Expect& expect);
+    void uniteParts();
     /// What is looked through at a time: all of a row, or some blocks of one with very many.
     struct Look {
         std::uint32_t row = 0;

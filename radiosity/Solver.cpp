@@ -45,6 +45,7 @@ Solver::~Solver() = default;
 void Solver::attend(const Attention& attention) {
     attention_ = attention;
     if (options_.order != UpdateOrder::importance) return;
+    direct_.setWhole(attention.whole);
     const double ambient = meanRadiosity();
     if (seen_) {
         seen_->attend(attention, ambient);
@@ -107,6 +108,10 @@ bool Solver::stepUntilReady(double budget, const Progress& progress) {
     return run(budget, &ready_, progress) || ready_;
 }
 
+/// What nobody sees waits for so long while something is moved all the time; then it has a share of
+/// the work, see OpenWork [s].
+constexpr double kPatience = 0.5;
+
 /// \param until it becomes true, if that is not null
 /// \return whether there is nothing left to do
 bool Solver::run(double budget, const bool* until, const Progress& progress) {
@@ -114,6 +119,7 @@ bool Solver::run(double budget, const bool* until, const Progress& progress) {
     const std::size_t most = budget > 1 ? kMostEffort : kMostPromptEffort;
     for (double left = budget; left > 0 && !(until && *until);
          left = budget - (seconds() - start)) {
+        direct_.setPatience(kPatience / pace_.secondsPerRay(Pace::direct));
         pace_.aim(std::min(budget > 1 ? 0.05 : kPause, std::max(left, 0.5 * kPause)), most);
         if (!work(pace_, progress)) return true;
     }

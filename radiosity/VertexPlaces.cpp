@@ -1,6 +1,7 @@
 #include "radiosity/VertexPlaces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace penumbra {
@@ -31,6 +32,8 @@ VertexPlaces::VertexPlaces(const PatchSet& patches, std::size_t most) : patches_
 
 /// How large places are, and what they reflect. Each corner has its share of an element.
 void VertexPlaces::measure() {
+    area_.assign(patches_.firstPrivate, 0);
+    reflectance_.assign(patches_.firstPrivate, 0);
     for (std::size_t e = 0; e < patches_.uncoveredElements.size(); ++e) {
         const Element& element = patches_.uncoveredElements[e];
         if (element.patch == Element::kNone) continue;
@@ -38,8 +41,13 @@ void VertexPlaces::measure() {
         if (block >= clusters_.placeOf.size()) continue;
         WorkPlace& place = clusters_.places[clusters_.placeOf[block]];
         const float area = elementArea(patches_, element);
+        const float reflectance = luminance(patches_.materials[element.material].reflectance);
+        for (const std::uint32_t v : element.vertices) { // a triangle's last corner counts twice
+            area_[v] += area / 4;
+            reflectance_[v] = reflectance;
+        }
         place.area += area;
-        place.reflectance += area * luminance(patches_.materials[element.material].reflectance);
+        place.reflectance += area * reflectance;
     }
     for (std::uint32_t p = 0; p < size(); ++p) {
         WorkPlace& place = clusters_.places[p];
@@ -87,6 +95,26 @@ WorkPlace VertexPlaces::at(std::uint32_t index, std::span<const Rgb> light) cons
     });
     if (count > 0)
         place.luminance = place.reflectance * sum / count * std::numbers::inv_pi_v<float>;
+    return place;
+}
+
+WorkPlace VertexPlaces::atVertex(std::size_t v, Rgb light) const {
+    const Receiver& receiver = patches_.vertices[v].receiver;
+    WorkPlace place;
+    if (isPadding(receiver)) return place;
+    if (v < patches_.firstPrivate) {
+        place.area = area_[v];
+        place.reflectance = reflectance_[v];
+    } else {
+        const Element& element =
+            patches_.uncoveredElements[patches_.privateElement[v - patches_.firstPrivate]];
+        place.area = elementArea(patches_, element) / 4;
+        place.reflectance = luminance(patches_.materials[element.material].reflectance);
+    }
+    const glm::vec3 half(0.5f * std::sqrt(place.area));
+    place.box = {receiver.position - half, receiver.position + half};
+    place.normal = receiver.normal;
+    place.luminance = place.reflectance * luminance(light) * std::numbers::inv_pi_v<float>;
     return place;
 }
 

@@ -31,6 +31,12 @@ public:
 
     /// A place as it stands; its luminance is not known.
     const WorkPlace& known(std::uint32_t place) const { return clusters_.places[place]; }
+    const Receiver& receiver(std::size_t vertex) const {
+        return patches_.vertices[vertex].receiver;
+    }
+    /// A vertex as a place of its own; padding is one without area. \param light its illuminance
+    /// [lux]
+    WorkPlace atVertex(std::size_t vertex, Rgb light) const;
     /// A place as it is now. \param light illuminance of the vertices [lux]
     WorkPlace at(std::uint32_t place, std::span<const Rgb> light) const;
     /// How much of a place can be seen from somewhere.
@@ -50,6 +56,7 @@ private:
 
     const PatchSet& patches_;
     PlaceClusters clusters_;
+    std::vector<float> area_, reflectance_; ///< of vertices that are not private
     std::vector<std::uint32_t> firstBlock_; ///< one a place; its blocks are consecutive
 };
 

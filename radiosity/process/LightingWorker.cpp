@@ -153,6 +153,7 @@ void LightingWorker::takeLamps(ByteReader& message) {
     lampSet_ = message.get<std::uint32_t>();
     lamps_.resize(std::min(message.count(sizeof(std::uint64_t)), kMostLiveLamps));
     for (std::string& path : lamps_) path = message.text();
+    viewer_.setWhole(!lamps_.empty());
     if (publisher_) publisher_->setLiveLamps(lampSet_, lamps_);
     marked_ = false;
 }

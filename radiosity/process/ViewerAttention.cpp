@@ -31,11 +31,17 @@ void ViewerAttention::setMoved(const std::optional<Bounds>& box) {
     stale_ = true;
 }
 
+void ViewerAttention::setWhole(bool whole) {
+    stale_ |= std::exchange(whole_, whole) != whole;
+}
+
 void ViewerAttention::tell(Solver& solver, double now) {
     constexpr double kOften = 0.03; // [s]
     if (std::exchange(orderStale_, false)) solver.setOrder(order_);
     if (!stale_ || !camera_ || now - told_ < kOften) return;
-    solver.attend(attentionFor(*camera_, moved_));
+    Attention attention = attentionFor(*camera_, moved_);
+    attention.whole = whole_;
+    solver.attend(attention);
     stale_ = false;
     told_ = now;
 }

@@ -19,6 +19,8 @@ public:
     void setCamera(const View& view);
     /// Things were moved. \param box around them [m, world]; none: nothing was, but other edits
     void setMoved(const std::optional<Bounds>& box);
+    /// Whether light is shown by whole blocks only, as it is while lamps are live.
+    void setWhole(bool whole);
     /// The solver is another one: it knows nothing.
     void solverIsNew() { orderStale_ = stale_ = true; }
 
@@ -31,6 +33,7 @@ private:
     UpdateOrder order_ = UpdateOrder::importance;
     std::optional<View> camera_;
     std::optional<Bounds> moved_;
+    bool whole_ = false;
     bool orderStale_ = true, stale_ = false;
     double told_ = 0; ///< when [s]
 };

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
+#include <span>
 #include <vector>
 
 namespace penumbra {
@@ -99,6 +101,27 @@ TEST_F(TwoPlaces, ImportanceTakesWhatTheViewerSees) {
     EXPECT_THAT(sorted(order, kWork), ElementsAre(0, 2, 1, 3));
     order.attend(looking(180));
     EXPECT_THAT(sorted(order, kWork), ElementsAre(1, 3, 0, 2));
+}
+
+TEST_F(TwoPlaces, ImportanceGainsWhereReceiversAreSeen) {
+    const auto close = [](std::uint32_t, std::uint64_t which, std::span<PlaceValue> values) {
+        EXPECT_EQ(which, 0b11u);
+        values[0] = {100, 1, false}, values[1] = {1, 1, false}; // pixels; steps per nit
+    };
+    ImportanceOrder order({0, 1}, sight, close);
+    EXPECT_FALSE(order.looks()) << "nobody is there";
+    order.attend(looking(0));
+    EXPECT_TRUE(order.looks());
+    const std::uint32_t view = order.view();
+    order.attend(looking(1));
+    EXPECT_NE(order.view(), view);
+    const float nit = std::numbers::pi_v<float>; // in what is reflected [lm/m^2]
+    const std::vector<float> change{nit, nit, 0};
+    std::vector<float> gains(3);
+    order.gains({}, change, gains);
+    EXPECT_NEAR(gains[0], 100 * 0.5, 1e-3); // g(1) = 1/2
+    EXPECT_NEAR(gains[1], 0.5, 1e-5);
+    EXPECT_EQ(gains[2], 0);
 }
 
 TEST_F(TwoPlaces, ImportanceCountsWhatHasNoPlaceAsSomethingInView) {

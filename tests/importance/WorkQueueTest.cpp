@@ -190,6 +190,32 @@ TEST(WorkQueue, KnowsItsOldestWork) {
     EXPECT_EQ(queue.size(), 1u);
 }
 
+TEST(WorkQueue, WhatGainsSoMuchIsWorthThatPerCost) {
+    WorkQueue queue;
+    queue.rekey([](std::uint32_t place) { return PlaceValue{2.0 + place, 0.3, false}; });
+    const auto add = [&](double gain, double cost) {
+        return queue.add({.place = 1, .id = 0, .worth = queue.worthOf(1, gain, cost)});
+    };
+    EXPECT_NEAR(queue.value(add(6, 4)), 1.5, 1e-5);
+    EXPECT_NEAR(queue.value(add(1e-3, 4)), 2.5e-4, 1e-9);
+    EXPECT_GT(queue.value(add(0, 4)), 0) << "nothing is ever worth nothing";
+    const WorkQueue::Handle seen = add(6, 4);
+    queue.rekey([](std::uint32_t) { return PlaceValue{30, 0.3, false}; });
+    EXPECT_NEAR(queue.value(seen), 15, 1e-4) << "ten times the pixels";
+}
+
+TEST(WorkQueue, WhatIsDoneInPartStaysOpenWithItsAge) {
+    WorkQueue queue({.patience = 100, .reserve = 0.25});
+    queue.rekey([](std::uint32_t) { return weight(1); });
+    queue.add({.place = 0, .id = 7, .worth = {.change = 9}, .since = 1});
+    queue.add({.place = 0, .id = 8, .worth = {.change = 5}, .since = 3});
+    queue.finishPart(*queue.choose(4), {.change = 1});
+    EXPECT_EQ(queue.size(), 2u);
+    EXPECT_EQ(queue.oldest(4), 1);
+    EXPECT_EQ(queue.take(4)->id, 8u);
+    EXPECT_EQ(queue.take(4)->id, 7u);
+}
+
 /// The order by clusters is that of the tasks' own values, however they come and are keyed.
 RC_GTEST_PROP(WorkQueue, TakesWhatASortedListWouldHaveFirst, ()) {
     struct Open {

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <bit>
+
 namespace penumbra {
 
 namespace {
@@ -171,6 +173,94 @@ TEST_F(OpenWorkOfTwoRows, FollowsAnOrderThatChangesItsMind) {
     work.rekey();
     open(1, {block(3, 0.1f)});
     EXPECT_THAT(takeAll(0), ElementsAre(0, 1, 13));
+}
+
+/// Gains are the expected changes, of the upper half of a block twice as much from the second view.
+class Looking : public BoundOrder {
+public:
+    bool looks() const override { return true; }
+    void gains(const BlockOfWork&, std::span<const float> change,
+               std::span<float> gains) const override {
+        for (std::size_t r = 0; r < change.size(); ++r)
+            gains[r] = change[r] * (r >= 32 && turned ? 4.0f : 1.0f);
+    }
+    std::uint32_t view() const override { return turned; }
+    bool turned = false;
+};
+
+/// Much is to be gained at the receivers 3, 5 and 40 of a block, a little at 7, and all others are
+/// what they should be.
+ExpectedFactors fewOpen() {
+    ExpectedFactors expected;
+    expected.open = 1u << 3 | 1u << 5 | 1u << 7 | std::uint64_t(1) << 40;
+    expected.factor[3] = expected.factor[5] = expected.factor[40] = 0.1f;
+    expected.factor[7] = 1e-4f;
+    for (const std::size_t r : {3u, 5u, 7u, 40u}) expected.rays[r] = 16;
+    return expected;
+}
+
+TEST_F(OpenWorkOfTwoRows, ComesInPartsIfTheOrderLooks) {
+    work.setOrder(std::make_shared<Looking>());
+    open(0, {block(0, 0.1f, 0b1000, 3), block(1, 0.01f)});
+    std::size_t steps = 100;
+    ASSERT_TRUE(work.next(0, steps)->look);
+    work.expect(0, 0, fewOpen());
+    const auto first = work.take(0, steps);
+    ASSERT_TRUE(first);
+    EXPECT_EQ(first->block, 0u);
+    EXPECT_FALSE(first->look);
+    EXPECT_EQ(first->receivers, 1u << 3 | 1u << 5 | std::uint64_t(1) << 40);
+    EXPECT_EQ(first->anew, 0b1000u);
+    EXPECT_EQ(work.count(), 2u) << "the rest stays open";
+    EXPECT_GT(work.bound(0), 0);
+    EXPECT_TRUE(work.next(0, steps)->look) << "the other block may be worth more than the rest";
+    work.expect(0, 1, {});
+    const auto rest = work.take(0, steps);
+    EXPECT_EQ(rest->block, 0u);
+    EXPECT_EQ(rest->receivers, 1u << 7);
+    EXPECT_EQ(rest->anew, 0u);
+    EXPECT_EQ(rest->since, 3u);
+    EXPECT_EQ(work.take(0, steps)->receivers, 0u) << "nothing is to be done there";
+    EXPECT_EQ(work.count(), 0u);
+    EXPECT_EQ(work.bound(0), 0);
+}
+
+TEST_F(OpenWorkOfTwoRows, PartsFollowTheViewWithoutAnotherLook) {
+    const auto order = std::make_shared<Looking>();
+    work.setOrder(order);
+    open(0, {block(0, 0.1f)});
+    work.expect(0, 0, fewOpen());
+    order->turned = true;
+    work.rekey();
+    std::size_t steps = 100;
+    const auto first = work.take(0, steps);
+    ASSERT_TRUE(first);
+    EXPECT_FALSE(first->look);
+    EXPECT_EQ(first->receivers, std::uint64_t(1) << 40);
+    EXPECT_EQ(work.take(0, steps)->receivers, 1u << 3 | 1u << 5);
+}
+
+TEST_F(OpenWorkOfTwoRows, WhatComesToAPartOpensAllOfTheBlockAgain) {
+    work.setOrder(std::make_shared<Looking>());
+    open(0, {block(0, 0.1f, 0, 3)});
+    work.expect(0, 0, fewOpen());
+    std::size_t steps = 100;
+    ASSERT_EQ(std::popcount(work.take(0, steps)->receivers), 3);
+    open(0, {block(0, 0.1f, 0b1, 4)});
+    const auto again = work.next(0, steps);
+    EXPECT_TRUE(again->look);
+    EXPECT_EQ(~again->receivers, 0u);
+    EXPECT_EQ(again->since, 3u); // of those that were left
+}
+
+TEST_F(OpenWorkOfTwoRows, IsDoneAsAWholeIfItIsShownAsAWhole) {
+    work.setOrder(std::make_shared<Looking>());
+    work.setWhole(true);
+    open(0, {block(0, 0.1f)});
+    work.expect(0, 0, fewOpen());
+    std::size_t steps = 100;
+    EXPECT_EQ(work.take(0, steps)->receivers, fewOpen().open);
+    EXPECT_EQ(work.count(), 0u);
 }
 
 } // namespace
