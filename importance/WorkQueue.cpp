@@ -22,13 +22,18 @@ double WorkQueue::boundOf(const Place& at) {
     return at.tasks.empty() ? 0 : (1 + 1e-6) * workValue(at.value, at.mostChange, at.leastCost);
 }
 
-double WorkQueue::valueOf(const Place& at, const Worth& worth) const {
-    return workValue(at.value, worth.change, double(worth.cost) / double(worth.share));
+double WorkQueue::valueOf(const PlaceValue& at, const Worth& worth) {
+    return workValue(at, worth.change, double(worth.cost) / double(worth.share));
 }
 
 double WorkQueue::value(Handle handle) const {
-    const WorkQueue::Task& task = slots_[handle].task;
-    return valueOf(places_[task.place], task.worth);
+    return value(slots_[handle].task);
+}
+
+double WorkQueue::value(const Task& task) const {
+    if (task.place < places_.size() && places_[task.place].keyed == rekeys_)
+        return valueOf(places_[task.place].value, task.worth);
+    return valueOf(value_ ? value_(task.place) : PlaceValue(), task.worth);
 }
 
 WorkQueue::Handle WorkQueue::add(const Task& task) {
@@ -63,7 +68,7 @@ void WorkQueue::insert(Handle handle) {
     Place& at = placeAt(slot.task.place);
     at.mostChange = std::max(at.mostChange, worth.change);
     at.leastCost = std::min(at.leastCost, worth.cost / worth.share);
-    at.tasks.push_back({valueOf(at, worth), slot.serial, handle, ++slot.ranking});
+    at.tasks.push_back({valueOf(at.value, worth), slot.serial, handle, ++slot.ranking});
     if (at.ordered) std::push_heap(at.tasks.begin(), at.tasks.end());
     if (at.position == kOut) {
         at.position = heap_.size();
@@ -107,7 +112,7 @@ void WorkQueue::order(Place& at) {
     at.leastCost = std::numeric_limits<float>::infinity();
     for (Ranked& ranked : at.tasks) {
         const Worth& worth = slots_[ranked.slot].task.worth;
-        ranked.value = valueOf(at, worth);
+        ranked.value = valueOf(at.value, worth);
         at.mostChange = std::max(at.mostChange, worth.change);
         at.leastCost = std::min(at.leastCost, worth.cost / worth.share);
     }

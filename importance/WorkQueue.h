@@ -88,6 +88,8 @@ public:
 
     /// What a task that is open is ranked by now, see workValue().
     double value(Handle handle) const;
+    /// What it would be ranked by if it were added.
+    double value(const Task& task) const;
 
     std::size_t size() const { return size_; }
     bool empty() const { return size_ == 0; }
@@ -127,7 +129,7 @@ private:
     Place& placeAt(std::uint32_t index);
     bool before(std::uint32_t a, std::uint32_t b) const;
     static double boundOf(const Place& place);
-    double valueOf(const Place& place, const Worth& worth) const;
+    static double valueOf(const PlaceValue& place, const Worth& worth);
     void insert(Handle handle);
     /// Whether an entry of a place's list counts for nothing any more.
     bool stale(const Ranked& ranked) const {

@@ -45,7 +45,7 @@ Part bestPart(std::uint64_t open, std::span<const float> gains, std::span<const 
 } // namespace
 
 OpenWork::OpenWork(std::size_t rows, std::size_t visitCost)
-    : rows_(rows), visitCost_(visitCost), urgent_(kFairness), later_(kFairness) {
+    : rows_(rows), visitCost_(visitCost), queue_(kFairness) {
     setOrder(std::make_shared<const BoundOrder>());
 }
 
@@ -56,34 +56,33 @@ std::size_t OpenWork::cost(const OpenBlock& block) const {
 
 void OpenWork::setOrder(std::shared_ptr<const OrderOfWork> order) {
     order_ = std::move(order);
-    urgent_ = later_ = WorkQueue(kFairness);
+    queue_ = WorkQueue(kFairness);
     setPatience(patience_);
     rekey();
-    for (std::uint32_t row = 0; row < rows_.size(); ++row)
-        for (Entry& entry : rows_[row].entries)
-            if (entry.open) {
-                entry.putOff = 0;
-                if (!order_->looks()) setExpected(entry, nullptr);
-                enqueue(row, entry);
-            }
+    for (std::uint32_t row = 0; row < rows_.size(); ++row) {
+        for (Entry& entry : rows_[row].entries) {
+            entry.handle = kPutOff;
+            if (entry.open && !order_->looks()) setExpected(entry, nullptr);
+        }
+        setUnsorted(row);
+    }
 }
 
 void OpenWork::rekey() {
-    for (WorkQueue* queue : {&urgent_, &later_})
-        queue->rekey([order = order_](std::uint32_t place) { return order->value(place); });
+    queue_.rekey([order = order_](std::uint32_t place) { return order->value(place); });
 }
 
 void OpenWork::setPatience(double rays) {
     patience_ = rays;
-    urgent_.setPatience(rays);
-    later_.setPatience(rays);
+    queue_.setPatience(rays);
 }
 
 void OpenWork::setWhole(bool whole) {
     if (std::exchange(whole_, whole) == whole) return;
     for (std::uint32_t row = 0; row < rows_.size(); ++row)
         for (Entry& entry : rows_[row].entries)
-            if (entry.open) queueOf(entry).rank(entry.handle, worthOf(row, entry));
+            if (entry.open && entry.handle != kPutOff)
+                queue_.rank(entry.handle, worthOf(row, entry));
 }
 
 void OpenWork::setReceivers(std::vector<Receivers> blocks) {
@@ -144,7 +143,7 @@ WorkQueue::Worth OpenWork::choosePart(std::uint32_t row, Entry& entry) {
     const Part part = bestPart(entry.left, gains, entry.expected->rays, whole_);
     entry.part = part.receivers;
     entry.view = order_->view();
-    return queueOf(entry).worthOf(known.place, part.gain, part.cost);
+    return queue_.worthOf(known.place, part.gain, part.cost);
 }
 
 WorkQueue::Worth OpenWork::worthOf(std::uint32_t row, Entry& entry) {
@@ -160,18 +159,43 @@ void OpenWork::setExpected(Entry& entry, std::unique_ptr<ExpectedFactors> expect
 }
 
 void OpenWork::enqueue(std::uint32_t row, Entry& entry) {
-    entry.handle = queueOf(entry).add(task(row, entry));
-    if (entry.expected) queueOf(entry).rank(entry.handle, choosePart(row, entry));
+    entry.handle = queue_.add(task(row, entry));
+    if (entry.expected) queue_.rank(entry.handle, choosePart(row, entry));
 }
 
-/// There is more to it now. What was not put off keeps its age.
-void OpenWork::enqueueAnew(std::uint32_t row, Entry& entry) {
+void OpenWork::putOff(Entry& entry) {
+    if (const WorkQueue::Handle handle = std::exchange(entry.handle, kPutOff); handle != kPutOff)
+        queue_.remove(handle);
+}
+
+/// There is more to it now. What is not put off keeps its age.
+void OpenWork::openAnew(std::uint32_t row, Entry& entry) {
     entry.left = ~std::uint64_t(0);
     setExpected(entry, nullptr);
-    if (!isPutOff(entry)) return urgent_.rank(entry.handle, task(row, entry).worth);
-    later_.remove(entry.handle);
-    entry.putOff = 0;
-    enqueue(row, entry);
+    if (entry.handle != kPutOff) queue_.rank(entry.handle, task(row, entry).worth);
+}
+
+void OpenWork::setUnsorted(std::uint32_t row) {
+    RowList& list = rows_[row];
+    if (list.open > 0 && !std::exchange(list.unsorted, true)) unsorted_.push_back(row);
+}
+
+/// Puts into the queue what belongs there; false: no step is left for it.
+bool OpenWork::sort(double enough, std::size_t& steps) {
+    for (; !unsorted_.empty() && steps > 0; unsorted_.pop_front()) {
+        constexpr std::size_t kAtOnce = 8; // looked at in the time of a step
+        RowList& list = rows_[unsorted_.front()];
+        list.unsorted = false;
+        std::size_t queued = 0;
+        for (Entry& entry : list.entries) {
+            if (!entry.open || entry.handle != kPutOff) continue;
+            if (enough > 0 && bound(entry.block) <= enough) continue;
+            enqueue(unsorted_.front(), entry);
+            ++queued;
+        }
+        steps -= std::min(steps, 1 + queued + list.entries.size() / kAtOnce);
+    }
+    return unsorted_.empty();
 }
 
 void OpenWork::open(std::uint32_t row, std::span<const OpenBlock> blocks) {
@@ -191,27 +215,27 @@ void OpenWork::open(std::uint32_t row, std::span<const OpenBlock> blocks) {
             entry.since = std::min(entry.since, block.since);
             entry.factor = std::max(before, block.factor);
             add(entry.block, double(entry.factor) - double(before), list.power, 0);
-            enqueueAnew(row, entry);
+            openAnew(row, entry);
         } else {
             entry = {block.anew, block.block, block.since, block.factor};
             entry.open = true;
             add(entry.block, entry.factor, list.power, 1);
             ++list.open;
-            enqueue(row, entry);
         }
         merged.push_back(std::move(entry));
     }
     for (; old != list.entries.end(); ++old)
         if (old->open) merged.push_back(std::move(*old));
     list.entries = std::move(merged);
+    setUnsorted(row);
 }
 
 void OpenWork::drop(std::uint32_t row) {
     RowList& list = rows_[row];
-    for (const Entry& entry : list.entries) {
+    for (Entry& entry : list.entries) {
         if (!entry.open) continue;
         add(entry.block, -double(entry.factor), list.power, -1);
-        queueOf(entry).remove(entry.handle);
+        putOff(entry);
     }
     list.entries.clear();
     list.open = 0;
@@ -226,13 +250,13 @@ std::vector<std::uint32_t> OpenWork::urgent(std::uint32_t row, double enough) co
 
 std::vector<OpenWork::AtBlock> OpenWork::atBlocks(double enough) const {
     std::vector<AtBlock> blocks(sums_.size());
-    for (const RowList& list : rows_)
-        for (const Entry& entry : list.entries) {
+    for (std::uint32_t row = 0; row < rows_.size(); ++row)
+        for (const Entry& entry : rows_[row].entries) {
             if (!entry.open) continue;
             AtBlock& at = blocks[entry.block];
             ++(bound(entry.block) > enough ? at.rows : at.small);
-            const WorkQueue& queue = isPutOff(entry) ? later_ : urgent_;
-            at.worth = std::max(at.worth, queue.value(entry.handle));
+            at.worth = std::max(at.worth, entry.handle != kPutOff ? queue_.value(entry.handle)
+                                                                  : queue_.value(task(row, entry)));
         }
     return blocks;
 }
@@ -247,23 +271,20 @@ OpenWork::Entry* OpenWork::find(std::uint32_t row, std::uint32_t block) {
 
 std::optional<OpenBlock> OpenWork::next(double enough, std::size_t& steps) {
     for (; steps > 0 && pending(enough); --steps) {
-        if (urgent_.empty()) {
-            std::swap(urgent_, later_);
-            ++swaps_; // nothing is put off any more
-        }
-        const std::optional<WorkQueue::Choice> choice = urgent_.choose(taken_);
+        if (queue_.empty() && unsorted_.empty()) // nothing is put off any more
+            for (std::uint32_t row = 0; row < rows_.size(); ++row) setUnsorted(row);
+        if (!sort(enough, steps)) return {};
+        const std::optional<WorkQueue::Choice> choice = queue_.choose(taken_);
         if (!choice) return {};
         const auto row = std::uint32_t(choice->task.id >> 32);
         Entry& entry = *find(row, std::uint32_t(choice->task.id));
         if (enough > 0 && bound(entry.block) <= enough) {
-            urgent_.remove(entry.handle);
-            entry.putOff = swaps_;
-            enqueue(row, entry);
+            putOff(entry);
             continue;
         }
         const bool looks = !choice->overdue && order_->looks();
         if (looks && entry.expected && entry.view != order_->view()) { // the viewer has moved
-            urgent_.rank(entry.handle, choosePart(row, entry));
+            queue_.rank(entry.handle, choosePart(row, entry));
             continue;
         }
         const std::uint64_t receivers = choice->overdue ? entry.left : entry.part;
@@ -287,8 +308,8 @@ void OpenWork::close(const OpenBlock& block) {
     taken_ += block.cost;
     entry.left &= ~block.receivers;
     entry.anew &= ~block.receivers;
-    if (entry.left != 0) return urgent_.finishPart(choice, worthOf(block.row, entry));
-    urgent_.finish(choice);
+    if (entry.left != 0) return queue_.finishPart(choice, worthOf(block.row, entry));
+    queue_.finish(choice);
     add(entry.block, -double(entry.factor), list.power, -1);
     entry.open = false;
     entry.expected.reset();
@@ -299,12 +320,12 @@ void OpenWork::expect(std::uint32_t row, std::uint32_t block, const ExpectedFact
     Entry* const entry = find(row, block);
     if (!entry) return;
     setExpected(*entry, std::make_unique<ExpectedFactors>(expected));
-    queueOf(*entry).rank(entry->handle, choosePart(row, *entry));
+    if (entry->handle != kPutOff) queue_.rank(entry->handle, choosePart(row, *entry));
 }
 
 void OpenWork::putBack(const OpenBlock& block) {
     Entry& entry = *find(block.row, block.block);
-    queueOf(entry).rank(entry.handle, worthOf(block.row, entry));
+    queue_.rank(entry.handle, worthOf(block.row, entry));
 }
 
 std::optional<OpenBlock> OpenWork::take(double enough, std::size_t& steps) {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
@@ -83,7 +84,7 @@ public:
     /// The next block. It stays open: it is to be closed and worked on now, or ranked again by
     /// expect() or putBack().
     /// \param enough what may stay open on each block of receivers [lm/m^2]; 0: nothing
-    /// \param steps tasks of the queue to go through at most; those that were are taken off
+    /// \param steps blocks to go through at most, about; those that were are taken off
     /// \return nothing: none is left, or no step
     std::optional<OpenBlock> next(double enough, std::size_t& steps);
     /// Is worked on, and not open any more but for receivers that are not among its own.
@@ -96,7 +97,9 @@ public:
     std::optional<OpenBlock> take(double enough, std::size_t& steps);
 
     /// Whether take() may give anything.
-    bool pending(double enough) const { return count_ > 0 && (enough <= 0 || !urgent_.empty()); }
+    bool pending(double enough) const {
+        return count_ > 0 && (enough <= 0 || !queue_.empty() || !unsorted_.empty());
+    }
     std::size_t count() const { return count_; } ///< blocks that are open
     /// Blocks of a row that are open and of receivers for which more than `enough` is, in order.
     std::vector<std::uint32_t> urgent(std::uint32_t row, double enough) const;
@@ -118,20 +121,21 @@ public:
     }
 
 private:
+    static constexpr WorkQueue::Handle kPutOff = ~WorkQueue::Handle(0);
     struct Entry {
         std::uint64_t anew;
         std::uint32_t block, since;
         float factor;
-        WorkQueue::Handle handle = 0; ///< in its queue
+        WorkQueue::Handle handle = kPutOff; ///< in the queue
         bool open = false;
-        std::uint32_t putOff = 0; ///< the value of swaps_ when it was
-        std::uint32_t view = 0;   ///< the order's, when the next part was chosen
+        std::uint32_t view = 0; ///< the order's, when the next part was chosen
         std::uint64_t left = ~std::uint64_t(0), part = ~std::uint64_t(0); ///< bits: receivers
         std::unique_ptr<ExpectedFactors> expected{};                      ///< if it was looked at
     };
     struct RowList {
         std::vector<Entry> entries; ///< by block
         std::size_t open = 0;       ///< of those
+        bool unsorted = false;      ///< is in unsorted_
         double power = 0;
     };
     struct Sum {
@@ -144,11 +148,12 @@ private:
     WorkQueue::Worth worthOf(std::uint32_t row, Entry& entry);
     void setExpected(Entry& entry, std::unique_ptr<ExpectedFactors> expected);
     void enqueue(std::uint32_t row, Entry& entry);
-    void enqueueAnew(std::uint32_t row, Entry& entry);
+    void openAnew(std::uint32_t row, Entry& entry);
+    void putOff(Entry& entry);
+    void setUnsorted(std::uint32_t row);
+    bool sort(double enough, std::size_t& steps);
     void add(std::uint32_t block, double factor, double power, int count);
     Entry* find(std::uint32_t row, std::uint32_t block);
-    bool isPutOff(const Entry& entry) const { return entry.putOff == swaps_; }
-    WorkQueue& queueOf(const Entry& entry) { return isPutOff(entry) ? later_ : urgent_; }
 
     std::vector<RowList> rows_;
     std::vector<Sum> sums_;            ///< a block of receivers each
@@ -156,11 +161,11 @@ private:
     std::size_t visitCost_;
     std::shared_ptr<const OrderOfWork> order_;
     bool whole_ = false;
-    double patience_ = 4e6;    ///< [rays]
-    WorkQueue urgent_, later_; ///< later_: those that were put off
-    std::uint32_t swaps_ = 1;  ///< of the two; what was put off before the last one is not now
+    double patience_ = 4e6;              ///< [rays]
+    WorkQueue queue_;                    ///< of all that is not put off
+    std::deque<std::uint32_t> unsorted_; ///< rows of which some may belong in the queue that is not
     std::size_t count_ = 0;
-    double taken_ = 0; ///< cost of all work so far: the queues' clock
+    double taken_ = 0; ///< cost of all work so far: the queue's clock
 };
 
 } // namespace penumbra

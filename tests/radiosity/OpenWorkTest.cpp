@@ -101,12 +101,14 @@ TEST_F(OpenWorkOfTwoRows, WhatIsPutOffIsTakenAlongWhenMoreComesToIt) {
 }
 
 TEST_F(OpenWorkOfTwoRows, TakesNoMoreStepsThanItMay) {
-    open(0, {block(0, 0.1f), block(1, 0.1f), block(2, 0.1f)});
-    std::size_t steps = 2;
-    EXPECT_FALSE(work.take(1, steps)); // two are put off
+    open(0, {block(0, 0.01f), block(1, 0.01f)});
+    open(1, {block(2, 0.01f)});
+    std::size_t steps = 1;
+    EXPECT_FALSE(work.take(1, steps)); // a row is looked through
     EXPECT_EQ(steps, 0u);
     EXPECT_TRUE(work.pending(1));
     EXPECT_THAT(takeAll(1), IsEmpty());
+    EXPECT_FALSE(work.pending(1));
     EXPECT_EQ(work.count(), 3u);
 }
 
@@ -142,7 +144,7 @@ TEST_F(OpenWorkOfTwoRows, CanBePutInAnotherOrderAtAnyTime) {
     open(1, {block(2, 0.1f)});
     open(0, {block(0, 0.1f), block(1, 0.4f)});
     work.setOrder(std::make_shared<PlainOrder>());
-    std::size_t steps = 1;
+    std::size_t steps = 100;
     EXPECT_EQ(work.take(0, steps)->row, 0u); // sender by sender
     open(0, {block(3, 0.1f)});
     work.setOrder(std::make_shared<BoundOrder>());
