@@ -13,8 +13,12 @@ namespace {
 constexpr std::string_view kInvert = "!invert!";
 constexpr std::string_view kReset = "!resetXformStack!";
 
-bool finite(const std::vector<double>& values) {
-    return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+/// Rays are traced in single precision: what is some such steps farther away overflows it.
+constexpr double kFarthest = 1e7; ///< [units of the scene]
+
+bool usable(const std::vector<double>& values) {
+    return std::all_of(values.begin(), values.end(),
+                       [](double v) { return std::abs(v) <= kFarthest; });
 }
 
 bool finite(const glm::dmat4& m) {
@@ -125,7 +129,7 @@ std::optional<glm::dmat4> evaluate(const UsdAttributes& prim, const std::string&
     if (!value) return std::nullopt; // declared without a value: no change
     const std::vector<double> numbers = value->numbers();
     if (value->type.array || numbers.size() != count) return skip("its value has the wrong type");
-    if (!finite(numbers)) return skip("its value is not finite");
+    if (!usable(numbers)) return skip("its value is not finite, or beyond 1e7");
     glm::dmat4 matrix = opMatrix(type, numbers);
     const bool affine =
         matrix[0][3] == 0 && matrix[1][3] == 0 && matrix[2][3] == 0 && matrix[3][3] == 1;

@@ -63,9 +63,11 @@ void addSolveOptions(CLI::App& command, SolveSettings& settings) {
                     "(importance), sender by sender (plain), or anything (random).\n"
                     "Changes what is right when, not what comes out (default: importance)")
         ->transform(CLI::CheckedTransformer(
-            std::map<std::string, UpdateOrder>{{"importance", UpdateOrder::importance},
-                                               {"plain", UpdateOrder::plain},
-                                               {"random", UpdateOrder::random}}));
+                        std::map<std::string, UpdateOrder>{{"importance", UpdateOrder::importance},
+                                                           {"plain", UpdateOrder::plain},
+                                                           {"random", UpdateOrder::random}})
+                        .description("{importance,plain,random}"))
+        ->type_name("NAME");
     command
         .add_option("--frame", settings.frame,
                     "Time code of the file's animation to show (default: its start)")

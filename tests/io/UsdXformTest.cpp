@@ -101,6 +101,8 @@ TEST(UsdXform, UnusableOpsAreSkippedWithAWarning) {
           "double3 xformOp:translate = (inf, 0, 0)\nuniform token[] xformOpOrder = "
           "[\"xformOp:translate\"]",
           "double3 xformOp:bend = (1, 0, 0)\nuniform token[] xformOpOrder = [\"xformOp:bend\"]",
+          "double3 xformOp:translate = (1e30, 0, 0)\nuniform token[] xformOpOrder = "
+          "[\"xformOp:translate\"]",
           "float3 xformOp:scale = (1, 1, 0)\nuniform token[] xformOpOrder = "
           "[\"!invert!xformOp:scale\"]"}) {
         const LoadedScene loaded =
