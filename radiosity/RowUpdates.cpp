@@ -13,7 +13,7 @@ namespace {
 
 /// What finding costs: looking into a row; and each block that is found [rays].
 constexpr std::size_t kLook = 16, kOpen = 2;
-constexpr std::size_t kStep = 4;       ///< putting a block off [rays]
+constexpr std::size_t kStep = 4;       ///< of OpenWork::next() [rays]
 constexpr std::size_t kMostLooks = 64; ///< at blocks, at a time
 
 /// Bound of the form factor, F <= cos A / (pi d^2), of a sender onto any receiver in a box.

@@ -44,20 +44,31 @@ void LiveVertices::follow(Copy& copy, const ShownLight& from) {
     }
 }
 
+/// Factors of a lamp at a block, in the arrangements of the anchors.
+LiveVertices::Then LiveVertices::thenOf(const LiveLight& light, const LiveRows::Reached& at,
+                                        std::size_t lamp) const {
+    Then then{};
+    for (std::size_t a = 0; a < light.anchors.size(); ++a)
+        then[a] = &rows_.factors(a + 1, at, lamp);
+    return then;
+}
+
 /// The formula of LiveLight for one lamp, over its exitance. There is no less light than none, and
 /// no more than without obstacles.
-float LiveVertices::change(const LiveLight& light, const ShownLight& from,
-                           const LiveRows::Reached& at, std::size_t lamp, std::size_t vertex,
-                           float now, float unoccluded) const {
+/// \param unoccluded asked for what the lamp gives then, if that matters
+template <class Unoccluded>
+float LiveVertices::change(const LiveLight& light, const ShownLight& from, const Then& then,
+                           std::size_t lamp, std::size_t vertex, float now,
+                           const Unoccluded& unoccluded) {
     float change = 0;
     for (std::size_t a = 0; a < light.anchors.size(); ++a) {
         const LiveLight::Anchor& anchor = light.anchors[a];
         const float share = glm::mix(anchor.rest, anchor.behind, from.behind[vertex]);
-        change += share * (now - rows_.factors(a + 1, at, lamp)[vertex % kBlock]);
+        change += share * (now - (*then[a])[vertex % kBlock]);
     }
     const float known = from.factors[vertex][int(lamp)];
     if (known < 0) return change;
-    if (change > 0) change = std::min(change, std::max(0.0f, unoccluded - known));
+    if (change > 0) change = std::min(change, std::max(0.0f, unoccluded() - known));
     return std::max(change, -known);
 }
 
@@ -68,10 +79,11 @@ void LiveVertices::bringUpToDate(Copy& copy, const LiveLight& light, const Shown
     for (std::size_t l = 0; l < light.lamps.size(); ++l) {
         if (!(at.lamps >> l & 1)) continue;
         const LiveRows::Factors& now = rows_.factors(0, at, l);
+        const Then then = thenOf(light, at, l);
         for (std::size_t v = begin; v < end; ++v) {
             if (!(at.vertices >> (v - begin) & 1)) continue;
-            const float most = rows_.unoccluded(at, l, v);
-            const float by = change(light, from, at, l, v, now[v - begin], most);
+            const float by = change(light, from, then, l, v, now[v - begin],
+                                    [&] { return rows_.unoccluded(at, l, v); });
             if (by == 0) continue;
             copy.light.direct[v] = copy.light.direct[v] + light.lamps[l].exitance * by;
             any = true;
@@ -99,9 +111,11 @@ void LiveVertices::drawTouched(Copy& copy, std::span<const LiveRows::Touched> to
         copies.push_back(corner.vertex);
         Rgb direct = from.direct[corner.vertex];
         for (std::size_t l = 0; l < light.lamps.size(); ++l)
-            direct = direct + light.lamps[l].exitance *
-                                  change(light, from, rows_.reached()[corner.reached], l,
-                                         corner.vertex, corner.factors[l], corner.unoccluded[l]);
+            direct =
+                direct + light.lamps[l].exitance *
+                             change(light, from, thenOf(light, rows_.reached()[corner.reached], l),
+                                    l, corner.vertex, corner.factors[l],
+                                    [&] { return corner.unoccluded[l]; });
         copy.light.direct.push_back(atLeastNone(direct));
         copy.light.indirect.push_back(from.indirect[corner.vertex]);
     }
