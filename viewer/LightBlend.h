@@ -15,7 +15,7 @@ class RadiosityNode;
 
 /// How it is found out what live lamps reach.
 enum class LiveBy {
-    maps, ///< by shadow maps, pixel by pixel: LivePass
+    maps, ///< by shadow maps, in the vertex shader: LivePass
     rays  ///< by radiosity's rays, vertex by vertex: LiveVertices
 };
 

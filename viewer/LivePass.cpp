@@ -25,7 +25,7 @@ constexpr std::array<const char*, kMostLampsDrawnLive> kLampNames{"lampList[0]",
 } // namespace
 
 struct LivePass::Impl {
-    Impl() : program(liveVertexShader().c_str(), liveFragmentShader().c_str()) {}
+    Impl() : program(liveVertexShader().c_str(), kScreenFragmentShader) {}
 
     void setPlaces(const LitItem& item);
     void setLamps(unsigned mask);

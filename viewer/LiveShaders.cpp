@@ -243,65 +243,21 @@ layout(location = 5) in float behind;
 uniform mat4 localToClip;
 )";
 
-const char* const kPixelVertexMain = R"(
+const char* const kVertexMain = R"(
 centroid out vec3 surfaceDirect;
 centroid out vec3 surfaceIndirect;
-centroid out vec3 surfacePosition;
-centroid out vec3 surfaceNormal;
-centroid out vec4 surfaceFactors;
-centroid out float surfaceBehind;
 
 void main() {
     gl_Position = localToClip * vec4(position, 1.0);
-    surfaceDirect = direct;
+    surfaceDirect = max(direct + liveChange(position, normal, factors, behind), 0.0);
     surfaceIndirect = indirect;
-    surfacePosition = position;
-    surfaceNormal = normal;
-    surfaceFactors = factors;
-    surfaceBehind = behind;
-}
-)";
-
-const char* const kPixelInputs = R"(#version 330 core
-centroid in vec3 surfaceDirect;
-centroid in vec3 surfaceIndirect;
-centroid in vec3 surfacePosition;
-centroid in vec3 surfaceNormal;
-centroid in vec4 surfaceFactors;
-centroid in float surfaceBehind;
-)";
-
-const char* const kPixelLight = R"(
-vec3 directLight() {
-    return max(surfaceDirect + liveChange(surfacePosition, surfaceNormal, surfaceFactors,
-                                          surfaceBehind), 0.0);
-}
-)";
-
-const char* const kFragmentMain = R"(
-uniform vec3 reflectance;
-uniform vec3 emission;                   // nit
-
-layout(location = 0) out vec4 beauty;
-
-const float kMost = 65000.0;             // nit; 16-bit floats end at 65504
-
-void main() {
-    vec3 reflected = reflectance * 0.31830988618 * (directLight() + surfaceIndirect);
-    float shines = max(max(emission.r, emission.g), emission.b);
-    beauty = vec4(min(reflected + emission, kMost), shines > 0.0 ? 0.0 : 1.0);
 }
 )";
 
 } // namespace
 
 std::string liveVertexShader() {
-    return std::string(kInputs) + kPixelVertexMain;
-}
-
-std::string liveFragmentShader() {
-    return std::string(kPixelInputs) + kFormFactors + kShadows + kChange + kPixelLight +
-           kFragmentMain;
+    return std::string(kInputs) + kFormFactors + kShadows + kChange + kVertexMain;
 }
 
 } // namespace penumbra

@@ -1,15 +1,17 @@
-// The text of the shaders that draw lamps live, GLSL 3.30; see LiveLight.
+// The text of the shader that draws lamps live, GLSL 3.30; see LiveLight.
 #pragma once
 
 #include <string>
 
 namespace penumbra {
 
-/// The change of the light is worked out pixel by pixel, with shadows as fine as their maps.
+/// The change of the light is worked out vertex by vertex, where radiosity has its light: by pixels
+/// the shadows would be finer than those that they are exchanged for, and each edge of a shadow
+/// would change its sharpness when a thing is taken hold of and when it is let go. For
+/// kScreenFragmentShader.
 std::string liveVertexShader();
-std::string liveFragmentShader();
 
-/// The table of uniforms that the shaders read: a row of texels a lamp and arrangement; row
+/// The table of uniforms that the shader reads: a row of texels a lamp and arrangement; row
 /// kLiveRows * slot + lamp with slot 0 for now, 1 ... 3 for the anchors.
 ///
 ///     0            kind (LiveKind), cube views or not, -, -
