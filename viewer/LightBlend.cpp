@@ -147,20 +147,40 @@ void LightBlend::describeLive(const RadiosityNode& node, double time) {
                                        });
         live_.objects.push_back({entries_[o].geometry, moves});
     }
+    describeLamps(node, live_);
+}
+
+/// \param light with its anchors
+void LightBlend::describeLamps(const RadiosityNode& node, LiveLight& light) const {
     const PlacedScene& placed = node.placed();
     for (const std::string& path : lamps_) {
-        const auto light = std::find_if(placed.lights.begin(), placed.lights.end(),
-                                        [&](const auto& l) { return l.path == path; });
+        const auto placedLamp = std::find_if(placed.lights.begin(), placed.lights.end(),
+                                             [&](const auto& l) { return l.path == path; });
         LiveLight::Lamp lamp;
-        if (light != placed.lights.end())
-            lamp.exitance = light->node->luminance() * std::numbers::pi_v<float>;
-        const std::size_t l = live_.lamps.size();
-        lamp.moves = std::any_of(live_.anchors.begin(), live_.anchors.end(),
+        if (placedLamp != placed.lights.end())
+            lamp.exitance = placedLamp->node->luminance() * std::numbers::pi_v<float>;
+        const std::size_t l = light.lamps.size();
+        lamp.moves = std::any_of(light.anchors.begin(), light.anchors.end(),
                                  [&](const LiveLight::Anchor& a) {
                                      return !sameLamp(a.arrangement->lamps[l], now_->lamps[l]);
                                  });
-        live_.lamps.push_back(lamp);
+        light.lamps.push_back(lamp);
     }
+}
+
+LiveLight LightBlend::expecting(const RadiosityNode& node, const std::string& object) const {
+    LiveLight light;
+    if (lamps_.empty()) return light;
+    light.now = now_;
+    for (const Entry& entry : entries_)
+        light.objects.push_back({entry.geometry, entry.path == object});
+    describeLamps(node, light);
+    const PlacedScene& placed = node.placed();
+    for (const auto& lamp : placed.lights)
+        for (std::size_t l = 0; l < lamps_.size(); ++l)
+            if (lamp.path == lamps_[l] && placed.objects[lamp.object.value].path == object)
+                light.lamps[l].moves = true;
+    return light;
 }
 
 void LightBlend::advance(RadiosityNode& node, double time) {

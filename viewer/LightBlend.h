@@ -55,6 +55,9 @@ public:
     const ShownLight* shown(const LitGeometry& geometry) const;
     /// The live part, for the renderer.
     const LiveLight& live() const { return live_; }
+    /// What it would be of if an object began to move now; without anchors. \param object its path,
+    /// as LitObject has it
+    LiveLight expecting(const RadiosityNode& node, const std::string& object) const;
 
     /// Whether the picture changes without new light: fades.
     bool changing() const { return changing_; }
@@ -80,6 +83,7 @@ private:
     void advanceFades(const LightFade::Frame& frame);
     float restShare(double time) const;
     void describeLive(const RadiosityNode& node, double time);
+    void describeLamps(const RadiosityNode& node, LiveLight& light) const;
 
     BlendOptions options_;
     std::vector<std::string> wanted_, lamps_;

@@ -27,6 +27,15 @@ void LiveRows::require(const std::vector<std::shared_ptr<const LitGeometry>>& ge
         surfaces_.push_back(geometries[o] ? LiveSurface(geometries[o], *stage_, o) : LiveSurface());
 }
 
+bool LiveRows::knows(const LiveLight& light) const {
+    const auto moves = [](const LiveLight::Object& object, bool moves) {
+        return object.moves == moves;
+    };
+    return light.anchors.empty() && slots_.size() == 1 && slots_.front().of == light.now &&
+           std::equal(light.objects.begin(), light.objects.end(), moves_.begin(), moves_.end(),
+                      moves);
+}
+
 /// Whether what is known still holds: the same things move, the same lamps are live.
 bool LiveRows::sameMoves(const LiveLight& light) {
     std::vector<bool> moves, lampMoves;
@@ -233,19 +242,44 @@ Receiver LiveRows::receiver(const Slot& slot, std::uint32_t object, std::size_t 
     return ownReceiver(slot, object, vertex);
 }
 
+/// Whether nothing that moves is between a lamp and a vertex that is lit where it lies. Blocks are
+/// wide: of the vertices of one that something is before, it is before a few.
+bool LiveRows::isClear(const Task& task, std::size_t vertex, const Receiver& receiver) const {
+    const Slot& slot = *task.slot;
+    if (!task.clear || slot.instead.contains(keyOf(task.at->object, vertex))) return false;
+    const Bounds place{receiver.position, receiver.position};
+    return std::none_of(slot.things.begin(), slot.things.end(), [&](const Bounds& thing) {
+        return shaftMeets(slot.senders[task.lamp]->box(), place, thing);
+    });
+}
+
 void LiveRows::run(const Task& task, RowBuilder& builder) const {
     std::array<Receiver, kBlock> receivers{};
-    std::uint64_t wanted = 0;
+    std::uint64_t wanted = 0, clear = 0;
     const std::size_t begin = task.at->block * kBlock;
-    for (std::size_t i = 0; i < kBlock; ++i) {
-        if (!(task.missing >> i & 1)) continue;
+    for (std::uint64_t bits = task.missing; bits != 0; bits &= bits - 1) {
+        const auto i = std::size_t(std::countr_zero(bits));
+        const std::uint64_t bit = std::uint64_t(1) << i;
         receivers[i] = receiver(*task.slot, task.at->object, begin + i);
-        if (!isPadding(receivers[i])) wanted |= std::uint64_t(1) << i;
+        if (isPadding(receivers[i])) continue;
+        if (isClear(task, begin + i, receivers[i])) clear |= bit;
+        if (!(clear & bit) || !(task.clear->vertices & bit)) wanted |= bit;
     }
-    RowBlock block;
-    builder.updateEmitterBlock(*task.slot->senders[task.lamp], {receivers, wanted, 0}, wanted, {},
-                               block);
-    block.forEach([&](int i, float factor) { task.known->factors[std::size_t(i)] = factor; });
+    if (wanted != 0) {
+        RowBlock block;
+        builder.updateEmitterBlock(*task.slot->senders[task.lamp], {receivers, wanted, 0}, wanted,
+                                   {}, block);
+        block.forEach([&](int i, float factor) {
+            Known& known = clear >> i & 1 ? *task.clear : *task.known;
+            known.factors[std::size_t(i)] = factor;
+        });
+    }
+    if (clear == 0) return;
+    task.clear->vertices |= clear;
+    for (std::uint64_t bits = clear; bits != 0; bits &= bits - 1) {
+        const auto i = std::size_t(std::countr_zero(bits));
+        task.known->factors[i] = task.clear->factors[i];
+    }
 }
 
 void LiveRows::trace(const LiveLight& light, Slot& slot) {
@@ -261,12 +295,16 @@ void LiveRows::trace(const LiveLight& light, Slot& slot) {
                             stage_->skin()));
         for (std::size_t l = 0; l < slot.senders.size(); ++l) {
             if (!(at.lamps >> l & 1)) continue;
-            Known& known = (hidden >> l & 1 ? slot.table : clear_)[keyOf(at, l)];
+            const bool inTheWay = hidden >> l & 1;
+            Known& known = (inTheWay ? slot.table : clear_)[keyOf(at, l)];
             const std::uint64_t missing = at.vertices & ~known.vertices;
             known.vertices |= missing;
             for (std::uint64_t bits = missing; bits != 0; bits &= bits - 1)
                 known.factors[std::size_t(std::countr_zero(bits))] = 0;
-            if (missing != 0 && slot.senders[l]) tasks.push_back({&slot, &at, l, &known, missing});
+            if (missing == 0 || !slot.senders[l]) continue;
+            const bool some = inTheWay && !own && !light.lamps[l].moves;
+            tasks.push_back(
+                {&slot, &at, l, &known, some ? &clear_[keyOf(at, l)] : nullptr, missing});
         }
     }
     if (tasks.empty()) return;

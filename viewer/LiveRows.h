@@ -43,6 +43,8 @@ public:
 
     /// Indexes these geometries (null: none) for rays, unless they are.
     void require(const std::vector<std::shared_ptr<const LitGeometry>>& geometries);
+    /// Whether what is known is of this arrangement, as it stands now.
+    bool knows(const LiveLight& light) const;
 
     /// A block that a live change may reach, by which lamps, and which of its vertices: a bit each.
     struct Reached {
@@ -50,8 +52,8 @@ public:
         unsigned lamps = 0;
         std::uint64_t vertices = ~std::uint64_t(0);
     };
-    /// Traces what is missing. \param light with LiveLight::active() \param shown what vertices
-    /// carry
+    /// Traces what is missing. \param light of some lamps; without anchors: what it is like now,
+    /// so that little is missing when something begins to move \param shown what vertices carry
     void prepare(const LiveLight& light, const ShownOf& shown);
     /// Drops what is known.
     void forget();
@@ -94,6 +96,7 @@ private:
         const Reached* at;
         std::size_t lamp;
         Known* known;
+        Known* clear; ///< of vertices that nothing that moves is before; null: not to be asked
         std::uint64_t missing;
     };
     static Key keyOf(std::uint32_t object, std::uint64_t piece) {
@@ -116,6 +119,7 @@ private:
     void findTouched(const LiveLight& light);
     void trace(const LiveLight& light, Slot& slot);
     void traceTouched();
+    bool isClear(const Task& task, std::size_t vertex, const Receiver& receiver) const;
     void run(const Task& task, RowBuilder& builder) const;
     Receiver receiver(const Slot& slot, std::uint32_t object, std::size_t vertex) const;
     Receiver ownReceiver(const Slot& slot, std::uint32_t object, std::size_t vertex) const;

@@ -142,12 +142,15 @@ void LiveVertices::drawAllTouched(const LiveLight& light, const ShownOf& shown) 
     }
 }
 
-void LiveVertices::update(const LiveLight& light, const ShownOf& shown) {
-    if (!light.active()) {
-        copies_.clear();
+void LiveVertices::rest(const LiveLight& expected, const ShownOf& shown) {
+    copies_.clear();
+    if (expected.lamps.empty())
         rows_.forget();
-        return;
-    }
+    else if (!rows_.knows(expected))
+        rows_.prepare(expected, shown);
+}
+
+void LiveVertices::update(const LiveLight& light, const ShownOf& shown) {
     rows_.prepare(light, shown);
     for (const LiveRows::Reached& at : rows_.reached()) {
         const LitGeometry& geometry = *light.objects[at.object].geometry;

@@ -23,14 +23,12 @@ public:
     /// \param samples as SolverOptions::samples \param patches see LiveRows
     LiveVertices(int samples, LiveRows::PatchesOf patches) : rows_(samples, std::move(patches)) {}
 
-    /// Makes ready for these geometries, so that the first frame of a move need not.
-    void require(const std::vector<std::shared_ptr<const LitGeometry>>& geometries) {
-        rows_.require(geometries);
-    }
-
     using ShownOf = LiveRows::ShownOf;
     /// Once a frame. \param shown what is shown without live lamps
     void update(const LiveLight& light, const ShownOf& shown);
+    /// The same while nothing moves. \param expected see LightBlend::expecting(): is made ready, so
+    /// that the first frame of a move need not
+    void rest(const LiveLight& expected, const ShownOf& shown);
 
     /// What is shown of a geometry; null: what is shown without live lamps.
     const ShownLight* shown(const LitGeometry& geometry) const;

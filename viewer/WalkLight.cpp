@@ -17,7 +17,8 @@ WalkLight::WalkLight(const Walkthrough& walk, const RadiosityOptions& options,
       mostLamps_(std::min(blend.lamps, kMostLampsDrawnLive)), trigger_(options.trigger),
       order_(options.solving.order) {
     node_->add(walk.scene().root);
-    if (blend.by == LiveBy::rays) vertices_.emplace(options.solving.samples, [this] { return node_->patches(); });
+    if (blend.by == LiveBy::rays)
+        vertices_.emplace(options.solving.samples, [this] { return node_->patches(); });
 }
 
 WalkLight::~WalkLight() = default;
@@ -42,10 +43,20 @@ void WalkLight::chooseLamps(const Walkthrough& walk) {
         if (l < lights.size() && lights[l].node == walk.placed().lights[l].node)
             paths.push_back(lights[l].path);
     blend_.want(std::move(paths));
-    if (!vertices_) return;
-    std::vector<std::shared_ptr<const LitGeometry>> geometries;
-    for (const LitObject& object : node_->objects()) geometries.push_back(object.geometry);
-    vertices_->require(geometries); // now, not in the first frame of a move
+}
+
+/// By rays: brings the light of vertices up to date while something moves, and is ready for that
+/// when something may.
+void WalkLight::updateVertices(const Walkthrough& walk) {
+    const auto shown = [&](const LitGeometry& geometry) { return blend_.shown(geometry); };
+    const auto& selection = walk.selection();
+    const std::vector<Object>& objects = node_->placed().objects; // as the walkthrough has them
+    if (blend_.live().active())
+        vertices_->update(blend_.live(), shown);
+    else if (selection && selection->movable() && selection->object.value < objects.size())
+        vertices_->rest(blend_.expecting(*node_, objects[selection->object.value].path), shown);
+    else
+        vertices_->rest({}, shown);
 }
 
 void WalkLight::setOrder(UpdateOrder order) {
@@ -65,9 +76,7 @@ bool WalkLight::update(const Walkthrough& walk, const View& view) {
     chooseLamps(walk);
     blend_.advance(*node_, walk.time());
     ages_.advance(node_->objects(), walk.time());
-    if (vertices_)
-        vertices_->update(blend_.live(),
-                          [&](const LitGeometry& geometry) { return blend_.shown(geometry); });
+    if (vertices_) updateVertices(walk);
     const RadiosityState& state = node_->state();
     const bool news = blend_.changing() || blocks_ != state.blocksTaken || phase_ != state.phase ||
                       unlit_ != node_->unlit().size();
