@@ -151,7 +151,8 @@ void DetailGather::gatherVertices(Sweep& sweep, std::size_t first, std::size_t l
 glm::dvec3 DetailGather::gathered(const Sent& sent, std::span<const std::uint32_t> hits,
                                   bool slit) const {
     glm::dvec3 sum(0), returned(0);
-    Light brightest, second;
+    Light brightest;
+    float second = 0; // brightest [lm/m^2]
     for (const std::uint32_t hit : hits) {
         if (hit == Element::kNone) continue;
         const std::uint32_t element = hit & ~DetailRays::kAcross;
@@ -163,12 +164,14 @@ glm::dvec3 DetailGather::gathered(const Sent& sent, std::span<const std::uint32_
         const Light& light = returns ? sent.direct[element] : sent.all[element];
         sum += glm::dvec3(light.colour.r, light.colour.g, light.colour.b);
         if (light.luminance > brightest.luminance)
-            second = brightest, brightest = light;
-        else if (light.luminance > second.luminance)
-            second = light;
+            second = brightest.luminance, brightest = light;
+        else
+            second = std::max(second, light.luminance);
     }
     // A single ray that finds the glowing inside of a lampshade counts like the next: no fireflies.
-    const Rgb excess = brightest.colour - second.colour;
+    // It is dimmed, not replaced, or which of two alike is the brighter would decide on the colour.
+    const float more = brightest.luminance - second;
+    const Rgb excess = more > 0 ? more / brightest.luminance * brightest.colour : Rgb();
     return (sum - glm::dvec3(excess.r, excess.g, excess.b)) / (double(kRays) - returned);
 }
 

@@ -264,8 +264,8 @@ void Solver::light(std::span<const std::uint32_t> blocks, Lighting& lighting) co
                 lighting.direct[v] = direct_.vertices()[v];
                 lighting.indirect[v] = Rgb();
                 if (index != Element::kNone && indirect_)
-                    lighting.indirect[v] =
-                        toRgb(interpolateNodes<glm::dvec3>(set_.patches[index], s, t, nodes));
+                    lighting.indirect[v] = toRgb(glm::max(
+                        interpolateNodes<glm::dvec3>(set_.patches[index], s, t, nodes), 0.0));
             }
             if (detail_) detail_->correct(blocks[i], nodes, lighting.indirect);
         }

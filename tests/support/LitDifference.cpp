@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <map>
 #include <sstream>
-#include <cstdio>
-#include "radiosity/HemisphereRays.h"
-#include "radiosity/DrawnSurface.h"
 
 namespace penumbra {
 
@@ -120,20 +117,21 @@ void compareDetail(Comparison& with, const DetailHits& a, const DetailHits& b, c
                                         one->inside == other->inside &&
                                         sameHits(a.hits(groupOf(va), *one),
                                                  b.hits(groupOf(vb), *other), elements);
-            if (!same && one && other) { 
-              auto own=[&](std::uint32_t e){ for (auto& o: with.a.objects) if (o.elements.contains(e)) return o.path; return std::string("?"); };
-              auto pp=with.a.vertices[va].receiver; fprintf(stderr," at %.9g %.9g %.9g n %g %g %g slit %d same %d\n", pp.position.x,pp.position.y,pp.position.z,pp.normal.x,pp.normal.y,pp.normal.z, one->slit, with.b.vertices[vb].receiver.position==pp.position);
-              auto ha=a.hits(groupOf(va), *one), hb=b.hits(groupOf(vb), *other);
-              for (int r=0;r<64;++r) if (!sameHits(ha.subspan(r,1),hb.subspan(r,1),elements)) {
-fprintf(stderr," ray %d %u (as %u) %u\n", r, ha[r], ha[r]==Element::kNone?ha[r]:elements[ha[r]&0x7fffffff], hb[r]); 
-            DrawnSurface sa(with.a), sb(with.b); HemisphereRays h(64); 
-            auto d=h.direction(r,pp.normal); auto h1=sa.nearest(pp.position,d,1e30f); auto h2=sb.nearest(pp.position,d,1e30f);
-            fprintf(stderr," fresh: a %u at %.9g, b %u at %.9g\n", h1.element,h1.distance,h2.element,h2.distance);
-            fprintf(stderr, " owners %s %s dir %.9g %.9g %.9g\n", own(ha[r]).c_str(), own(h1.element).c_str(), d.x,d.y,d.z);
-            for (auto e : {ha[r], h1.element}) for (auto v : with.a.uncoveredElements[e].vertices) { auto q=with.a.vertices[v].position; fprintf(stderr,"   el %u v %.9g %.9g %.9g\n", e,q.x,q.y,q.z);}
-              }}
             with.expect(same, pa.path, " element ", i, " corner ", k,
                         " gathers other indirect light");
+        }
+}
+
+/// What is drawn of one object's indirect light [lux].
+void compareDrawn(Comparison& with, const Lighting& a, const Lighting& b, const ObjectPart& pa,
+                  const ObjectPart& pb, double allowed) {
+    for (std::uint32_t i = 0; i < pa.elements.count; ++i)
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Rgb one = a.indirect[with.a.elements[pa.elements.first + i].vertices[k]];
+            const Rgb other = b.indirect[with.b.elements[pb.elements.first + i].vertices[k]];
+            with.expect(maxChannel(absolute(one - other)) <= allowed, pa.path, " element ", i,
+                        " corner ", k, " receives ", one.r, " ", one.g, " ", one.b, " against ",
+                        other.r, " ", other.g, " ", other.b, " of +-", allowed);
         }
 }
 
@@ -152,6 +150,9 @@ std::string difference(const LitScene& one, const LitScene& other) {
         one.solver().statistics().certificate + other.solver().statistics().certificate + 1e-4;
     const auto ra = one.solver().radiosity(), rb = other.solver().radiosity();
     const auto rowsA = one.solver().patchRows(), rowsB = other.solver().patchRows();
+    // Vertices have as much from nodes, and twice that of the rays that tell them from nodes.
+    const double allowedOnVertices = 3 * allowed;
+    const Lighting drawnA = one.solver().lighting(), drawnB = other.solver().lighting();
     const std::vector<std::uint32_t> elements = elementsIn(with, parts);
     for (const ObjectPart& pa : with.a.objects) {
         if (parts.count(pa.path) == 0) {
@@ -196,6 +197,8 @@ std::string difference(const LitScene& one, const LitScene& other) {
             with.expect(maxChannel(absolute(a - b)) <= allowed, pa.path, " patch ", p, " sends ",
                         a.g, " against ", b.g, " of +-", allowed);
         }
+        if (with.differences == 0 && pa.present)
+            compareDrawn(with, drawnA, drawnB, pa, pb, allowedOnVertices);
     }
     if (with.differences > 5) with.said << "and " << with.differences - 5 << " more\n";
     return with.said.str();
