@@ -10,7 +10,7 @@ namespace penumbra {
 
 SessionFile::SessionFile(const Walkthrough& walk, const std::string& scene, std::string layer)
     : recording_(walk.loaded(), scene), layer_(std::move(layer)), start_(walk.time()),
-      saved_(walk.time()) {
+      tried_(walk.time()) {
     sample(walk);
     recording_.write(layer_);
     unsaved_ = false;
@@ -20,9 +20,8 @@ SessionFile::~SessionFile() {
     for (const std::string& name : recording_.missed())
         std::fprintf(stderr, "%s: warning: what was done to '%s' can't be recorded\n",
                      layer_.c_str(), name.c_str());
-    if (!unsaved_) return;
     try {
-        recording_.write(layer_);
+        finish();
     } catch (const Error& error) {
         std::fprintf(stderr, "%s\n", error.what());
     }
@@ -33,12 +32,21 @@ void SessionFile::sample(const Walkthrough& walk) {
     unsaved_ = true;
 }
 
-void SessionFile::take(const Walkthrough& walk) {
+std::optional<std::string> SessionFile::take(const Walkthrough& walk) {
     sample(walk);
-    if (walk.time() - saved_ < kSaveSeconds) return;
-    saved_ = walk.time();
-    recording_.write(layer_);
+    if (walk.time() - tried_ < kSaveSeconds) return std::nullopt;
+    tried_ = walk.time();
+    try {
+        recording_.write(layer_);
+    } catch (const Error& error) {
+        return error.what();
+    }
     unsaved_ = false;
+    return std::nullopt;
+}
+
+void SessionFile::finish() {
+    if (std::exchange(unsaved_, false)) recording_.write(layer_);
 }
 
 } // namespace penumbra

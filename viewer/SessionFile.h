@@ -3,6 +3,7 @@
 
 #include "io/UsdRecording.h"
 
+#include <optional>
 #include <string>
 
 namespace penumbra {
@@ -17,13 +18,16 @@ public:
 
     /// Begins, and writes the layer at once. \throws Error if it can't be written
     SessionFile(const Walkthrough& walk, const std::string& scene, std::string layer);
-    /// Writes what has not been written; if that fails, one line goes to standard error.
+    /// As finish(), if that was not called; a failure is one line to standard error.
     ~SessionFile();
     SessionFile(const SessionFile&) = delete;
     SessionFile& operator=(const SessionFile&) = delete;
 
-    /// To be called once a frame, after all edits.
-    void take(const Walkthrough& walk);
+    /// To be called once a frame, after all edits. \return why it couldn't be written now, once
+    /// every kSaveSeconds; nothing is lost, it is tried again
+    std::optional<std::string> take(const Walkthrough& walk);
+    /// Writes what has not been written. \throws Error if it can't be written
+    void finish();
 
     const std::string& layer() const { return layer_; }
 
@@ -32,7 +36,7 @@ private:
 
     UsdRecording recording_;
     std::string layer_;
-    double start_ = 0, saved_ = 0; ///< of the walkthrough's time [s]
+    double start_ = 0, tried_ = 0; ///< of the walkthrough's time [s]
     bool unsaved_ = false;
 };
 

@@ -143,7 +143,7 @@ void Viewer::takeScene() {
         if (!loader_->busy()) loader_.reset();
     } catch (const Error& error) {
         loader_.reset();
-        if (!walk_) throw;
+        if (!light_) throw; // nothing to go on with
         state_.tell(error.what(), 20);
     }
 }
@@ -366,7 +366,8 @@ void Viewer::advance(double seconds) {
     if (replay_) replay_->advance(*walk_, seconds);
     state_.playing = replay_ && replay_->playing();
     walk_->advance(seconds);
-    if (session_) session_->take(*walk_);
+    if (session_)
+        if (const auto why = session_->take(*walk_)) state_.tell(*why + "; tried again", 10);
     const glm::ivec2 size = glm::max(window_.pixels(), glm::ivec2(1));
     if (light_->update(*walk_, walk_->rig().view(size.x, size.y))) stale_ = kAfterglow;
     for (std::string& message : light_->takeMessages()) state_.tell(std::move(message), 15);
@@ -441,6 +442,7 @@ void Viewer::run() {
         state_.frameMilliseconds.add(float(1000 * passed));
         draw(std::min(kLongestStep, passed));
     }
+    if (session_) session_->finish();
 }
 
 } // namespace
