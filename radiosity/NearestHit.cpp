@@ -2,6 +2,8 @@
 // tutorial", Ray Tracing News 11(1), 1998.
 #include "radiosity/NearestHit.h"
 
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace penumbra {
@@ -33,6 +35,15 @@ bool NearestHit::take(std::span<const glm::vec3, 3> corners, const RayHit& hit) 
     hit_.u = float(sideB / sum);
     hit_.v = float(sideC / sum);
     return true;
+}
+
+glm::vec3 NearestHit::beside(float hair, int i) const {
+    const glm::dvec3 ray = glm::normalize(direction_);
+    const glm::dvec3 axis = std::abs(ray.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 u = glm::normalize(glm::cross(axis, ray)), v = glm::cross(ray, u);
+    const double turn = 2 * std::numbers::pi * (i + 0.3) / kAround; // seldom along an edge
+    const double share = double(hair) / double(doubt_.distance);
+    return direction_ + share * (std::cos(turn) * u + std::sin(turn) * v);
 }
 
 glm::vec3 NearestHit::aside(float hair) const {

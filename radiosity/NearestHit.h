@@ -25,10 +25,11 @@ struct RayHit {
 /// Judges the triangles that Embree offers for a ray, in any order. At an edge it offers one
 /// triangle or the other, both or none, by rounding and by what else lies in the same leaf of its
 /// hierarchy; here the answer depends on the triangles alone. Edges are judged in double precision,
-/// and of several triangles at the same distance the first object's first one is met. What passes
-/// beside a triangle that was offered has to be asked again, a hair farther aside: there it meets
-/// the neighbour if there is one, and else what lies behind. (Where it runs into the very corner of
-/// several triangles, which of them it meets may still depend on what is offered.)
+/// and of several triangles at the same distance the first object's first one is met. Where the ray
+/// passes beside a triangle that was offered, those around are to be offered as well, by rays a
+/// hair beside it: where they share their corners, one of them is met. Where they do not, the ray
+/// itself has to be asked again, a hair farther aside: there it meets the neighbour if there is
+/// one, and else what lies behind.
 class NearestHit {
 public:
     /// \param origin, direction of the ray [m, world; the direction need not be unit]
@@ -49,6 +50,10 @@ public:
     /// Whether the ray passes by a triangle that was offered, with nothing behind it up to `slack`.
     bool inDoubt(float slack) const { return doubt_.distance + slack < distance_; }
     const RayHit& doubt() const { return doubt_; } ///< the triangle that was offered
+    /// The direction of the i-th of kAround rays around this one, a hair [m] beside it where the
+    /// triangle was offered.
+    glm::vec3 beside(float hair, int i) const;
+    static constexpr int kAround = 8;
     /// The direction of a ray that passes the triangle a hair [m] farther aside.
     glm::vec3 aside(float hair) const;
 

@@ -295,16 +295,22 @@ RayHit RayScene::nearest(glm::vec3 origin, glm::vec3 direction, float reach, Fac
     constexpr int kTimes = 4;        // corners may need several
     const float hair = margin_ / 20; // many times what Embree rounds [m]
     for (int time = 1;; ++time) {
-        RTCRayHit query{};
-        query.ray = {origin.x,    origin.y, origin.z, 0,           direction.x, direction.y,
-                     direction.z, 0,        reach,    0xffffffffu, 0,           0};
-        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        const float length = glm::length(direction);
         NearestHit nearest(origin, direction, faces == Faces::front);
-        QueryContext context;
-        context.nearest = &nearest;
-        context.slack = hair / glm::length(direction);
-        rtcIntersect1(impl_->scene, &context.context, &query);
-        if (!nearest.inDoubt(margin_ / glm::length(direction))) return nearest.hit();
+        const auto offer = [&](glm::vec3 along) {
+            RTCRayHit query{};
+            query.ray = {origin.x, origin.y, origin.z, 0,           along.x, along.y,
+                         along.z,  0,        reach,    0xffffffffu, 0,       0};
+            query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+            QueryContext context;
+            context.nearest = &nearest;
+            context.slack = hair / length;
+            rtcIntersect1(impl_->scene, &context.context, &query);
+        };
+        offer(direction);
+        if (!nearest.inDoubt(margin_ / length)) return nearest.hit();
+        for (int i = 0; i < NearestHit::kAround; ++i) offer(nearest.beside(hair, i));
+        if (!nearest.inDoubt(margin_ / length)) return nearest.hit();
         if (time == kTimes) return nearest.doubt();
         direction = nearest.aside(hair);
     }
