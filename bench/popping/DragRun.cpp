@@ -147,6 +147,7 @@ private:
             frame();
             result_.mean += lastFrame_ / script_.drag;
             result_.dragWork += work_ / script_.drag;
+            result_.dragBytes += double(renderer_.statistics().lightBytes) / script_.drag;
             result_.slowest = std::max(result_.slowest, lastFrame_);
         }
     }
@@ -185,6 +186,7 @@ private:
     }
     /// Notes when there is nothing any more to be waited for, and when all is at rest.
     void follow(double seconds) {
+        result_.bytesAfter += double(renderer_.statistics().lightBytes);
         if (light_->waiting()) result_.readySeconds = seconds;
         if (!settled() || light_->fading()) result_.settledSeconds = seconds;
     }

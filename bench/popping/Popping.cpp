@@ -15,8 +15,8 @@
 // excess variation; milliseconds of the clock until no vertex waits, until all has settled, and how
 // much time the lighting thread had in percent of that of the script; frames until the error of
 // 99.9 % and of all pixels can't be seen any more; mean and longest frame in motion. Below: more of
-// the first frames in motion; processor time of frames; the picture at rest in the end against that
-// of a solution from scratch, as displayed in 8 bits.
+// the first frames in motion; processor time of frames; light copied to the graphics card; the
+// picture at rest in the end against that of a solution from scratch, as displayed in 8 bits.
 #include "DragRun.h"
 
 #include "io/PngWriter.h"
@@ -97,9 +97,10 @@ void report(const DragScript& script, const char* variant, const DragResult& r) 
                 framesToExact(r, 0.999), framesToExact(r, 1), 1000 * r.mean, 1000 * r.slowest);
     std::printf(
         "         first frames: 99.9 %% %.2f, above 1 %.2f %%; processor ms a frame: idle %.1f, "
-        "turning %.1f, in motion %.1f; from scratch: at most %d of 255, beyond 1 %.3f %%\n",
+        "turning %.1f, in motion %.1f; copied to the card: %.0f kB a frame in motion, %.0f kB from "
+        "the release on; from scratch: at most %d of 255, beyond 1 %.3f %%\n",
         start.p999, 100 * start.share, 1000 * r.idleWork, 1000 * r.walkWork, 1000 * r.dragWork,
-        r.fromScratchMost, 100 * r.fromScratchBeyond);
+        1e-3 * r.dragBytes, 1e-3 * r.bytesAfter, r.fromScratchMost, 100 * r.fromScratchBeyond);
     const auto name = [&](const char* when, const std::vector<NamedStep>& worst) {
         for (const NamedStep& w : worst) {
             const FramePair &before = r.frames[w.step.frame - 1], &after = r.frames[w.step.frame];
