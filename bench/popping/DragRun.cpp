@@ -1,5 +1,7 @@
 #include "DragRun.h"
 
+#include "LoadScene.h"
+
 #include "io/UsdScene.h"
 #include "radiosity/process/LightingLink.h"
 #include "scenegraph/Error.h"
@@ -7,7 +9,6 @@
 #include "viewer/AutoExposure.h"
 #include "viewer/InteractiveRenderer.h"
 #include "viewer/OffscreenContext.h"
-#include "viewer/SceneLoader.h"
 #include "viewer/WalkLight.h"
 #include "viewer/Walkthrough.h"
 
@@ -31,18 +32,10 @@ double since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-ReadyScene load(const std::string& scene) {
-    SceneLoader loader(std::string(PENUMBRA_SOURCE_DIR) + "/scenes/" + scene + ".usda");
-    for (;;) {
-        if (auto ready = loader.take()) return std::move(*ready);
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-}
-
 class Run {
 public:
     Run(const DragScript& script, const DragOptions& options)
-        : script_(script), options_(options), walk_(load(script.scene)),
+        : script_(script), options_(options), walk_(loadScene(script.scene)),
           renderer_({.samples = 1, .precision = HdrTarget::Precision::single}) {
         if (!script.camera.empty()) walk_.goTo(script.camera, script.scene);
         makeLight();

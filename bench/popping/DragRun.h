@@ -56,8 +56,8 @@ struct DragResult {
     /// Processor time a frame, of all threads, when nothing moves, when the camera turns, and in
     /// motion [s]; counts when other work keeps the machine busy.
     double idleWork = 0, walkWork = 0, dragWork = 0;
-    /// Bytes of light that are copied to the graphics card: a frame in motion, and all told from the
-    /// release on.
+    /// Bytes of light that are copied to the graphics card: a frame in motion, and all told from
+    /// the release on.
     double dragBytes = 0, bytesAfter = 0;
     /// The worst of the first frames in motion, of all of them if that is known, and of the release
     /// and what comes after.

@@ -8,6 +8,7 @@
 //                     with --rays), 2: no fade; else all
 //   --name N          names what the N worst pixels of the first frames and of the hand-over show
 //   --hd              1280 x 720 pixels; else 640 x 360
+//   --consistency     instead: how equal live light and radiosity are where no shadow falls
 //   --keep FOLDER     writes what was shown, what should have been, and the error, as PNG
 //
 // Columns: largest steps from grabbing, and of the first frames in motion; in motion, and from the
@@ -17,6 +18,7 @@
 // 99.9 % and of all pixels can't be seen any more; mean and longest frame in motion. Below: more of
 // the first frames in motion; processor time of frames; light copied to the graphics card; the
 // picture at rest in the end against that of a solution from scratch, as displayed in 8 bits.
+#include "Consistency.h"
 #include "DragRun.h"
 
 #include "io/PngWriter.h"
@@ -118,12 +120,22 @@ void report(const DragScript& script, const char* variant, const DragResult& r) 
     std::fflush(stdout);
 }
 
+void reportConsistency(const std::string& scene, LiveBy by, float elementSize, glm::ivec2 size) {
+    const Consistency found = consistency(scene, by, elementSize, size);
+    std::printf("%-8s %s: %zu lamps, %zu pixels in no shadow: mean %.3f %%, median %.3f %%, 99 %% "
+                "of them %.3f %%, "
+                "most %.2f %%, above 1 %%: %.2f %%\n",
+                scene.c_str(), by == LiveBy::rays ? "rays" : "maps", found.lamps, found.pixels,
+                100 * found.mean, 100 * found.median, 100 * found.p99, 100 * found.most,
+                100 * found.beyond);
+}
+
 int run(int argc, char** argv) {
     std::string only;
     LiveBy by = LiveBy::maps;
     glm::ivec2 size{640, 360};
     float elementSize = 0;
-    bool indirect = true, motion = false;
+    bool indirect = true, motion = false, consistent = false;
     std::string keep;
     int variantWanted = -1;
     std::size_t named = 0;
@@ -135,6 +147,8 @@ int run(int argc, char** argv) {
             indirect = false;
         else if (argument == "--motion")
             motion = true;
+        else if (argument == "--consistency")
+            consistent = true;
         else if (argument == "--variant" && i + 1 < argc)
             variantWanted = std::stoi(argv[++i]);
         else if (argument == "--name" && i + 1 < argc)
@@ -147,6 +161,12 @@ int run(int argc, char** argv) {
             elementSize = std::stof(argv[++i]);
         else
             only = argument;
+    }
+    if (consistent) {
+        for (const DragScript& script : kScripts)
+            if (only.empty() || only == script.scene)
+                reportConsistency(script.scene, by, elementSize, size);
+        return 0;
     }
     std::printf("                              |   start     |    motion     |       "
                 "hand-over        | flick |  ready settled real%% | frames | frame ms\n");

@@ -1,0 +1,189 @@
+#include "Consistency.h"
+
+#include "LoadScene.h"
+
+#include "radiosity/EmitterSender.h"
+#include "radiosity/LightShapes.h"
+#include "radiosity/RadiosityNode.h"
+#include "radiosity/process/LightingLink.h"
+#include "scenegraph/Frustum.h"
+#include "scenegraph/Light.h"
+#include "viewer/Arrangements.h"
+#include "viewer/InteractiveRenderer.h"
+#include "viewer/LiveStage.h"
+#include "viewer/LiveVertices.h"
+#include "viewer/OffscreenContext.h"
+#include "viewer/ShownLight.h"
+#include "viewer/Walkthrough.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <thread>
+#include <vector>
+
+namespace penumbra {
+
+namespace {
+
+constexpr float kSeen = 0.998f; ///< of a lamp: nothing is in the way, but for 16-bit floats
+
+class Comparison {
+public:
+    Comparison(const std::string& scene, LiveBy by, float elementSize, glm::ivec2 size)
+        : walk_(loadScene(scene)), by_(by), size_(size),
+          renderer_({.samples = 1, .precision = HdrTarget::Precision::single}) {
+        options_.meshing = {.patchSize = float(walk_.scene().patchSize),
+                            .elementSize = elementSize};
+        options_.trigger = Trigger::continuous;
+        options_.solving.directOnly = true;
+        node_ = std::make_shared<RadiosityNode>("lit", options_, makeThreadLink());
+        node_->add(walk_.scene().root);
+        node_->update();
+        for (const auto& light : node_->placed().lights)
+            if (canBeDrawnLive(lightEmitter(*light.node, light.toWorld)))
+                lamps_.push_back(light.path);
+    }
+
+    Consistency compare() {
+        for (std::size_t first = 0; first < lamps_.size(); first += kMostLampsDrawnLive) {
+            const std::size_t end = std::min(first + kMostLampsDrawnLive, lamps_.size());
+            group_.assign(lamps_.begin() + std::ptrdiff_t(first),
+                          lamps_.begin() + std::ptrdiff_t(end));
+            compareGroup();
+        }
+        Consistency result{lamps_.size(), differences_.size()};
+        if (differences_.empty()) return result;
+        std::sort(differences_.begin(), differences_.end());
+        for (const double difference : differences_)
+            result.mean += difference / double(differences_.size());
+        result.median = differences_[differences_.size() / 2];
+        result.beyond = double(differences_.end() -
+                               std::upper_bound(differences_.begin(), differences_.end(), 0.01)) /
+                        double(differences_.size());
+        result.p99 = differences_[std::size_t(0.99 * double(differences_.size() - 1))];
+        result.most = differences_.back();
+        return result;
+    }
+
+private:
+    void settle() {
+        for (int still = 0; still < 5;) {
+            node_->update();
+            const RadiosityState& state = node_->state();
+            const bool done = state.phase == RadiosityState::Phase::settled && state.complete &&
+                              state.lampsMarked && state.queued == 0;
+            still = done ? still + 1 : 0;
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+    }
+    using LightOf = std::function<Rgb(std::uint32_t object, std::size_t vertex)>;
+    void show(const LightOf& light) {
+        shown_.clear();
+        const auto objects = node_->objects();
+        for (std::uint32_t o = 0; o < objects.size(); ++o) {
+            if (!objects[o].geometry) continue;
+            ShownLight& to = shown_[objects[o].geometry.get()];
+            const std::size_t vertices = objects[o].geometry->data().positions.size();
+            for (std::size_t v = 0; v < vertices; ++v) to.direct.push_back(light(o, v));
+            to.indirect.assign(vertices, Rgb());
+            to.factors.assign(vertices, glm::vec4(-1));
+            to.behind.assign(vertices, 0);
+            to.blockRevisions.assign(objects[o].geometry->blockRevisions().size(), ++revision_);
+            to.revision = revision_;
+        }
+    }
+    std::vector<Rgb> draw(const LiveLight& live) {
+        const View view = walk_.rig().view(size_.x, size_.y);
+        DrawList list = listVisible(node_->lit(), Frustum(view.worldToClip()));
+        LiveVertices vertices(options_.solving.samples, [this] { return node_->patches(); });
+        const bool rays = by_ == LiveBy::rays && live.active();
+        if (rays)
+            vertices.update(live, [&](const LitGeometry& geometry) { return &shown_[&geometry]; });
+        for (DrawItem& item : list.items) {
+            const ShownLight* const brought = rays ? vertices.shown(*item.geometry) : nullptr;
+            item.shown = brought ? brought : &shown_[item.geometry];
+        }
+        renderer_.drawScene(list, view, {}, size_.x, size_.y, rays ? LiveLight() : live);
+        return renderer_.readLuminances();
+    }
+    Rgb exitance(std::size_t lamp) const {
+        for (const auto& light : node_->placed().lights)
+            if (light.path == group_[lamp])
+                return light.node->luminance() * std::numbers::pi_v<float>;
+        return {};
+    }
+    /// Nothing is in the way of any of the lamps, as far as it shines there at all.
+    bool sees(const LiveStage& stage, const std::vector<EmitterSender>& senders,
+              std::uint32_t object, std::size_t vertex) const {
+        if (vertex >= stage.vertices(object)) return false; // something touches it
+        const LitMeshData& data = node_->objects()[object].geometry->data();
+        const Receiver receiver = stage.receiver(object, vertex);
+        for (std::size_t l = 0; l < senders.size(); ++l)
+            if (data.lamps[l].factor[vertex] < kSeen * senders[l].formFactor(receiver))
+                return false;
+        return true;
+    }
+    /// As if the lamps had been dark before, so that all of their light is drawn live.
+    LiveLight live(const ArrangementPtr& now) const {
+        LiveLight live;
+        for (const LitObject& object : node_->objects()) live.objects.push_back({object.geometry});
+        for (std::size_t l = 0; l < group_.size(); ++l) live.lamps.push_back({exitance(l), true});
+        live.now = now;
+        auto dark = std::make_shared<Arrangement>(*now);
+        for (auto& lamp : dark->lamps) lamp.reset();
+        live.anchors.push_back({std::move(dark), 1, 0});
+        return live;
+    }
+    void compareGroup() {
+        node_->setLiveLamps(group_);
+        settle();
+        const auto now = std::make_shared<const Arrangement>(arrangementOf(*node_, group_));
+        LiveStage stage(*node_->patches());
+        stage.stand(*now);
+        std::vector<EmitterSender> senders;
+        for (const auto& lamp : now->lamps) senders.emplace_back(*lamp, 16, 16);
+        show([&](std::uint32_t object, std::size_t vertex) {
+            const LitMeshData& data = node_->objects()[object].geometry->data();
+            Rgb sum;
+            for (std::size_t l = 0; l < group_.size(); ++l)
+                sum = sum + exitance(l) * data.lamps[l].factor[vertex];
+            return sum;
+        });
+        const std::vector<Rgb> exact = draw({});
+        show([](std::uint32_t, std::size_t) { return Rgb(); });
+        const std::vector<Rgb> fast = draw(live(now));
+        show([&](std::uint32_t object, std::size_t vertex) {
+            return Rgb(sees(stage, senders, object, vertex) ? 0.0f : 1.0f);
+        });
+        const std::vector<Rgb> shadows = draw({});
+        for (std::size_t i = 0; i < exact.size(); ++i)
+            if (luminance(shadows[i]) == 0 &&
+                luminance(exact[i]) > 0) // what shines is left out too
+                differences_.push_back(std::abs(luminance(fast[i]) - luminance(exact[i])) /
+                                       luminance(exact[i]));
+    }
+
+    OffscreenContext context_;
+    Walkthrough walk_;
+    LiveBy by_;
+    glm::ivec2 size_;
+    InteractiveRenderer renderer_;
+    RadiosityOptions options_;
+    std::shared_ptr<RadiosityNode> node_;
+    std::vector<std::string> lamps_, group_;
+    std::map<const LitGeometry*, ShownLight> shown_;
+    std::uint64_t revision_ = 0;
+    std::vector<double> differences_;
+};
+
+} // namespace
+
+Consistency consistency(const std::string& scene, LiveBy by, float elementSize, glm::ivec2 size) {
+    return Comparison(scene, by, elementSize, size).compare();
+}
+
+} // namespace penumbra

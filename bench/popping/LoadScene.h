@@ -1,0 +1,13 @@
+// A scene of scenes/, read.
+#pragma once
+
+#include "viewer/SceneLoader.h"
+
+#include <string>
+
+namespace penumbra {
+
+/// \param scene name of a file there, without its ending \throws Error
+ReadyScene loadScene(const std::string& scene);
+
+} // namespace penumbra
