@@ -1,12 +1,10 @@
 #include "viewer/LiveRows.h"
 
-#include "radiosity/Parallel.h"
-#include "radiosity/RowBuilder.h"
 #include "radiosity/Shaft.h"
+#include "scenegraph/Frustum.h"
 #include "viewer/Arrangements.h"
 
 #include <algorithm>
-#include <bit>
 #include <tuple>
 #include <utility>
 
@@ -28,12 +26,12 @@ void LiveRows::require(const std::vector<std::shared_ptr<const LitGeometry>>& ge
 }
 
 bool LiveRows::knows(const LiveLight& light) const {
-    const auto moves = [](const LiveLight::Object& object, bool moves) {
+    const auto alike = [](const LiveLight::Object& object, bool moves) {
         return object.moves == moves;
     };
     return light.anchors.empty() && slots_.size() == 1 && slots_.front().of == light.now &&
            std::equal(light.objects.begin(), light.objects.end(), moves_.begin(), moves_.end(),
-                      moves);
+                      alike);
 }
 
 /// Whether what is known still holds: the same things move, the same lamps are live.
@@ -150,15 +148,26 @@ unsigned LiveRows::lampsReaching(const LiveLight& light, std::uint32_t object,
     return lamps;
 }
 
-void LiveRows::findReached(const LiveLight& light) {
+/// Blocks with vertices that a change may reach and that can be seen. Of what moves, half looks
+/// away.
+void LiveRows::findReached(const LiveLight& light, const View* view) {
     reached_.clear();
+    std::optional<Frustum> frustum;
+    if (view) frustum.emplace(view->worldToClip());
     for (std::uint32_t o = 0; o < surfaces_.size(); ++o) {
         if (!surfaces_[o]) continue;
         const std::span<const Bounds> blocks = surfaces_[o].blocks();
+        const glm::dmat4& toWorld = light.now->objects[o].toWorld;
+        std::vector<std::uint64_t> seen;
+        if (view && light.objects[o].moves)
+            seen = surfaces_[o].turnedTo(glm::inverse(toWorld) * glm::dvec4(view->eye, 1));
         for (std::uint32_t b = 0; b < blocks.size(); ++b) {
-            if (blocks[b].empty()) continue;
+            const std::uint64_t vertices = seen.empty() ? ~std::uint64_t(0) : seen[b];
+            if (blocks[b].empty() || vertices == 0) continue;
+            const Bounds drawn = grown(blocks[b], surfaces_[o].largestElement());
+            if (frustum && !frustum->mayContain(transformed(drawn, toWorld))) continue;
             if (const unsigned lamps = lampsReaching(light, o, blocks[b]))
-                reached_.push_back({o, b, lamps});
+                reached_.push_back({o, b, lamps, vertices});
         }
         findReachedStandIns(light, o);
     }
@@ -242,113 +251,7 @@ Receiver LiveRows::receiver(const Slot& slot, std::uint32_t object, std::size_t 
     return ownReceiver(slot, object, vertex);
 }
 
-/// Whether nothing that moves is between a lamp and a vertex that is lit where it lies. Blocks are
-/// wide: of the vertices of one that something is before, it is before a few.
-bool LiveRows::isClear(const Task& task, std::size_t vertex, const Receiver& receiver) const {
-    const Slot& slot = *task.slot;
-    if (!task.clear || slot.instead.contains(keyOf(task.at->object, vertex))) return false;
-    const Bounds place{receiver.position, receiver.position};
-    return std::none_of(slot.things.begin(), slot.things.end(), [&](const Bounds& thing) {
-        return shaftMeets(slot.senders[task.lamp]->box(), place, thing);
-    });
-}
-
-void LiveRows::run(const Task& task, RowBuilder& builder) const {
-    std::array<Receiver, kBlock> receivers{};
-    std::uint64_t wanted = 0, clear = 0;
-    const std::size_t begin = task.at->block * kBlock;
-    for (std::uint64_t bits = task.missing; bits != 0; bits &= bits - 1) {
-        const auto i = std::size_t(std::countr_zero(bits));
-        const std::uint64_t bit = std::uint64_t(1) << i;
-        receivers[i] = receiver(*task.slot, task.at->object, begin + i);
-        if (isPadding(receivers[i])) continue;
-        if (isClear(task, begin + i, receivers[i])) clear |= bit;
-        if (!(clear & bit) || !(task.clear->vertices & bit)) wanted |= bit;
-    }
-    if (wanted != 0) {
-        RowBlock block;
-        builder.updateEmitterBlock(*task.slot->senders[task.lamp], {receivers, wanted, 0}, wanted,
-                                   {}, block);
-        block.forEach([&](int i, float factor) {
-            Known& known = clear >> i & 1 ? *task.clear : *task.known;
-            known.factors[std::size_t(i)] = factor;
-        });
-    }
-    if (clear == 0) return;
-    task.clear->vertices |= clear;
-    for (std::uint64_t bits = clear; bits != 0; bits &= bits - 1) {
-        const auto i = std::size_t(std::countr_zero(bits));
-        task.known->factors[i] = task.clear->factors[i];
-    }
-}
-
-void LiveRows::trace(const LiveLight& light, Slot& slot) {
-    std::vector<Task> tasks;
-    for (const Reached& at : reached_) {
-        const std::span<const Bounds> blocks = surfaces_[at.object].blocks();
-        const bool own = light.objects[at.object].moves || at.block >= blocks.size();
-        const unsigned hidden =
-            own ? ~0u
-                : lampsThrough(
-                      light, slot,
-                      grown(transformed(blocks[at.block], slot.of->objects[at.object].toWorld),
-                            stage_->skin()));
-        for (std::size_t l = 0; l < slot.senders.size(); ++l) {
-            if (!(at.lamps >> l & 1)) continue;
-            const bool inTheWay = hidden >> l & 1;
-            Known& known = (inTheWay ? slot.table : clear_)[keyOf(at, l)];
-            const std::uint64_t missing = at.vertices & ~known.vertices;
-            known.vertices |= missing;
-            for (std::uint64_t bits = missing; bits != 0; bits &= bits - 1)
-                known.factors[std::size_t(std::countr_zero(bits))] = 0;
-            if (missing == 0 || !slot.senders[l]) continue;
-            const bool some = inTheWay && !own && !light.lamps[l].moves;
-            tasks.push_back(
-                {&slot, &at, l, &known, some ? &clear_[keyOf(at, l)] : nullptr, missing});
-        }
-    }
-    if (tasks.empty()) return;
-    stage_->stand(*slot.of);
-    parallelFor(tasks.size(), 8, [&](std::size_t first, std::size_t last) {
-        RowBuilder builder(stage_->rays());
-        for (std::size_t t = first; t < last; ++t) run(tasks[t], builder);
-    });
-}
-
-/// What is touched now: a few corners, looked at anew in each frame.
-void LiveRows::traceTouched() {
-    if (touched_.empty()) return;
-    const Slot& now = slots_.front();
-    stage_->stand(*now.of);
-    std::vector<Receiver> receivers; // both lists are by object and corner
-    for (std::size_t i = 0, t = 0; t < touched_.size(); ++i)
-        if (now.touched[i].object == touched_[t].object &&
-            now.touched[i].corner == touched_[t].corner)
-            receivers.push_back(now.touched[i].at), ++t;
-    const std::size_t blocks = (touched_.size() + kBlock - 1) / kBlock;
-    parallelFor(blocks * now.senders.size(), 1, [&](std::size_t first, std::size_t last) {
-        RowBuilder builder(stage_->rays());
-        for (std::size_t job = first; job < last; ++job) {
-            const std::size_t lamp = job % now.senders.size();
-            const std::size_t begin = job / now.senders.size() * kBlock;
-            const std::size_t count = std::min(kBlock, touched_.size() - begin);
-            if (!now.senders[lamp]) continue;
-            const std::uint64_t all = ~std::uint64_t(0) >> (kBlock - count);
-            RowBlock block;
-            builder.updateEmitterBlock(*now.senders[lamp],
-                                       {std::span(receivers).subspan(begin, count), all, 0}, all,
-                                       {}, block);
-            block.forEach([&](int i, float factor) {
-                touched_[begin + std::size_t(i)].factors[lamp] = factor;
-            });
-            for (std::size_t i = 0; i < count; ++i)
-                touched_[begin + i].unoccluded[lamp] =
-                    now.senders[lamp]->formFactor(receivers[begin + i]);
-        }
-    });
-}
-
-void LiveRows::prepare(const LiveLight& light, const ShownOf& shown) {
+void LiveRows::prepare(const LiveLight& light, const ShownOf& shown, const View* view) {
     std::vector<std::shared_ptr<const LitGeometry>> geometries;
     for (const auto& object : light.objects) geometries.push_back(object.geometry);
     require(geometries);
@@ -356,7 +259,7 @@ void LiveRows::prepare(const LiveLight& light, const ShownOf& shown) {
     if (!sameMoves(light)) forget();
     followTriangles(shown);
     chooseSlots(light);
-    findReached(light);
+    findReached(light, view);
     findTouched(light);
     for (std::size_t s = slots_.size(); s-- > 0;) trace(light, slots_[s]); // now last: it stays
     traceTouched();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "radiosity/EmitterSender.h"
+#include "scenegraph/Camera.h"
 #include "viewer/LiveLight.h"
 #include "viewer/LiveStage.h"
 #include "viewer/LiveSurface.h"
@@ -52,9 +53,10 @@ public:
         unsigned lamps = 0;
         std::uint64_t vertices = ~std::uint64_t(0);
     };
-    /// Traces what is missing. \param light of some lamps; without anchors: what it is like now,
-    /// so that little is missing when something begins to move \param shown what vertices carry
-    void prepare(const LiveLight& light, const ShownOf& shown);
+    /// Traces what is missing. \param light of some lamps; without anchors: what it is like now, so
+    /// that little is missing when something begins to move \param shown what vertices carry
+    /// \param view from where it is looked at: what can't be seen is left out; null: nothing is
+    void prepare(const LiveLight& light, const ShownOf& shown, const View* view);
     /// Drops what is known.
     void forget();
     std::span<const Reached> reached() const { return reached_; }
@@ -114,7 +116,7 @@ private:
     Slot makeSlot(const LiveLight& light, const ArrangementPtr& of);
     unsigned lampsThrough(const LiveLight& light, const Slot& slot, const Bounds& box) const;
     unsigned lampsReaching(const LiveLight& light, std::uint32_t object, const Bounds& box) const;
-    void findReached(const LiveLight& light);
+    void findReached(const LiveLight& light, const View* view);
     void findReachedStandIns(const LiveLight& light, std::uint32_t object);
     void findTouched(const LiveLight& light);
     void trace(const LiveLight& light, Slot& slot);

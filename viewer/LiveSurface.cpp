@@ -38,9 +38,25 @@ LiveSurface::LiveSurface(std::shared_ptr<const LitGeometry> geometry, const Live
             blocks_[v / kBlock].add(data.positions[v]);
         }
         elements_.push_back(own);
+        largestElement_ = std::max(largestElement_,
+                                   elementBox(4 * std::uint32_t(elements_.size() - 1)).diagonal());
         firstEntry_.push_back(entry);
         entry += entryCount(own);
     }
+}
+
+/// Of a bent element it is enough that one corner's normal is turned there.
+std::vector<std::uint64_t> LiveSurface::turnedTo(glm::vec3 eye) const {
+    const LitMeshData& data = geometry_->data();
+    std::vector<std::uint64_t> seen(blocks_.size());
+    for (const auto& element : elements_) {
+        const auto turned = [&](std::uint32_t v) {
+            return glm::dot(data.normals[v], eye - data.positions[v]) > 0;
+        };
+        if (std::none_of(element.begin(), element.end(), turned)) continue;
+        for (const std::uint32_t v : element) seen[v / kBlock] |= std::uint64_t(1) << v % kBlock;
+    }
+    return seen;
 }
 
 void LiveSurface::follow() {

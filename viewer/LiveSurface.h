@@ -5,6 +5,7 @@
 #include "scenegraph/LitGeometry.h"
 #include "viewer/LiveStage.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -38,6 +39,11 @@ public:
     std::size_t ownVertices() const { return ownVertices_; }
     /// Boxes of blocks of the vertices from the start, empty ones left out [m, local].
     std::span<const Bounds> blocks() const { return blocks_; }
+    /// Diagonal of an element's box, at most [m, local].
+    float largestElement() const { return largestElement_; }
+    /// Vertices from the start that have an element which does not turn its back on a point: one
+    /// bit each, a word a block. \param eye [m, local]
+    std::vector<std::uint64_t> turnedTo(glm::vec3 eye) const;
     /// A vertex behind those from the start, and what it stands for.
     struct StandIn {
         std::uint32_t vertex = 0, corner = 0; ///< see TouchedCorner
@@ -61,6 +67,7 @@ private:
     std::vector<std::array<std::uint32_t, 4>> elements_; ///< of vertices from the start
     std::vector<std::uint32_t> firstEntry_;              ///< of each element, in the indices
     std::vector<Bounds> blocks_;
+    float largestElement_ = 0;
     std::vector<StandIn> standIns_;
 };
 

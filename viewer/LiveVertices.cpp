@@ -142,16 +142,16 @@ void LiveVertices::drawAllTouched(const LiveLight& light, const ShownOf& shown) 
     }
 }
 
-void LiveVertices::rest(const LiveLight& expected, const ShownOf& shown) {
+void LiveVertices::rest(const LiveLight& expected, const ShownOf& shown, const View* view) {
     copies_.clear();
     if (expected.lamps.empty())
         rows_.forget();
     else if (!rows_.knows(expected))
-        rows_.prepare(expected, shown);
+        rows_.prepare(expected, shown, view);
 }
 
-void LiveVertices::update(const LiveLight& light, const ShownOf& shown) {
-    rows_.prepare(light, shown);
+void LiveVertices::update(const LiveLight& light, const ShownOf& shown, const View* view) {
+    rows_.prepare(light, shown, view);
     for (const LiveRows::Reached& at : rows_.reached()) {
         const LitGeometry& geometry = *light.objects[at.object].geometry;
         if (shown(geometry)) copies_[&geometry].object = at.object;

@@ -24,11 +24,11 @@ public:
     LiveVertices(int samples, LiveRows::PatchesOf patches) : rows_(samples, std::move(patches)) {}
 
     using ShownOf = LiveRows::ShownOf;
-    /// Once a frame. \param shown what is shown without live lamps
-    void update(const LiveLight& light, const ShownOf& shown);
+    /// Once a frame. \param shown what is shown without live lamps \param view see LiveRows
+    void update(const LiveLight& light, const ShownOf& shown, const View* view = nullptr);
     /// The same while nothing moves. \param expected see LightBlend::expecting(): is made ready, so
     /// that the first frame of a move need not
-    void rest(const LiveLight& expected, const ShownOf& shown);
+    void rest(const LiveLight& expected, const ShownOf& shown, const View* view = nullptr);
 
     /// What is shown of a geometry; null: what is shown without live lamps.
     const ShownLight* shown(const LitGeometry& geometry) const;

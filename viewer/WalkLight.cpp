@@ -47,14 +47,15 @@ void WalkLight::chooseLamps(const Walkthrough& walk) {
 
 /// By rays: brings the light of vertices up to date while something moves, and is ready for that
 /// when something may.
-void WalkLight::updateVertices(const Walkthrough& walk) {
+void WalkLight::updateVertices(const Walkthrough& walk, const View& view) {
     const auto shown = [&](const LitGeometry& geometry) { return blend_.shown(geometry); };
     const auto& selection = walk.selection();
     const std::vector<Object>& objects = node_->placed().objects; // as the walkthrough has them
     if (blend_.live().active())
-        vertices_->update(blend_.live(), shown);
+        vertices_->update(blend_.live(), shown, &view);
     else if (selection && selection->movable() && selection->object.value < objects.size())
-        vertices_->rest(blend_.expecting(*node_, objects[selection->object.value].path), shown);
+        vertices_->rest(blend_.expecting(*node_, objects[selection->object.value].path), shown,
+                        &view);
     else
         vertices_->rest({}, shown);
 }
@@ -76,7 +77,7 @@ bool WalkLight::update(const Walkthrough& walk, const View& view) {
     chooseLamps(walk);
     blend_.advance(*node_, walk.time());
     ages_.advance(node_->objects(), walk.time());
-    if (vertices_) updateVertices(walk);
+    if (vertices_) updateVertices(walk, view);
     const RadiosityState& state = node_->state();
     const bool news = blend_.changing() || blocks_ != state.blocksTaken || phase_ != state.phase ||
                       unlit_ != node_->unlit().size();

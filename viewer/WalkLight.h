@@ -69,7 +69,7 @@ public:
 
 private:
     void chooseLamps(const Walkthrough& walk);
-    void updateVertices(const Walkthrough& walk);
+    void updateVertices(const Walkthrough& walk, const View& view);
 
     const Group& scene_;
     std::shared_ptr<RadiosityNode> node_;

@@ -1,0 +1,130 @@
+// The rays of LiveRows: of what is missing, in one arrangement.
+#include "radiosity/Parallel.h"
+#include "radiosity/RowBuilder.h"
+#include "radiosity/Shaft.h"
+#include "viewer/LiveRows.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace penumbra {
+
+/// Whether nothing that moves is between a lamp and a vertex, and it is lit where it always is when
+/// nothing that moves touches it. Blocks are wide: of the vertices of one that something is before,
+/// it is before a few.
+bool LiveRows::isClear(const Task& task, std::size_t vertex, const Receiver& receiver) const {
+    const Slot& slot = *task.slot;
+    const std::uint32_t object = task.at->object;
+    if (!task.clear || slot.instead.contains(keyOf(object, vertex))) return false;
+    if (vertex >= surfaces_[object].ownVertices()) {
+        const std::optional<std::uint32_t> corner = surfaces_[object].cornerOf(vertex);
+        if (!corner) return false;
+        const Bounds box =
+            transformed(surfaces_[object].elementBox(*corner), slot.of->objects[object].toWorld);
+        const Bounds around = grown(box, box.diagonal()); // what touches the elements beside it
+        for (const Bounds& thing : slot.things)
+            if (thing.overlaps(around)) return false;
+    }
+    const Bounds place{receiver.position, receiver.position};
+    return std::none_of(slot.things.begin(), slot.things.end(), [&](const Bounds& thing) {
+        return shaftMeets(slot.senders[task.lamp]->box(), place, thing);
+    });
+}
+
+void LiveRows::run(const Task& task, RowBuilder& builder) const {
+    std::array<Receiver, kBlock> receivers{};
+    std::uint64_t wanted = 0, clear = 0;
+    const std::size_t begin = task.at->block * kBlock;
+    for (std::uint64_t bits = task.missing; bits != 0; bits &= bits - 1) {
+        const auto i = std::size_t(std::countr_zero(bits));
+        const std::uint64_t bit = std::uint64_t(1) << i;
+        receivers[i] = receiver(*task.slot, task.at->object, begin + i);
+        if (isPadding(receivers[i])) continue;
+        if (isClear(task, begin + i, receivers[i])) clear |= bit;
+        if (!(clear & bit) || !(task.clear->vertices & bit)) wanted |= bit;
+    }
+    if (wanted != 0) {
+        RowBlock block;
+        builder.updateEmitterBlock(*task.slot->senders[task.lamp], {receivers, wanted, 0}, wanted,
+                                   {}, block);
+        block.forEach([&](int i, float factor) {
+            Known& known = clear >> i & 1 ? *task.clear : *task.known;
+            known.factors[std::size_t(i)] = factor;
+        });
+    }
+    if (clear == 0) return;
+    task.clear->vertices |= clear;
+    for (std::uint64_t bits = clear; bits != 0; bits &= bits - 1) {
+        const auto i = std::size_t(std::countr_zero(bits));
+        task.known->factors[i] = task.clear->factors[i];
+    }
+}
+
+void LiveRows::trace(const LiveLight& light, Slot& slot) {
+    std::vector<Task> tasks;
+    for (const Reached& at : reached_) {
+        const std::span<const Bounds> blocks = surfaces_[at.object].blocks();
+        const bool moves = light.objects[at.object].moves;
+        const bool own = moves || at.block >= blocks.size();
+        const unsigned hidden =
+            own ? ~0u
+                : lampsThrough(
+                      light, slot,
+                      grown(transformed(blocks[at.block], slot.of->objects[at.object].toWorld),
+                            stage_->skin()));
+        for (std::size_t l = 0; l < slot.senders.size(); ++l) {
+            if (!(at.lamps >> l & 1)) continue;
+            const bool inTheWay = hidden >> l & 1;
+            Known& known = (inTheWay ? slot.table : clear_)[keyOf(at, l)];
+            const std::uint64_t missing = at.vertices & ~known.vertices;
+            known.vertices |= missing;
+            for (std::uint64_t bits = missing; bits != 0; bits &= bits - 1)
+                known.factors[std::size_t(std::countr_zero(bits))] = 0;
+            if (missing == 0 || !slot.senders[l]) continue;
+            const bool some = inTheWay && !moves && !light.lamps[l].moves;
+            tasks.push_back(
+                {&slot, &at, l, &known, some ? &clear_[keyOf(at, l)] : nullptr, missing});
+        }
+    }
+    if (tasks.empty()) return;
+    stage_->stand(*slot.of);
+    parallelFor(tasks.size(), 8, [&](std::size_t first, std::size_t last) {
+        RowBuilder builder(stage_->rays());
+        for (std::size_t t = first; t < last; ++t) run(tasks[t], builder);
+    });
+}
+
+/// What is touched now: a few corners, looked at anew in each frame.
+void LiveRows::traceTouched() {
+    if (touched_.empty()) return;
+    const Slot& now = slots_.front();
+    stage_->stand(*now.of);
+    std::vector<Receiver> receivers; // both lists are by object and corner
+    for (std::size_t i = 0, t = 0; t < touched_.size(); ++i)
+        if (now.touched[i].object == touched_[t].object &&
+            now.touched[i].corner == touched_[t].corner)
+            receivers.push_back(now.touched[i].at), ++t;
+    const std::size_t blocks = (touched_.size() + kBlock - 1) / kBlock;
+    parallelFor(blocks * now.senders.size(), 1, [&](std::size_t first, std::size_t last) {
+        RowBuilder builder(stage_->rays());
+        for (std::size_t job = first; job < last; ++job) {
+            const std::size_t lamp = job % now.senders.size();
+            const std::size_t begin = job / now.senders.size() * kBlock;
+            const std::size_t count = std::min(kBlock, touched_.size() - begin);
+            if (!now.senders[lamp]) continue;
+            const std::uint64_t all = ~std::uint64_t(0) >> (kBlock - count);
+            RowBlock block;
+            builder.updateEmitterBlock(*now.senders[lamp],
+                                       {std::span(receivers).subspan(begin, count), all, 0}, all,
+                                       {}, block);
+            block.forEach([&](int i, float factor) {
+                touched_[begin + std::size_t(i)].factors[lamp] = factor;
+            });
+            for (std::size_t i = 0; i < count; ++i)
+                touched_[begin + i].unoccluded[lamp] =
+                    now.senders[lamp]->formFactor(receivers[begin + i]);
+        }
+    });
+}
+
+} // namespace penumbra
