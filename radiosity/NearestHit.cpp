@@ -8,18 +8,39 @@
 
 namespace penumbra {
 
+namespace {
+
+/// On which side of a ray the edges of a triangle pass.
+struct Sides {
+    Sides(glm::dvec3 origin, glm::dvec3 direction, std::span<const glm::vec3, 3> corners)
+        : a(glm::dvec3(corners[0]) - origin), b(glm::dvec3(corners[1]) - origin),
+          c(glm::dvec3(corners[2]) - origin),
+          // Those of an edge that is taken the other way round differ in their sign alone.
+          sideA(glm::dot(glm::cross(b, c), direction)),
+          sideB(glm::dot(glm::cross(c, a), direction)),
+          sideC(glm::dot(glm::cross(a, b), direction)) {}
+
+    /// Neither if the ray passes beside the triangle, both if it runs along it.
+    bool back() const { return sideA >= 0 && sideB >= 0 && sideC >= 0; }
+    bool front() const { return sideA <= 0 && sideB <= 0 && sideC <= 0; }
+    bool passes() const { return back() != front(); }
+
+    glm::dvec3 a, b, c; ///< corners from the ray's origin
+    double sideA, sideB, sideC;
+};
+
+} // namespace
+
+bool passes(glm::dvec3 origin, glm::dvec3 direction, std::span<const glm::vec3, 3> corners) {
+    return Sides(origin, direction, corners).passes();
+}
+
 bool NearestHit::take(std::span<const glm::vec3, 3> corners, const RayHit& hit) {
-    const glm::dvec3 a = glm::dvec3(corners[0]) - origin_, b = glm::dvec3(corners[1]) - origin_,
-                     c = glm::dvec3(corners[2]) - origin_;
-    // Those of an edge that is taken the other way round differ in their sign alone.
-    const double sideA = glm::dot(glm::cross(b, c), direction_);
-    const double sideB = glm::dot(glm::cross(c, a), direction_);
-    const double sideC = glm::dot(glm::cross(a, b), direction_);
-    const bool back = sideA >= 0 && sideB >= 0 && sideC >= 0;
-    const bool front = sideA <= 0 && sideB <= 0 && sideC <= 0;
+    const Sides sides(origin_, direction_, corners);
+    const auto& [a, b, c, sideA, sideB, sideC] = sides;
     const glm::dvec3 normal = glm::cross(b - a, c - a);
     if (frontOnly_ && glm::dot(direction_, normal) >= 0) return false;
-    if (back == front) { // it passes beside the triangle, or along it
+    if (!sides.passes()) {
         if (hit.distance < doubt_.distance) doubt_ = hit, middle_ = (a + b + c) / 3.0;
         return false;
     }

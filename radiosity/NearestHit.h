@@ -22,6 +22,10 @@ struct RayHit {
     bool met() const { return object.valid(); }
 };
 
+/// Whether a ray without end passes through a triangle, judged in double precision: of two
+/// triangles that share an edge, it passes one. Not if it runs along the triangle.
+bool passes(glm::dvec3 origin, glm::dvec3 direction, std::span<const glm::vec3, 3> corners);
+
 /// Judges the triangles that Embree offers for a ray, in any order. At an edge it offers one
 /// triangle or the other, both or none, by rounding and by what else lies in the same leaf of its
 /// hierarchy; here the answer depends on the triangles alone. Edges are judged in double precision,

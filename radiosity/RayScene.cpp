@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstring>
@@ -20,7 +21,8 @@ namespace {
 /// What our filters want to know of a query.
 struct QueryContext {
     RTCIntersectContext context;      // first, so that Embree's pointer is ours
-    std::uint32_t* blocker = nullptr; // where to note who is in the way
+    std::uint32_t* blocker = nullptr; // where to note who is in the way, one a ray
+    std::uint32_t doubts = 0;         // bits: rays to which a triangle was offered that they miss
     NearestHit* nearest = nullptr;    // who judges what is met
     float slack = 0; // how much farther Embree has to go on than the nearest [of the direction]
     std::vector<RayHit>* all = nullptr; // where to note every hit; none ends the ray
@@ -34,16 +36,38 @@ struct QueryContext {
 struct Triangles {
     const glm::vec3* vertices = nullptr;
     const std::array<std::uint32_t, 3>* corners = nullptr;
+    std::array<glm::vec3, 3> at(std::uint32_t triangle) const {
+        const auto [a, b, c] = corners[triangle];
+        return {vertices[a], vertices[b], vertices[c]};
+    }
 };
 
-/// Notes the object of the hit that ends each ray; the hit itself is accepted.
+/// Whether Embree's i-th ray passes through the triangle that it is said to hit. By rounding it may
+/// pass beside it, and whether it is tried at all then depends on the hierarchy.
+bool reallyPasses(const RTCFilterFunctionNArguments* args, unsigned i) {
+    constexpr float kSure = 1e-3f; // farther from every edge than rounding gets
+    const float u = RTCHitN_u(args->hit, args->N, i), v = RTCHitN_v(args->hit, args->N, i);
+    if (u > kSure && v > kSure && u + v < 1 - kSure) return true;
+    const Triangles& of = *static_cast<const Triangles*>(args->geometryUserPtr);
+    return passes({RTCRayN_org_x(args->ray, args->N, i), RTCRayN_org_y(args->ray, args->N, i),
+                   RTCRayN_org_z(args->ray, args->N, i)},
+                  {RTCRayN_dir_x(args->ray, args->N, i), RTCRayN_dir_y(args->ray, args->N, i),
+                   RTCRayN_dir_z(args->ray, args->N, i)},
+                  of.at(RTCHitN_primID(args->hit, args->N, i)));
+}
+
+/// Notes the object of the hit that ends each ray, or that it is in doubt and goes on.
 void noteBlocker(const RTCFilterFunctionNArguments* args) {
-    const auto* const context = reinterpret_cast<const QueryContext*>(args->context);
-    if (!context->blocker) return;
+    auto& context = *reinterpret_cast<QueryContext*>(args->context);
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] == 0) continue;
         const unsigned ray = RTCRayN_id(args->ray, args->N, i);
-        context->blocker[ray] = RTCHitN_geomID(args->hit, args->N, i);
+        if (reallyPasses(args, i)) {
+            context.blocker[ray] = RTCHitN_geomID(args->hit, args->N, i);
+        } else {
+            args->valid[i] = 0;
+            context.doubts |= 1u << ray;
+        }
     }
 }
 
@@ -70,9 +94,7 @@ void chooseHits(const RTCFilterFunctionNArguments* args) {
         return;
     }
     const Triangles& of = *static_cast<const Triangles*>(args->geometryUserPtr);
-    const auto [a, b, c] = of.corners[hit.triangle];
-    const std::array corners{of.vertices[a], of.vertices[b], of.vertices[c]};
-    if (context.nearest->take(corners, hit))
+    if (context.nearest->take(of.at(hit.triangle), hit))
         RTCRayN_tfar(args->ray, 1, 0) = float(context.nearest->distance()) + context.slack;
     else
         args->valid[0] = 0;
@@ -247,6 +269,7 @@ void RayScene::trace(void* scene, ShadowRays& rays) const {
     static_assert(ShadowRays::kMost == 16);
     alignas(64) int valid[16];
     alignas(64) RTCRay16 packet;
+    float reaches[16];
     for (int i = 0; i < 16; ++i) {
         const bool used = rays.used >> i & 1;
         valid[i] = used ? -1 : 0;
@@ -258,7 +281,7 @@ void RayScene::trace(void* scene, ShadowRays& rays) const {
         packet.dir_y[i] = used ? rays.directionY[i] : 0;
         packet.dir_z[i] = used ? rays.directionZ[i] : 1;
         packet.tnear[i] = 0;
-        packet.tfar[i] =
+        packet.tfar[i] = reaches[i] =
             reach(std::sqrt(packet.dir_x[i] * packet.dir_x[i] + packet.dir_y[i] * packet.dir_y[i] +
                             packet.dir_z[i] * packet.dir_z[i]));
         packet.time[i] = 0;
@@ -269,15 +292,27 @@ void RayScene::trace(void* scene, ShadowRays& rays) const {
     QueryContext context;
     context.blocker = rays.blocker;
     rtcOccluded16(valid, static_cast<RTCScene>(scene), &context.context, &packet);
+    for (std::uint32_t left = context.doubts; left != 0; left &= left - 1) {
+        const int i = std::countr_zero(left);
+        if (rays.blocker[i] != ObjectId::kNone) continue;
+        const RayHit hit = nearestIn(scene, {rays.originX[i], rays.originY[i], rays.originZ[i]},
+                                     {rays.directionX[i], rays.directionY[i], rays.directionZ[i]},
+                                     reaches[i], Faces::both);
+        rays.blocker[i] = hit.object.value;
+    }
 }
 
 bool RayScene::occluded(glm::vec3 origin, glm::vec3 target) const {
     const glm::vec3 d = target - origin;
-    RTCRay ray{origin.x,    origin.y, origin.z, 0, d.x, d.y, d.z, 0, reach(glm::length(d)),
-               0xffffffffu, 0,        0};
+    const float far = reach(glm::length(d));
+    RTCRay ray{origin.x, origin.y, origin.z, 0, d.x, d.y, d.z, 0, far, 0xffffffffu, 0, 0};
+    std::uint32_t blocker = ObjectId::kNone;
     QueryContext context;
+    context.blocker = &blocker;
     rtcOccluded1(impl_->scene, &context.context, &ray);
-    return ray.tfar < 0;
+    if (blocker == ObjectId::kNone && context.doubts != 0)
+        return nearestIn(impl_->scene, origin, d, far, Faces::both).met();
+    return blocker != ObjectId::kNone;
 }
 
 void RayScene::all(glm::vec3 origin, glm::vec3 direction, std::vector<RayHit>& hits) const {
@@ -292,6 +327,11 @@ void RayScene::all(glm::vec3 origin, glm::vec3 direction, std::vector<RayHit>& h
 }
 
 RayHit RayScene::nearest(glm::vec3 origin, glm::vec3 direction, float reach, Faces faces) const {
+    return nearestIn(impl_->scene, origin, direction, reach, faces);
+}
+
+RayHit RayScene::nearestIn(void* scene, glm::vec3 origin, glm::vec3 direction, float reach,
+                           Faces faces) const {
     constexpr int kTimes = 4;        // corners may need several
     const float hair = margin_ / 20; // many times what Embree rounds [m]
     for (int time = 1;; ++time) {
@@ -305,7 +345,7 @@ RayHit RayScene::nearest(glm::vec3 origin, glm::vec3 direction, float reach, Fac
             QueryContext context;
             context.nearest = &nearest;
             context.slack = hair / length;
-            rtcIntersect1(impl_->scene, &context.context, &query);
+            rtcIntersect1(static_cast<RTCScene>(scene), &context.context, &query);
         };
         offer(direction);
         if (!nearest.inDoubt(margin_ / length)) return nearest.hit();

@@ -58,8 +58,8 @@ public:
     void occluded(ShadowRays& rays) const;
     bool occluded(glm::vec3 origin, glm::vec3 target) const;
     /// The same against one object alone. For a segment that nothing else blocks, the answer is
-    /// that of the whole scene, bit for bit; not so if the segment runs along a face up to
-    /// rounding.
+    /// that of the whole scene, bit for bit: what passes by an edge up to rounding is judged by the
+    /// triangles alone.
     void occludedBy(ObjectId object, ShadowRays& rays) const;
     enum class Faces { both, front };
     /// The nearest triangle, up to `reach` times the length of `direction`; on request only of
@@ -73,6 +73,8 @@ public:
 private:
     float reach(float length) const;
     void trace(void* scene, ShadowRays& rays) const;
+    RayHit nearestIn(void* scene, glm::vec3 origin, glm::vec3 direction, float reach,
+                     Faces faces) const;
 
     struct Impl;
     std::unique_ptr<Impl> impl_;
