@@ -4,8 +4,8 @@
 Usage: bench/orders.py PROGRAM [--element-size M] [--orders A,B]
                        [--all-light] [--cameras NAMES] [--cut] [--out FOLDER]
 
-In the office, for each camera, `penumbra compare` plays three moves of the seat (20 cm, 1.2 m,
-3.3 m); figures are means over moves and cameras. The dirty set is that of bounding shafts: blocks
+For each camera, `penumbra compare` plays three moves of the office's seat or a sculpture of the
+gallery (20 cm, 1.2 m, 3.3 m); figures are means over moves and cameras. The dirty set is that of bounding shafts: blocks
 whose shaft to the lamp meets the moved object's box, those in which it was a blocker, and its own.
 The settled solution of the same mesh is the truth. Several seeds of a random order (random,random2,
 ...) also make a row of their mean. With --cut the viewer looks through another camera until a tenth
@@ -22,9 +22,11 @@ SCENES = pathlib.Path(__file__).resolve().parent.parent / "scenes"
 # What moves, and where it stands at frames 1 to 4 [m].
 MOVES = {
     "office": ("Seat", [(2.79, 2.21, 0), (2.97, 2.12, 0), (3.9, 1.35, 0), (1.0, 1.9, 0)]),
+    "gallery": ("PiercedCube", [(10.2, 15.2, 0.6), (10.38, 15.11, 0.6), (11.31, 14.34, 0.6),
+                                (14.2, 15.93, 0.6)]),
 }
 
-# Cameras: place [m], turns [degrees]. "dark" is the first one with the ceiling lamps at 1/1000.
+# Cameras: place [m], turns [degrees]. "dark" is the first one with most lamps at 1/1000.
 CAMERAS = {
     "office": {
         "on-screen": ((0.55, 0.42, 1.62), (75, 0, -49.25)),
@@ -32,8 +34,18 @@ CAMERAS = {
         "off-screen": ((3.6, 2.4, 1.6), (84, 0, 20)),
         "dark": ((0.55, 0.42, 1.62), (75, 0, -49.25)),
     },
+    "gallery": {
+        "on-screen": ((16.4, 8.6, 1.7), (84, 0, 45)),
+        "part-hidden": ((14.5, 10.4, 1.3), (84, 0, 41.6)),  # the knot stands in the middle
+        "off-screen": ((13, 10, 1.6), (84, 0, -100)),
+        "dark": ((16.4, 8.6, 1.7), (84, 0, 45)),
+    },
 }
-DIMMED = {"office": ["CeilingLamp1", "CeilingLamp2", "CeilingLamp3"]}
+# Lamps that are dimmed, by a thousand: lights and their intensities in the files.
+DIMMED = {
+    "office": [(f"CeilingLamp{i}/Panel", 2400) for i in (1, 2, 3)],
+    "gallery": [("CeilingLamp7/Panel", 1500), ("CeilingLamp8/Panel", 1500), ("Spot2/Bulb", 60000)],
+}
 
 
 def samples(name, kind, values):
@@ -77,12 +89,13 @@ over "World"
 """
     text += samples("xformOp:translate", "double3", places) + "    }\n"
     if camera == "dark":
-        for lamp in DIMMED[scene]:
+        for path, intensity in DIMMED[scene]:
+            lamp, light = path.split("/")
             text += f"""    over "{lamp}"
     {{
-        over "Panel"
+        over "{light}"
         {{
-            float inputs:intensity = 2.4
+            float inputs:intensity = {intensity / 1000}
         }}
     }}
 """

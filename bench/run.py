@@ -43,6 +43,9 @@ LATENCY = ["alone_first_ms", "thread_first_ms", "process_first_ms", "thread_firs
 FRAMES = ["idle_ms", "busy_ms", "median_ratio", "idle_99_ms", "busy_99_ms", "ratio_99",
           "update_busy_99_ms", "update_busy_longest_ms", "update_stopped_longest_ms",
           "update_waits"]
+SETTLE = ["elements", "plain_ms", "bound_ms", "importance_ms", "bound_time", "importance_time",
+          "bound_time_cpu", "importance_time_cpu", "plain_rays", "bound_rays", "importance_rays",
+          "moves"]
 BUILDING = ["elements", "lamps", "mesh_s", "scratch_s", "scratch_rays", "update_s",
             "update_cpu_s", "follow_s", "update_rays", "update_rays_full", "update_rays_single",
             "entries_changed", "blocks_visited", "entries", "rows_MB", "peak_MB"]
@@ -114,6 +117,7 @@ def main():
     table(merged["benchmarks"], "edit/steps/", STEPS)
     table(merged["benchmarks"], "latency/", LATENCY)
     table(merged["benchmarks"], "frames/", FRAMES)
+    table(merged["benchmarks"], "settle/", SETTLE)
     table(merged["benchmarks"], "edit/building/",
           BUILDING + [name + "_over_first" for name in GROWTH])
     print()

@@ -13,6 +13,9 @@ constexpr WorkQueue::Fairness kFairness{.patience = 4e6, .reserve = 0.25};
 
 /// What a block costs besides its rays, if their number is known, and each of its entries [rays].
 constexpr float kVisit = 48, kEntry = 0.5f;
+/// A part takes so many rays at least, unless no more are left: else visits take more time than
+/// rays do.
+constexpr double kLeastPart = 4 * kVisit;
 
 /// Of a block's open receivers the part that makes the most of a visit.
 struct Part {
@@ -37,7 +40,8 @@ Part bestPart(std::uint64_t open, std::span<const float> gains, std::span<const 
         all.receivers |= std::uint64_t(1) << r;
         all.gain += gains[r];
         all.cost += cost(r);
-        if (whole || all.gain * best.cost >= best.gain * all.cost) best = all;
+        const bool few = best.cost < kVisit + kLeastPart;
+        if (whole || few || all.gain * best.cost >= best.gain * all.cost) best = all;
     }
     return best;
 }

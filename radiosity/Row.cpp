@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace penumbra {
 
@@ -65,6 +66,7 @@ public:
             if (drafts[i].blockerCount == 0 || drafts[i].visible != 0) seen_ |= bit;
             for (const Blocker& blocker : blockersOf(drafts[i])) {
                 if (place(blocker.object) == objects_.size()) objects_.push_back(blocker.object);
+                ++blockers_;
                 wideObjects_ |= blocker.object >> 16 != 0;
             }
         }
@@ -72,6 +74,7 @@ public:
 
     std::unique_ptr<std::byte[]> write() {
         if (present_ == 0) return nullptr;
+        out_ = std::make_unique_for_overwrite<std::byte[]>(mostBytes());
         put(present_);
         put(visible_);
         put(std::uint16_t(0)); // the size, not yet known
@@ -90,15 +93,20 @@ public:
         for (const Draft& draft : drafts_)
             if (isPresent(draft) && draft.blockerCount > 0) putRecord(draft);
 
-        assert(out_.size() < 65536); // 64 entries of 64 blockers, all different, take less
-        const auto size = std::uint16_t(out_.size());
-        std::memcpy(out_.data() + kBytes, &size, sizeof size);
+        assert(size_ < 65536); // 64 entries of 64 blockers, all different, take less
+        const auto size = std::uint16_t(size_);
+        std::memcpy(out_.get() + kBytes, &size, sizeof size);
         auto bytes = std::make_unique_for_overwrite<std::byte[]>(size);
-        std::copy(out_.begin(), out_.end(), bytes.get());
+        std::copy_n(out_.get(), size, bytes.get());
         return bytes;
     }
 
 private:
+    /// No block takes more: see the list of its parts.
+    std::size_t mostBytes() const {
+        constexpr std::size_t kParts = kSeen + 8 + 64 * (4 + 4 + sizeof(Split) + 2 + 1 + 8);
+        return kParts + objects_.size() * 4 + blockers_ * (2 + 8) + 8;
+    }
     template <class T>
     void put(T value) {
         putLow(value, sizeof value);
@@ -106,9 +114,9 @@ private:
     /// The first bytes of a little-endian value.
     template <class T>
     void putLow(T value, std::size_t size) {
-        std::array<std::byte, sizeof value> bytes;
-        std::memcpy(bytes.data(), &value, sizeof value);
-        out_.insert(out_.end(), bytes.begin(), bytes.begin() + std::ptrdiff_t(size));
+        assert(size_ + sizeof value <= mostBytes());
+        std::memcpy(out_.get() + size_, &value, sizeof value); // what is too much is written over
+        size_ += size;
     }
     std::size_t place(std::uint32_t object) const {
         return std::size_t(std::find(objects_.begin(), objects_.end(), object) - objects_.begin());
@@ -142,7 +150,9 @@ private:
     std::uint64_t present_ = 0, visible_ = 0, seen_ = 0;
     std::vector<std::uint32_t> objects_;
     bool wideObjects_ = false, parted_ = false;
-    std::vector<std::byte> out_;
+    std::size_t blockers_ = 0; ///< of all entries
+    std::unique_ptr<std::byte[]> out_;
+    std::size_t size_ = 0; ///< written so far
 };
 
 /// Goes through the entries of a block, in order.
@@ -157,6 +167,8 @@ public:
         parted = block.isParted();
         split_ = block.splits();
         record_ = block.records();
+        objects_ = block.objects();
+        objectSize_ = block.objectSize();
         codeSize_ = codeSize(block.objectCount());
     }
 
@@ -195,16 +207,25 @@ public:
 
 private:
     std::uint64_t take(std::size_t size) {
-        std::uint64_t value = 0;
-        std::memcpy(&value, block_.bytes_.get() + record_, size);
-        record_ += size;
-        return value;
+        const std::size_t from = std::exchange(record_, record_ + size);
+        switch (size) { // sizes that the compiler knows are single loads
+        case 1:
+            return block_.at<std::uint8_t>(from);
+        case 2:
+            return block_.at<std::uint16_t>(from);
+        default:
+            return block_.at<std::uint64_t>(from);
+        }
+    }
+    std::uint32_t object(std::size_t place) const {
+        const std::size_t at = objects_ + objectSize_ * place;
+        return objectSize_ == 4 ? block_.at<std::uint32_t>(at) : block_.at<std::uint16_t>(at);
     }
 
     void readRecord(bool seen) {
         const std::size_t code = take(codeSize_), mixed = firstMixed(codeSize_);
         if (code < mixed) {
-            scratch_[0] = {block_.object(code), kAll};
+            scratch_[0] = {object(code), kAll};
             blockers = std::span(scratch_).first(1);
             return;
         }
@@ -212,7 +233,7 @@ private:
         blockers = std::span(scratch_).first(form.blockers < 4 ? form.blockers : take(1));
         if (seen) visible = take(form.maskSize());
         for (std::size_t b = 0; b < blockers.size(); ++b) {
-            scratch_[b].object = block_.object(take(codeSize_));
+            scratch_[b].object = object(take(codeSize_));
             scratch_[b].samples = b + 1 < blockers.size() || !form.implied
                                       ? take(form.maskSize())
                                       : form.allSamples() & ~allButLast(visible, blockers);
@@ -222,7 +243,7 @@ private:
     const RowBlock& block_;
     std::uint64_t left_, visible_ = 0, seen_ = 0;
     std::size_t factor_ = 0, share_ = 0, split_ = 0, record_ = 0; ///< places in the bytes
-    std::size_t codeSize_ = 0;
+    std::size_t objects_ = 0, objectSize_ = 0, codeSize_ = 0;
     std::array<Blocker, kSize> scratch_;
 };
 

@@ -75,8 +75,8 @@ TEST(WorkValue, InThePictureComesBeforeItsMarginAndThatBeforeTheRest) {
 TEST(WorkValue, WhatIsHiddenIsWorthLittleAndWhatIsHalfHiddenHalf) {
     const double open = valueAt({0, 0, -10}, looking(), 25.0f);
     EXPECT_NEAR(open, valueAt({0, 0, -10}, looking()), 1e-3 * open);
-    EXPECT_NEAR(valueAt({0, 0, -10}, looking(), 12.5f), 0.525 * open, 1e-3 * open);
-    EXPECT_NEAR(valueAt({0, 0, -10}, looking(), 0.0f), 0.05 * open, 1e-3 * open);
+    EXPECT_NEAR(valueAt({0, 0, -10}, looking(), 12.5f), 0.5025 * open, 1e-3 * open);
+    EXPECT_NEAR(valueAt({0, 0, -10}, looking(), 0.0f), 0.005 * open, 1e-3 * open);
 }
 
 TEST(WorkValue, IsLessInTheCornerOfTheEyeAndMoreBesideWhatIsMoved) {

@@ -197,7 +197,7 @@ ExpectedFactors fewOpen() {
     expected.open = 1u << 3 | 1u << 5 | 1u << 7 | std::uint64_t(1) << 40;
     expected.factor[3] = expected.factor[5] = expected.factor[40] = 0.1f;
     expected.factor[7] = 1e-4f;
-    for (const std::size_t r : {3u, 5u, 7u, 40u}) expected.rays[r] = 16;
+    for (const std::size_t r : {3u, 5u, 7u, 40u}) expected.rays[r] = 200;
     return expected;
 }
 
@@ -225,6 +225,16 @@ TEST_F(OpenWorkOfTwoRows, ComesInPartsIfTheOrderLooks) {
     EXPECT_EQ(work.take(0, steps)->receivers, 0u) << "nothing is to be done there";
     EXPECT_EQ(work.count(), 0u);
     EXPECT_EQ(work.bound(0), 0);
+}
+
+TEST_F(OpenWorkOfTwoRows, PartsAreNotSoSmallThatVisitsTakeLongerThanRays) {
+    work.setOrder(std::make_shared<Looking>());
+    open(0, {block(0, 0.1f)});
+    ExpectedFactors few = fewOpen();
+    for (float& rays : few.rays) rays = std::min(rays, 40.0f);
+    work.expect(0, 0, few);
+    std::size_t steps = 100;
+    EXPECT_EQ(work.take(0, steps)->receivers, few.open);
 }
 
 TEST_F(OpenWorkOfTwoRows, PartsFollowTheViewWithoutAnotherLook) {
