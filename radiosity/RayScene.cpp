@@ -42,6 +42,15 @@ struct Triangles {
     }
 };
 
+/// Embree ends the program if its hierarchy can't be built.
+void checkThatTheyCanBeTraced(std::span<const glm::vec3> vertices) {
+    constexpr float kFarthest = 1e12f; // from the origin [m]; LitMesh.cpp has the same
+    for (const glm::vec3 p : vertices)
+        if (!(std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest && std::abs(p.z) < kFarthest))
+            throw Error("ray tracing: part of an object is more than 1e12 m away, or nowhere "
+                        "(look for a transform or points out of range)");
+}
+
 /// Whether Embree's i-th ray passes through the triangle that it is said to hit. By rounding it may
 /// pass beside it, and whether it is tried at all then depends on the hierarchy.
 bool reallyPasses(const RTCFilterFunctionNArguments* args, unsigned i) {
@@ -165,6 +174,7 @@ struct RayScene::Impl {
     Impl& operator=(const Impl&) = delete;
 
     void add(const RayMesh& mesh, unsigned id) {
+        checkThatTheyCanBeTraced(mesh.vertices);
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
         void* vertices =
@@ -206,6 +216,7 @@ RayScene::RayScene(std::span<const RayMesh> objects, float extent)
 void RayScene::move(ObjectId object, std::span<const glm::vec3> vertices) {
     Impl::Member& member = impl_->members[object.value];
     if (!member.geometry) return;
+    checkThatTheyCanBeTraced(vertices);
     std::memcpy(rtcGetGeometryBufferData(member.geometry, RTC_BUFFER_TYPE_VERTEX, 0),
                 vertices.data(), vertices.size_bytes());
     rtcUpdateGeometryBuffer(member.geometry, RTC_BUFFER_TYPE_VERTEX, 0);

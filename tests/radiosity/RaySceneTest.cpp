@@ -1,9 +1,13 @@
 // Rays: what they meet, and whom they name.
 #include "radiosity/RayScene.h"
 
+#include "scenegraph/Error.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace penumbra {
@@ -98,6 +102,17 @@ TEST(RayScene, MeetsTheSameAtTheEdgesOfAnObjectThatWasMovedThereAndThatWasMadeTh
             }
         }
     EXPECT_GT(rays, 100);
+}
+
+TEST(RayScene, SaysWhatItCanNotTrace) {
+    const float infinity = std::numeric_limits<float>::infinity();
+    for (float nowhere : {1e30f, -1e13f, infinity, std::nanf("")}) {
+        RayMesh mesh = square(1);
+        RayScene scene(std::array{mesh});
+        mesh.vertices[2].y = nowhere;
+        EXPECT_THROW(RayScene(std::array{mesh}), Error) << nowhere;
+        EXPECT_THROW(scene.move({0}, mesh.vertices), Error) << nowhere;
+    }
 }
 
 TEST(RayScene, DoesNotTakeTheTargetForAnObstacle) {
