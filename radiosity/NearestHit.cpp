@@ -63,8 +63,7 @@ glm::vec3 NearestHit::beside(float hair, int i) const {
     const glm::dvec3 axis = std::abs(ray.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 u = glm::normalize(glm::cross(axis, ray)), v = glm::cross(ray, u);
     const double turn = 2 * std::numbers::pi * (i + 0.3) / kAround; // seldom along an edge
-    const double share = double(hair) / double(doubt_.distance);
-    return direction_ + share * (std::cos(turn) * u + std::sin(turn) * v);
+    return double(hair) * (std::cos(turn) * u + std::sin(turn) * v);
 }
 
 glm::vec3 NearestHit::aside(float hair) const {

@@ -54,8 +54,8 @@ public:
     /// Whether the ray passes by a triangle that was offered, with nothing behind it up to `slack`.
     bool inDoubt(float slack) const { return doubt_.distance + slack < distance_; }
     const RayHit& doubt() const { return doubt_; } ///< the triangle that was offered
-    /// The direction of the i-th of kAround rays around this one, a hair [m] beside it where the
-    /// triangle was offered.
+    /// How far beside this ray, on all its sides, the i-th of kAround rays of the same direction
+    /// begins: a hair [m].
     glm::vec3 beside(float hair, int i) const;
     static constexpr int kAround = 8;
     /// The direction of a ray that passes the triangle a hair [m] farther aside.

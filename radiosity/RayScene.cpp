@@ -348,19 +348,19 @@ RayHit RayScene::nearestIn(void* scene, glm::vec3 origin, glm::vec3 direction, f
     for (int time = 1;; ++time) {
         const float length = glm::length(direction);
         NearestHit nearest(origin, direction, faces == Faces::front);
-        const auto offer = [&](glm::vec3 along) {
+        const auto offer = [&](glm::vec3 from) {
             RTCRayHit query{};
-            query.ray = {origin.x, origin.y, origin.z, 0,           along.x, along.y,
-                         along.z,  0,        reach,    0xffffffffu, 0,       0};
+            query.ray = {from.x,      from.y, from.z, 0,           direction.x, direction.y,
+                         direction.z, 0,      reach,  0xffffffffu, 0,           0};
             query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
             QueryContext context;
             context.nearest = &nearest;
             context.slack = hair / length;
             rtcIntersect1(static_cast<RTCScene>(scene), &context.context, &query);
         };
-        offer(direction);
+        offer(origin);
         if (!nearest.inDoubt(margin_ / length)) return nearest.hit();
-        for (int i = 0; i < NearestHit::kAround; ++i) offer(nearest.beside(hair, i));
+        for (int i = 0; i < NearestHit::kAround; ++i) offer(origin + nearest.beside(hair, i));
         if (!nearest.inDoubt(margin_ / length)) return nearest.hit();
         if (time == kTimes) return nearest.doubt();
         direction = nearest.aside(hair);

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <utility>
 
 namespace penumbra {
@@ -55,27 +56,29 @@ TEST(RayScene, OfEquallyNearTrianglesMeetsTheFirst) {
     }
 }
 
+/// A cube of 2 m in many triangles, which share no vertex.
+RayMesh cube(const glm::mat3& turn, glm::vec3 offset) {
+    RayMesh mesh;
+    for (const glm::vec3 normal : {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1)})
+        for (float side : {-1.0f, 1.0f}) {
+            const glm::vec3 u(normal.z, normal.x, normal.y), v = side * glm::cross(normal, u);
+            for (int j = 0; j < 4; ++j)
+                for (int i = 0; i < 4; ++i) {
+                    const auto first = std::uint32_t(mesh.vertices.size());
+                    for (const auto& [k, l] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+                        mesh.vertices.push_back(
+                            offset + turn * (side * normal + (0.5f * float(i + k) - 1) * u +
+                                             (0.5f * float(j + l) - 1) * v));
+                    mesh.triangles.push_back({first, first + 1, first + 2});
+                    mesh.triangles.push_back({first, first + 2, first + 3});
+                }
+        }
+    return mesh;
+}
+
 TEST(RayScene, MeetsTheSameAtTheEdgesOfAnObjectThatWasMovedThereAndThatWasMadeThere) {
     // Cubes in many triangles, one turned there from elsewhere, with its hierarchy; rays towards
     // points of its edges, along planes that two faces share alike, and past its silhouette.
-    const auto cube = [](const glm::mat3& turn, glm::vec3 offset) {
-        RayMesh mesh;
-        for (const glm::vec3 normal : {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1)})
-            for (float side : {-1.0f, 1.0f}) {
-                const glm::vec3 u(normal.z, normal.x, normal.y), v = side * glm::cross(normal, u);
-                for (int j = 0; j < 4; ++j)
-                    for (int i = 0; i < 4; ++i) {
-                        const auto first = std::uint32_t(mesh.vertices.size());
-                        for (const auto& [k, l] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
-                            mesh.vertices.push_back(
-                                offset + turn * (side * normal + (0.5f * float(i + k) - 1) * u +
-                                                 (0.5f * float(j + l) - 1) * v));
-                        mesh.triangles.push_back({first, first + 1, first + 2});
-                        mesh.triangles.push_back({first, first + 2, first + 3});
-                    }
-            }
-        return mesh;
-    };
     const glm::mat3 turn(0, 1, 0, 0, 0, 1, 1, 0, 0);
     const glm::vec3 offset(0.3f, 0.7f, 0.1f);
     const RayMesh there = cube(turn, offset);
@@ -102,6 +105,22 @@ TEST(RayScene, MeetsTheSameAtTheEdgesOfAnObjectThatWasMovedThereAndThatWasMadeTh
             }
         }
     EXPECT_GT(rays, 100);
+}
+
+TEST(RayScene, MayBeginAtAnEdge) {
+    // Beside a triangle at no distance: those around it are looked for all the same.
+    const RayMesh mesh = cube(glm::mat3(1), {0.1f, 0.2f, 0.3f});
+    const RayScene scene(std::array{mesh}, 10);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> uniform(-1, 1);
+    for (glm::vec3 from : mesh.vertices)
+        for (int i = 0; i < 200; ++i) {
+            const int axis = int(random() % 3);
+            from[axis] = std::nextafter(from[axis], random() % 2 ? 5.0f : -5.0f);
+            const glm::vec3 along(uniform(random), uniform(random), uniform(random));
+            const RayHit hit = scene.nearest(from, along, 10);
+            EXPECT_TRUE(!hit.met() || (hit.distance >= 0 && hit.distance < 10));
+        }
 }
 
 TEST(RayScene, SaysWhatItCanNotTrace) {
