@@ -3,7 +3,6 @@
 #include "bench/BenchCase.h"
 #include "bench/BenchScene.h"
 #include "bench/MoveRun.h"
-#include "importance/Adaptation.h"
 #include "importance/Gaze.h"
 #include "importance/Viewpoint.h"
 

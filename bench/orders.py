@@ -5,8 +5,9 @@ Usage: bench/orders.py PROGRAM [--element-size M] [--orders A,B]
                        [--all-light] [--cameras NAMES] [--cut] [--out FOLDER]
 
 For each camera, `penumbra compare` plays three moves of the office's seat or a sculpture of the
-gallery (20 cm, 1.2 m, 3.3 m); figures are means over moves and cameras. The dirty set is that of bounding shafts: blocks
-whose shaft to the lamp meets the moved object's box, those in which it was a blocker, and its own.
+gallery (20 cm, 1.2 m, 3.3 m); figures are means over moves and cameras. The dirty set is that of
+bounding shafts: blocks whose shaft to the lamp meets the moved object's box, those in which it was
+a blocker, and its own.
 The settled solution of the same mesh is the truth. Several seeds of a random order (random,random2,
 ...) also make a row of their mean. With --cut the viewer looks through another camera until a tenth
 of the work is done. Writes a report (HTML, JSON) for each camera to FOLDER and a table to standard

@@ -34,8 +34,8 @@ public:
     };
 
     explicit WorkQueue(Fairness fairness) : fairness_(fairness) {}
-    void setPatience(double patience) { fairness_.patience = patience; }
     WorkQueue() : WorkQueue(Fairness()) {}
+    void setPatience(double patience) { fairness_.patience = patience; }
 
     /// What a task is ranked by, besides its place.
     struct Worth {

@@ -1,7 +1,5 @@
 #include "radiosity/ChangeLook.h"
 
-#include "radiosity/Shaft.h"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -16,11 +14,6 @@ constexpr float kLeastShare = 0.01f;
 constexpr std::size_t kAnewGroup = 4;
 /// Rays of an entry in half-shadow for its further samples, as it may be one.
 constexpr float kFurther = 8;
-
-bool moves(std::span<const MovedObject> moved, std::uint32_t object) {
-    return std::any_of(moved.begin(), moved.end(),
-                       [&](const MovedObject& m) { return m.object == object; });
-}
 
 float weightOf(const SampleGroup& group, std::uint32_t lanes) {
     float sum = 0;
@@ -74,13 +67,10 @@ bool ChangeLook::probeStored(const EmitterSender& sender, const Receiver& receiv
     std::uint64_t byMoved = 0, byOthers = 0;
     for (int b = 0; b < draft.blockerCount; ++b) {
         const Blocker& blocker = draft.blockers[std::size_t(b)];
-        (moves(moved, blocker.object) ? byMoved : byOthers) |= blocker.samples;
+        (isAmong(moved, blocker.object) ? byMoved : byOthers) |= blocker.samples;
     }
     const bool crossed = (draft.blockerCount == 0 || draft.visible != 0) &&
-                         std::any_of(moved.begin(), moved.end(), [&](const MovedObject& m) {
-                             const Bounds point{receiver.position, receiver.position};
-                             return m.present && shaftMeets(point, sender.box(), m.box);
-                         });
+                         mayStandBefore(moved, receiver, sender.box());
     if (!crossed && byMoved == 0) return false;
     SampleGroup group;
     sender.sampleGroup(receiver, 0, group);

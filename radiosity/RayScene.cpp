@@ -42,13 +42,10 @@ struct Triangles {
     }
 };
 
-/// Embree ends the program if its hierarchy can't be built.
-void checkThatTheyCanBeTraced(std::span<const glm::vec3> vertices) {
-    constexpr float kFarthest = 1e12f; // from the origin [m]; LitMesh.cpp has the same
-    for (const glm::vec3 p : vertices)
-        if (!(std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest && std::abs(p.z) < kFarthest))
-            throw Error("ray tracing: part of an object is more than 1e12 m away, or nowhere "
-                        "(look for a transform or points out of range)");
+void requireThatTheyCanBeTraced(std::span<const glm::vec3> vertices) {
+    if (!std::all_of(vertices.begin(), vertices.end(), canBeTraced))
+        throw Error("ray tracing: part of an object is more than 1e12 m away, or nowhere "
+                    "(look for a transform or points out of range)");
 }
 
 /// Whether Embree's i-th ray passes through the triangle that it is said to hit. By rounding it may
@@ -110,6 +107,11 @@ void chooseHits(const RTCFilterFunctionNArguments* args) {
 }
 
 } // namespace
+
+bool canBeTraced(glm::vec3 p) {
+    constexpr float kFarthest = 1e12f; // from the origin [m]
+    return std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest && std::abs(p.z) < kFarthest;
+}
 
 std::uint32_t lanesThatMeet(const ShadowRays& rays, std::uint32_t lanes, const Bounds& box) {
     float first[16], last[16];
@@ -174,7 +176,7 @@ struct RayScene::Impl {
     Impl& operator=(const Impl&) = delete;
 
     void add(const RayMesh& mesh, unsigned id) {
-        checkThatTheyCanBeTraced(mesh.vertices);
+        requireThatTheyCanBeTraced(mesh.vertices);
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
         void* vertices =
@@ -216,7 +218,7 @@ RayScene::RayScene(std::span<const RayMesh> objects, float extent)
 void RayScene::move(ObjectId object, std::span<const glm::vec3> vertices) {
     Impl::Member& member = impl_->members[object.value];
     if (!member.geometry) return;
-    checkThatTheyCanBeTraced(vertices);
+    requireThatTheyCanBeTraced(vertices);
     std::memcpy(rtcGetGeometryBufferData(member.geometry, RTC_BUFFER_TYPE_VERTEX, 0),
                 vertices.data(), vertices.size_bytes());
     rtcUpdateGeometryBuffer(member.geometry, RTC_BUFFER_TYPE_VERTEX, 0);

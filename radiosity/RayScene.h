@@ -36,6 +36,10 @@ struct alignas(64) ShadowRays {
 /// Those of some segments (bits) that meet a box.
 std::uint32_t lanesThatMeet(const ShadowRays& rays, std::uint32_t lanes, const Bounds& box);
 
+/// Whether triangles with a corner there can be traced: in single precision, and without Embree's
+/// ending the program because it can't build its hierarchy. \param p [m]
+bool canBeTraced(glm::vec3 p);
+
 /// The objects of a scene, each one geometry of its own in one flat Embree scene, so that an object
 /// can be moved by refitting, and traced alone. Tracing is thread-safe, changes are not.
 class RayScene {

@@ -14,14 +14,9 @@ namespace {
 
 constexpr std::uint32_t kNone = ObjectId::kNone;
 
-bool isIn(std::span<const MovedObject> moved, std::uint32_t object) {
-    return std::any_of(moved.begin(), moved.end(),
-                       [&](const MovedObject& m) { return m.object == object; });
-}
-
 bool blockedByAny(const RowBlock::Draft& draft, std::span<const MovedObject> moved) {
     return std::any_of(draft.blockers.begin(), draft.blockers.begin() + draft.blockerCount,
-                       [&](const Blocker& b) { return isIn(moved, b.object); });
+                       [&](const Blocker& b) { return isAmong(moved, b.object); });
 }
 
 /// Who blocks a sample; kNone if it is visible.
@@ -38,6 +33,19 @@ bool segmentMeets(glm::vec3 from, glm::vec3 to, const Bounds& box) {
 }
 
 } // namespace
+
+bool isAmong(std::span<const MovedObject> moved, std::uint32_t object) {
+    return std::any_of(moved.begin(), moved.end(),
+                       [&](const MovedObject& m) { return m.object == object; });
+}
+
+bool mayStandBefore(std::span<const MovedObject> moved, const Receiver& receiver,
+                    const Bounds& box) {
+    const Bounds point{receiver.position, receiver.position};
+    return std::any_of(moved.begin(), moved.end(), [&](const MovedObject& m) {
+        return m.present && shaftMeets(point, box, m.box);
+    });
+}
 
 namespace {
 
@@ -105,11 +113,7 @@ void RowBuilder::emitterEntry(const EmitterSender& sender, const Receiver& recei
 
 bool RowBuilder::retestEmitterEntry(const EmitterSender& sender, const Receiver& receiver,
                                     std::span<const MovedObject> moved, RowBlock::Draft& draft) {
-    const bool open =
-        draft.visible != 0 && std::any_of(moved.begin(), moved.end(), [&](const MovedObject& m) {
-            const Bounds point{receiver.position, receiver.position};
-            return m.present && shaftMeets(point, sender.box(), m.box);
-        });
+    const bool open = draft.visible != 0 && mayStandBefore(moved, receiver, sender.box());
     if (!open && !blockedByAny(draft, moved)) return false;
 
     const int base = firstSamples(sender, draft.formFactor), all = sender.allSamples();
@@ -129,7 +133,7 @@ bool RowBuilder::retestEmitterEntry(const EmitterSender& sender, const Receiver&
             if (!(used >> i & 1)) continue;
             if (blocker == kNone)
                 visible |= 1u << i;
-            else if (isIn(moved, blocker))
+            else if (isAmong(moved, blocker))
                 again |= 1u << i;
         }
         const auto note = [&](std::uint32_t lanes) {
@@ -416,18 +420,14 @@ int RowBuilder::updatePatchBlock(const PatchSender& sender, const ReceiverBlock&
             continue;
         }
         if (!(draft.formFactor > 0)) continue;
-        const bool open = draft.visible != 0 &&
-                          std::any_of(moved.begin(), moved.end(), [&](const MovedObject& m) {
-                              const Bounds point{receiver.position, receiver.position};
-                              return m.present && shaftMeets(point, *sender.box, m.box);
-                          });
+        const bool open = draft.visible != 0 && mayStandBefore(moved, receiver, *sender.box);
         if (!open && !blockedByAny(draft, moved)) continue;
         listPatchRays(sender, receivers, r);
         for (std::size_t k = begin; k < patchRays_.size(); ++k)
             patchRays_[k].blocker = blockerOf(draft, patchRays_[k].sample);
     }
     const auto isNew = [&](const PatchRay& ray) { return anew >> ray.receiver & 1; };
-    const auto again = [&](const PatchRay& ray) { return isNew(ray) || isIn(moved, ray.blocker); };
+    const auto again = [&](const PatchRay& ray) { return isNew(ray) || isAmong(moved, ray.blocker); };
     // First what was visible, against what moved; what that blocks is not traced again.
     std::vector<std::uint8_t> retraced(patchRays_.size());
     for (std::size_t k = 0; k < retraced.size(); ++k) retraced[k] = again(patchRays_[k]);

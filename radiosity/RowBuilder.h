@@ -46,6 +46,11 @@ struct MovedObject {
     Bounds box; ///< where it is now, a hair more [m, world]
 };
 
+bool isAmong(std::span<const MovedObject> moved, std::uint32_t object);
+/// Whether any of them may stand between a receiver and what lies in a box [m, world].
+bool mayStandBefore(std::span<const MovedObject> moved, const Receiver& receiver,
+                    const Bounds& box);
+
 /// Rays that were traced.
 struct RayCount {
     std::uint64_t full = 0;   ///< against the whole scene

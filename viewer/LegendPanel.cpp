@@ -17,7 +17,7 @@ ImU32 colourOf(glm::vec3 colour) {
 void drawBar(const Legend& legend) {
     constexpr int kSteps = 64;
     const float em = ImGui::GetFontSize();
-    const float width = 18 * em, margin = em;
+    const float width = 18 * em, margin = 2 * em; // half of the longest number
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     for (int i = 0; i < kSteps; ++i) {

@@ -39,7 +39,6 @@ public:
     /// What is touched as things stand, by object and corner.
     std::vector<TouchedCorner> touched() const;
 
-    std::size_t objects() const { return set_.objects.size(); }
     /// Vertices that an object has from the start; those behind them stand for corners.
     std::size_t vertices(std::uint32_t object) const { return set_.objects[object].vertices.count; }
     /// The elements of an object when nothing touches it; their vertices are the set's.

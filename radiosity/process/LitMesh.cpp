@@ -13,12 +13,6 @@ namespace {
 
 constexpr std::uint32_t kBlock = PatchSet::kBlock;
 
-/// Whether rays can be traced in single precision past a point.
-bool near(glm::vec3 p) {
-    constexpr float kFarthest = 1e12f; // [m]
-    return std::abs(p.x) <= kFarthest && std::abs(p.y) <= kFarthest && std::abs(p.z) <= kFarthest;
-}
-
 /// Things in a frame without volume are nowhere but at its origin, wherever they would be drawn.
 glm::dmat4 inverseOrOne(const glm::dmat4& frame) {
     const glm::dmat4 inverse = glm::inverse(frame);
@@ -153,7 +147,7 @@ namespace {
 
 bool sound(const RayMesh& rays) {
     return rays.solid.size() == rays.triangles.size() &&
-           std::all_of(rays.vertices.begin(), rays.vertices.end(), near) &&
+           std::all_of(rays.vertices.begin(), rays.vertices.end(), canBeTraced) &&
            std::all_of(rays.triangles.begin(), rays.triangles.end(), [&](const auto& triangle) {
                return std::all_of(triangle.begin(), triangle.end(),
                                   [&](std::uint32_t v) { return v < rays.vertices.size(); });
@@ -175,9 +169,9 @@ bool LitMeshReader::sound(const LitMeshObject& object) const {
            object.receivers.size() == vertices && penumbra::sound(object.rays) &&
            object.elementMaterial.size() == object.elements.size() &&
            object.elementPatch.size() == object.elements.size() &&
-           std::all_of(object.positions.begin(), object.positions.end(), near) &&
-           std::all_of(object.normals.begin(), object.normals.end(), near) &&
-           std::all_of(object.receivers.begin(), object.receivers.end(), near) &&
+           std::all_of(object.positions.begin(), object.positions.end(), canBeTraced) &&
+           std::all_of(object.normals.begin(), object.normals.end(), canBeTraced) &&
+           std::all_of(object.receivers.begin(), object.receivers.end(), canBeTraced) &&
            std::all_of(object.elements.begin(), object.elements.end(),
                        [&](const std::array<std::uint32_t, 4>& corners) {
                            return std::all_of(corners.begin(), corners.end(),

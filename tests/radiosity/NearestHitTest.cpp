@@ -65,6 +65,21 @@ TEST(NearestHit, IsInDoubtAboutWhatItPassesByUnlessTheNeighbourIsMet) {
     EXPECT_FALSE(nearest.inDoubt(1e-6f));
 }
 
+TEST(NearestHit, RaysAroundAreAHairBesideItAlsoWhereTheTriangleTouchesItsOrigin) {
+    const glm::vec3 from(0.25f, 0.25f + 3e-8f, 0), direction(0.1f, 0, -3);
+    NearestHit nearest(from, direction, true);
+    EXPECT_FALSE(nearest.take(kLower, offered(0, 0, 0)));
+    ASSERT_TRUE(nearest.inDoubt(1e-6f));
+    glm::vec3 sum(0);
+    for (int i = 0; i < NearestHit::kAround; ++i) {
+        const glm::vec3 beside = nearest.beside(1e-4f, i);
+        EXPECT_NEAR(glm::length(beside), 1e-4, 1e-9);
+        EXPECT_NEAR(glm::dot(beside, direction), 0, 1e-9);
+        sum += beside;
+    }
+    EXPECT_NEAR(glm::length(sum), 0, 1e-9) << "on all sides";
+}
+
 } // namespace
 
 } // namespace penumbra
