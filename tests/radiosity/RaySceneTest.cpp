@@ -106,6 +106,20 @@ TEST(RayScene, MeetsTheSameAtTheEdgesOfAnObjectThatWasMovedThereAndThatWasMadeTh
     EXPECT_GT(rays, 100);
 }
 
+TEST(RayScene, TracesNothingInLanesThatAreNotUsed) {
+    // Embree is given rays from the origin up for these: they meet a corner there.
+    const RayMesh mesh = cube(glm::mat3(1), {0, 0, 1.5f});
+    const RayScene scene(std::array{mesh}, 10);
+    ShadowRays rays;
+    for (int i = 0; i < ShadowRays::kMost; ++i)
+        rays.set(i, glm::vec3(1e30f), glm::vec3(std::nanf(""), 0, 0));
+    rays.used = 0;
+    rays.set(3, {-0.3f, -0.2f, 0}, {-0.3f, -0.2f, 1});
+    scene.occluded(rays);
+    for (int i = 0; i < ShadowRays::kMost; ++i)
+        EXPECT_EQ(rays.blocker[i], i == 3 ? 0 : ObjectId::kNone) << i;
+}
+
 TEST(RayScene, SaysWhatItCanNotTrace) {
     const float infinity = std::numeric_limits<float>::infinity();
     for (float nowhere : {1e30f, -1e13f, infinity, std::nanf("")}) {
