@@ -75,10 +75,21 @@ bool ChangeLook::probeStored(const EmitterSender& sender, const Receiver& receiv
     SampleGroup group;
     sender.sampleGroup(receiver, 0, group);
     const std::uint32_t used = group.rays.used, uncovered = used & std::uint32_t(byMoved);
-    std::uint32_t covered = 0;
-    for (const MovedObject& m : moved)
-        if (m.present) covered |= lanesThatMeet(group.rays, used, m.box);
-    covered &= ~std::uint32_t(byMoved | byOthers);
+    const auto coveredIn = [&](const SampleGroup& samples, int first) {
+        std::uint32_t met = 0;
+        for (const MovedObject& m : moved)
+            if (m.present) met |= lanesThatMeet(samples.rays, samples.rays.used, m.box);
+        return met & ~std::uint32_t((byMoved | byOthers) >> first);
+    };
+    const std::uint32_t covered = coveredIn(group, 0);
+    bool concerned = byMoved != 0 || covered != 0;
+    const int taken = RowBuilder::samplesTaken(sender, draft);
+    for (int first = 16; !concerned && first < taken; first += 16) {
+        SampleGroup further;
+        sender.sampleGroup(receiver, first, further);
+        concerned = coveredIn(further, first) != 0;
+    }
+    if (!concerned) return false;
     const float total = weightOf(group, used);
     Probe& probe = probes_[r];
     probe = {draft.formFactor, draft.formFactor, 0, 0};

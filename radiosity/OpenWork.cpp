@@ -17,33 +17,8 @@ constexpr float kVisit = 48, kEntry = 0.5f;
 /// rays do.
 constexpr double kLeastPart = 4 * kVisit;
 
-/// Of a block's open receivers the part that makes the most of a visit.
-struct Part {
-    std::uint64_t receivers = 0;
-    double gain = 0, cost = kVisit;
-};
-/// \param whole all of them
-Part bestPart(std::uint64_t open, std::span<const float> gains, std::span<const float> rays,
-              bool whole) {
-    std::array<std::uint8_t, ExpectedFactors::kSize> by;
-    int count = 0;
-    for (; open != 0; open &= open - 1)
-        by[std::size_t(count++)] = std::uint8_t(std::countr_zero(open));
-    const auto cost = [&](std::uint8_t r) { return kEntry + rays[r]; };
-    std::sort(by.begin(), by.begin() + count, [&](std::uint8_t a, std::uint8_t b) {
-        const float one = gains[a] * cost(b), other = gains[b] * cost(a);
-        return one != other ? one > other : a < b;
-    });
-    Part all, best;
-    for (int i = 0; i < count; ++i) {
-        const std::uint8_t r = by[std::size_t(i)];
-        all.receivers |= std::uint64_t(1) << r;
-        all.gain += gains[r];
-        all.cost += cost(r);
-        const bool few = best.cost < kVisit + kLeastPart;
-        if (whole || few || all.gain * best.cost >= best.gain * all.cost) best = all;
-    }
-    return best;
+float costOf(const ExpectedFactors& expected, std::size_t receiver) {
+    return kEntry + expected.rays[receiver];
 }
 
 } // namespace
@@ -66,7 +41,9 @@ void OpenWork::setOrder(std::shared_ptr<const OrderOfWork> order) {
     for (std::uint32_t row = 0; row < rows_.size(); ++row) {
         for (Entry& entry : rows_[row].entries) {
             entry.handle = kPutOff;
-            if (entry.open && !order_->looks()) setExpected(entry, nullptr);
+            if (!entry.open) continue;
+            if (!order_->looks()) forget(entry);
+            if (entry.prospect) entry.prospect->ranked = false;
         }
         setUnsorted(row);
     }
@@ -114,10 +91,10 @@ void OpenWork::add(std::uint32_t block, double factor, double power, int count) 
 
 /// About [rays].
 double OpenWork::costOf(const Entry& entry, std::uint64_t receivers) const {
-    if (!entry.expected) return double(cost({0, entry.block, entry.anew & receivers, 0, 0}));
+    if (!entry.prospect) return double(cost({0, entry.block, entry.anew & receivers, 0, 0}));
     double cost = kVisit;
     for (; receivers != 0; receivers &= receivers - 1)
-        cost += kEntry + entry.expected->rays[std::size_t(std::countr_zero(receivers))];
+        cost += penumbra::costOf(entry.prospect->expected, std::size_t(std::countr_zero(receivers)));
     return cost;
 }
 
@@ -134,37 +111,78 @@ WorkQueue::Task OpenWork::task(std::uint32_t row, const Entry& entry) const {
     return task;
 }
 
+/// Puts those receivers of a block that are left in order, for as long as the viewer stays.
+void OpenWork::rankReceivers(std::uint32_t row, Entry& entry) {
+    const Receivers& r = receivers_[entry.block];
+    Prospect& prospect = *entry.prospect;
+    std::array<float, ExpectedFactors::kSize> change, gains;
+    for (std::size_t i = 0; i < change.size(); ++i)
+        change[i] = float(double(r.reflectance) * double(prospect.expected.factor[i]) *
+                          (rows_[row].power + double(r.light)));
+    order_->gains({row, entry.block, 0, 0}, change, gains);
+    struct Ranked {
+        float perCost;
+        std::uint8_t receiver;
+    };
+    std::array<Ranked, ExpectedFactors::kSize> ranked;
+    prospect.count = prospect.first = 0;
+    for (std::uint64_t left = entry.left; left != 0; left &= left - 1) {
+        const auto i = std::size_t(std::countr_zero(left));
+        ranked[prospect.count++] = {gains[i] / penumbra::costOf(prospect.expected, i),
+                                    std::uint8_t(i)};
+    }
+    std::sort(ranked.begin(), ranked.begin() + std::ptrdiff_t(prospect.count),
+              [](const Ranked& a, const Ranked& b) {
+                  return a.perCost != b.perCost ? a.perCost > b.perCost : a.receiver < b.receiver;
+              });
+    for (std::size_t i = 0; i < prospect.count; ++i) {
+        prospect.by[i] = ranked[i].receiver;
+        prospect.gain[i] = gains[ranked[i].receiver];
+    }
+    prospect.view = order_->view();
+    prospect.ranked = true;
+}
+
+/// Of a block's ranked receivers that are left, those that make the most of a visit.
+struct OpenWork::Part {
+    std::uint64_t receivers = 0;
+    double gain = 0, cost = kVisit;
+};
+OpenWork::Part OpenWork::bestPart(const Prospect& prospect) const {
+    Part all, best;
+    for (std::size_t i = prospect.first; i < prospect.count; ++i) {
+        all.receivers |= std::uint64_t(1) << prospect.by[i];
+        all.gain += prospect.gain[i];
+        all.cost += penumbra::costOf(prospect.expected, prospect.by[i]);
+        const bool few = best.cost < kVisit + kLeastPart;
+        if (whole_ || few || all.gain * best.cost >= best.gain * all.cost) best = all;
+    }
+    return best;
+}
+
 /// Of a block that was looked at: which of the receivers that are left come next, and what that is
 /// worth.
 WorkQueue::Worth OpenWork::choosePart(std::uint32_t row, Entry& entry) {
-    const Receivers& r = receivers_[entry.block];
-    std::array<float, ExpectedFactors::kSize> change, gains;
-    for (std::size_t i = 0; i < change.size(); ++i)
-        change[i] = float(double(r.reflectance) * double(entry.expected->factor[i]) *
-                          (rows_[row].power + double(r.light)));
-    const WorkQueue::Task known = task(row, entry);
-    order_->gains({row, entry.block, 0, 0}, change, gains);
-    const Part part = bestPart(entry.left, gains, entry.expected->rays, whole_);
+    if (!entry.prospect->ranked || entry.prospect->view != order_->view())
+        rankReceivers(row, entry);
+    const Part part = bestPart(*entry.prospect);
     entry.part = part.receivers;
-    entry.view = order_->view();
-    return queue_.worthOf(known.place, part.gain, part.cost);
+    return queue_.worthOf(task(row, entry).place, part.gain, part.cost);
 }
 
 WorkQueue::Worth OpenWork::worthOf(std::uint32_t row, Entry& entry) {
-    return entry.expected ? choosePart(row, entry) : task(row, entry).worth;
+    return entry.prospect ? choosePart(row, entry) : task(row, entry).worth;
 }
 
-void OpenWork::setExpected(Entry& entry, std::unique_ptr<ExpectedFactors> expected) {
-    entry.expected = std::move(expected);
-    if (entry.expected)
-        entry.left &= entry.expected->open;
-    else
-        entry.part = entry.left;
+/// What was expected of a block.
+void OpenWork::forget(Entry& entry) {
+    entry.prospect.reset();
+    entry.part = entry.left;
 }
 
 void OpenWork::enqueue(std::uint32_t row, Entry& entry) {
     entry.handle = queue_.add(task(row, entry));
-    if (entry.expected) queue_.rank(entry.handle, choosePart(row, entry));
+    if (entry.prospect) queue_.rank(entry.handle, choosePart(row, entry));
 }
 
 void OpenWork::putOff(Entry& entry) {
@@ -175,7 +193,7 @@ void OpenWork::putOff(Entry& entry) {
 /// There is more to it now. What is not put off keeps its age.
 void OpenWork::openAnew(std::uint32_t row, Entry& entry) {
     entry.left = ~std::uint64_t(0);
-    setExpected(entry, nullptr);
+    forget(entry);
     if (entry.handle != kPutOff) queue_.rank(entry.handle, task(row, entry).worth);
 }
 
@@ -287,7 +305,7 @@ std::optional<OpenBlock> OpenWork::next(double enough, std::size_t& steps) {
             continue;
         }
         const bool looks = !choice->overdue && order_->looks();
-        if (looks && entry.expected && entry.view != order_->view()) { // the viewer has moved
+        if (looks && entry.prospect && entry.prospect->view != order_->view()) { // the viewer has moved
             queue_.rank(entry.handle, choosePart(row, entry));
             continue;
         }
@@ -299,7 +317,7 @@ std::optional<OpenBlock> OpenWork::next(double enough, std::size_t& steps) {
                          entry.factor,
                          receivers,
                          costOf(entry, receivers),
-                         looks && !entry.expected,
+                         looks && !entry.prospect,
                          choice->overdue};
     }
     return {};
@@ -307,23 +325,38 @@ std::optional<OpenBlock> OpenWork::next(double enough, std::size_t& steps) {
 
 void OpenWork::close(const OpenBlock& block) {
     Entry& entry = *find(block.row, block.block);
-    RowList& list = rows_[block.row];
     const WorkQueue::Choice choice{entry.handle, {}, block.overdue};
     taken_ += block.cost;
     entry.left &= ~block.receivers;
     entry.anew &= ~block.receivers;
-    if (entry.left != 0) return queue_.finishPart(choice, worthOf(block.row, entry));
+    if (entry.left != 0) {
+        entry.prospect->first += std::size_t(std::popcount(block.receivers));
+        return queue_.finishPart(choice, worthOf(block.row, entry));
+    }
     queue_.finish(choice);
+    entry.handle = kPutOff;
+    finish(block.row, entry);
+}
+
+/// Of what is not in the queue.
+void OpenWork::finish(std::uint32_t row, Entry& entry) {
+    RowList& list = rows_[row];
     add(entry.block, -double(entry.factor), list.power, -1);
     entry.open = false;
-    entry.expected.reset();
+    entry.prospect.reset();
     if (--list.open == 0) list.entries.clear();
 }
 
 void OpenWork::expect(std::uint32_t row, std::uint32_t block, const ExpectedFactors& expected) {
     Entry* const entry = find(row, block);
     if (!entry) return;
-    setExpected(*entry, std::make_unique<ExpectedFactors>(expected));
+    entry->left &= expected.open;
+    if (entry->left == 0) {
+        putOff(*entry);
+        return finish(row, *entry);
+    }
+    entry->prospect = std::make_unique<Prospect>();
+    entry->prospect->expected = expected;
     if (entry->handle != kPutOff) queue_.rank(entry->handle, choosePart(row, *entry));
 }
 

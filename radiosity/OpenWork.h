@@ -90,7 +90,8 @@ public:
     /// Is worked on, and not open any more but for receivers that are not among its own.
     /// \param block from next()
     void close(const OpenBlock& block);
-    /// What is expected of an open block; one that is not open is left alone.
+    /// What is expected of an open block, which is closed if nothing is; one that is not open is
+    /// left alone.
     void expect(std::uint32_t row, std::uint32_t block, const ExpectedFactors& expected);
     void putBack(const OpenBlock& block); ///< from next(): not now
     /// next() and close().
@@ -122,15 +123,25 @@ public:
 
 private:
     static constexpr WorkQueue::Handle kPutOff = ~WorkQueue::Handle(0);
+    /// What a look at a block said, and what comes of its receivers in which order.
+    struct Prospect {
+        ExpectedFactors expected;
+        std::uint32_t view = 0;     ///< the order's, when they were ranked
+        std::size_t count = 0;      ///< receivers that were left then,
+        std::size_t first = 0;      ///< of which these are done
+        std::array<std::uint8_t, ExpectedFactors::kSize> by; ///< the best per cost first
+        std::array<float, ExpectedFactors::kSize> gain;      ///< likewise
+        bool ranked = false;
+    };
+    struct Part;
     struct Entry {
         std::uint64_t anew;
         std::uint32_t block, since;
         float factor;
         WorkQueue::Handle handle = kPutOff; ///< in the queue
         bool open = false;
-        std::uint32_t view = 0; ///< the order's, when the next part was chosen
         std::uint64_t left = ~std::uint64_t(0), part = ~std::uint64_t(0); ///< bits: receivers
-        std::unique_ptr<ExpectedFactors> expected{};                      ///< if it was looked at
+        std::unique_ptr<Prospect> prospect{};                             ///< if it was looked at
     };
     struct RowList {
         std::vector<Entry> entries; ///< by block
@@ -144,9 +155,12 @@ private:
     };
     WorkQueue::Task task(std::uint32_t row, const Entry& entry) const;
     double costOf(const Entry& entry, std::uint64_t receivers) const;
+    void rankReceivers(std::uint32_t row, Entry& entry);
+    Part bestPart(const Prospect& prospect) const;
     WorkQueue::Worth choosePart(std::uint32_t row, Entry& entry);
     WorkQueue::Worth worthOf(std::uint32_t row, Entry& entry);
-    void setExpected(Entry& entry, std::unique_ptr<ExpectedFactors> expected);
+    void forget(Entry& entry);
+    void finish(std::uint32_t row, Entry& entry);
     void enqueue(std::uint32_t row, Entry& entry);
     void openAnew(std::uint32_t row, Entry& entry);
     void putOff(Entry& entry);

@@ -111,13 +111,18 @@ void RowBuilder::emitterEntry(const EmitterSender& sender, const Receiver& recei
     pair.write(count, draft);
 }
 
+int RowBuilder::samplesTaken(const EmitterSender& sender, const RowBlock::Draft& draft) {
+    return draft.visible != 0 && draft.blockerCount != 0 ? sender.allSamples()
+                                                         : firstSamples(sender, draft.formFactor);
+}
+
 bool RowBuilder::retestEmitterEntry(const EmitterSender& sender, const Receiver& receiver,
                                     std::span<const MovedObject> moved, RowBlock::Draft& draft) {
     const bool open = draft.visible != 0 && mayStandBefore(moved, receiver, sender.box());
     if (!open && !blockedByAny(draft, moved)) return false;
 
     const int base = firstSamples(sender, draft.formFactor), all = sender.allSamples();
-    const int taken = draft.visible != 0 && draft.blockerCount != 0 ? all : base;
+    const int taken = samplesTaken(sender, draft);
     EmitterPair pair;
     SampleGroup group;
     bool changed = false;

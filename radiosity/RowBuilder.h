@@ -90,6 +90,9 @@ public:
     int updatePatchBlock(const PatchSender& sender, const ReceiverBlock& receivers,
                          std::uint64_t anew, std::span<const MovedObject> moved, RowBlock& block);
 
+    /// How many samples of an emitter's entry are on record.
+    static int samplesTaken(const EmitterSender& sender, const RowBlock::Draft& draft);
+
     /// Rays since the last call.
     RayCount takeRayCount() { return std::exchange(rayCount_, {}); }
 
