@@ -71,9 +71,7 @@ glm::vec3 NearestHit::aside(float hair) const {
     const glm::dvec3 ray = direction_ / glm::length(direction_);
     const glm::dvec3 away = (at - middle_) - glm::dot(at - middle_, ray) * ray;
     const double far = glm::length(away);
-    if (far == 0) return direction_;
-    const glm::dvec3 to = at + double(hair) / far * away;
-    return glm::length(direction_) / glm::length(to) * to;
+    return far > 0 ? glm::vec3(double(hair) / far * away) : glm::vec3(0);
 }
 
 } // namespace penumbra

@@ -58,7 +58,8 @@ public:
     /// begins: a hair [m].
     glm::vec3 beside(float hair, int i) const;
     static constexpr int kAround = 8;
-    /// The direction of a ray that passes the triangle a hair [m] farther aside.
+    /// How far beside this ray one of the same direction begins that passes the triangle a hair
+    /// farther aside [m].
     glm::vec3 aside(float hair) const;
 
 private:

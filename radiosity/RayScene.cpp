@@ -350,8 +350,8 @@ RayHit RayScene::nearestIn(void* scene, glm::vec3 origin, glm::vec3 direction, f
                            Faces faces) const {
     constexpr int kTimes = 4;        // corners may need several
     const float hair = margin_ / 20; // many times what Embree rounds [m]
+    const float length = glm::length(direction);
     for (int time = 1;; ++time) {
-        const float length = glm::length(direction);
         NearestHit nearest(origin, direction, faces == Faces::front);
         const auto offer = [&](glm::vec3 from) {
             RTCRayHit query{};
@@ -368,7 +368,7 @@ RayHit RayScene::nearestIn(void* scene, glm::vec3 origin, glm::vec3 direction, f
         for (int i = 0; i < NearestHit::kAround; ++i) offer(origin + nearest.beside(hair, i));
         if (!nearest.inDoubt(margin_ / length)) return nearest.hit();
         if (time == kTimes) return nearest.doubt();
-        direction = nearest.aside(hair);
+        origin += nearest.aside(hair);
     }
 }
 

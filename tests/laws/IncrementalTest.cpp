@@ -118,6 +118,20 @@ TEST(Incremental, EqualsFromScratchWhereAShadowRayGrazesABox) {
     EXPECT_EQ(followed.differs(), "") << followed.said;
 }
 
+TEST(Incremental, EqualsFromScratchWhereARayGrazesSomethingAtItsVeryBeginning) {
+    // It is in doubt there, and is asked again a hair aside. A ray that was turned aside instead
+    // looked elsewhere altogether.
+    FollowedRoom settled(795163583);
+    for (int edits = 4; edits > 0; --edits) {
+        settled.edit();
+        settled.lit.solver().settle();
+    }
+    EXPECT_EQ(settled.differs(), "") << settled.said;
+    constexpr std::uint32_t kSeed = 2796649543;
+    FollowedRoom overlapping(kSeed);
+    EXPECT_EQ(differsAfterOverlappingEdits(overlapping, kSeed, 13), "") << overlapping.said;
+}
+
 TEST(Incremental, EqualsFromScratchWhereNoLampShines) {
     // What is lit is found last then, after the rows of what light may come to reach.
     constexpr std::uint32_t kSeed = 2163954167;
