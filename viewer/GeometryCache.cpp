@@ -143,6 +143,7 @@ void GpuGeometry::makeBuffers(const LitGeometry& geometry, const ShownLight* sho
     direct_ = attributeBuffer(kDirect, shown ? shown->direct : mesh.direct, GL_DYNAMIC_DRAW, room_);
     indirect_ =
         attributeBuffer(kIndirect, shown ? shown->indirect : mesh.indirect, GL_DYNAMIC_DRAW, room_);
+    dropFactors();        // they have no room for copies
     redrawnRevision_ = 0; // copies have no places yet
     glBindVertexArray(0);
 }
@@ -194,18 +195,22 @@ std::size_t GpuGeometry::redraw(const LitGeometry& geometry, const ShownLight* s
     return bytes;
 }
 
+void GpuGeometry::dropFactors() {
+    glDisableVertexAttribArray(kFactors);
+    glDisableVertexAttribArray(kBehind);
+    factors_ = {};
+    behind_ = {};
+}
+
 /// Makes room for the factors of live lamps, or removes it.
 void GpuGeometry::requireFactors(const ShownLight& shown) {
     if (shown.factors.empty() == (factors_.name() == 0)) return;
     glBindVertexArray(vertexArray_.name());
     if (shown.factors.empty()) {
-        glDisableVertexAttribArray(kFactors);
-        glDisableVertexAttribArray(kBehind);
-        factors_ = {};
-        behind_ = {};
+        dropFactors();
     } else {
-        factors_ = attributeBuffer(kFactors, shown.factors, GL_DYNAMIC_DRAW);
-        behind_ = attributeBuffer(kBehind, shown.behind, GL_DYNAMIC_DRAW);
+        factors_ = attributeBuffer(kFactors, shown.factors, GL_DYNAMIC_DRAW, room_);
+        behind_ = attributeBuffer(kBehind, shown.behind, GL_DYNAMIC_DRAW, room_);
     }
     glBindVertexArray(0);
 }
@@ -226,9 +231,8 @@ std::size_t GpuGeometry::refresh(const LitGeometry& geometry, const ShownLight* 
     const std::uint64_t newest = revisionOf(geometry, shown);
     const bool otherLight = std::exchange(shown_, shown) != shown;
     if (std::exchange(revision_, newest) == newest && !otherLight) return 0;
-    if (shown) requireFactors(*shown);
     const std::vector<std::uint64_t>& latest = blockRevisionsOf(geometry, shown);
-    if (otherLight) blockRevisions_.clear();
+    if (otherLight) blockRevisions_.clear(), redrawnRevision_ = 0;
     blockRevisions_.resize(latest.size(), 0);
     const std::size_t vertices = shown ? shown->direct.size() : geometry.data().direct.size();
     std::size_t bytes = 0;
@@ -237,6 +241,7 @@ std::size_t GpuGeometry::refresh(const LitGeometry& geometry, const ShownLight* 
         blockRevisions_ = latest;
         bytes += vertices * (2 * sizeof(Rgb) + 2 * sizeof(glm::vec3));
     }
+    if (shown) requireFactors(*shown);
     bytes += redraw(geometry, shown);
     for (std::size_t block = 0; block < latest.size(); ++block) {
         const std::size_t begin = block;

@@ -58,6 +58,7 @@ private:
     std::size_t redraw(const LitGeometry& geometry, const ShownLight* shown);
     void placeEntries(const LitMeshData& mesh);
     std::size_t writeEntry(std::uint32_t entry, std::uint32_t vertex);
+    void dropFactors();
     void requireFactors(const ShownLight& shown);
 
     GlObject vertexArray_, positions_, normals_, direct_, indirect_, indices_;

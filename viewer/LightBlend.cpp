@@ -3,6 +3,7 @@
 #include "radiosity/RadiosityNode.h"
 #include "scenegraph/Light.h"
 #include "viewer/Arrangements.h"
+#include "viewer/Smoothstep.h"
 
 #include <algorithm>
 #include <cassert>
@@ -120,10 +121,7 @@ void LightBlend::advanceFades(const LightFade::Frame& frame) {
 
 /// Of next_ in the vertices that are not behind.
 float LightBlend::restShare(double time) const {
-    if (!next_) return 0;
-    const double s =
-        options_.seconds > 0 ? std::clamp((time - since_) / options_.seconds, 0.0, 1.0) : 1.0;
-    return float(s * s * (3 - 2 * s));
+    return next_ ? smoothstep(time, since_, options_.seconds) : 0;
 }
 
 void LightBlend::describeLive(const RadiosityNode& node, double time) {

@@ -1,19 +1,16 @@
 #include "viewer/LightFade.h"
 
+#include "viewer/Smoothstep.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace penumbra {
 
 namespace {
-
-/// Share of the way that is done.
-float smoothstep(double time, double start, double seconds) {
-    const double s = seconds > 0 ? std::clamp((time - start) / seconds, 0.0, 1.0) : 1.0;
-    return float(s * s * (3 - 2 * s));
-}
 
 Rgb mix(Rgb a, Rgb b, float w) {
     return a + (b - a) * w;
@@ -40,7 +37,8 @@ void LightFade::followTopology(const LitGeometry& geometry) {
     if (topology_ == geometry.topologyRevision()) return;
     topology_ = geometry.topologyRevision();
     const LitMeshData& data = geometry.data();
-    const std::size_t before = shown_.direct.size(), now = data.positions.size();
+    const std::size_t before = vertices_, now = data.positions.size();
+    vertices_ = now;
     shown_.direct.resize(now);
     shown_.indirect.resize(now);
     if (!shown_.factors.empty()) {
@@ -61,42 +59,66 @@ void LightFade::followTopology(const LitGeometry& geometry) {
 }
 
 /// Vertices that stand for none of the corners that they stood for before take over what was shown
-/// at one of those that they stand for now.
+/// at one of those that they stand for now. All others show their own light, and corners that have
+/// come to be drawn with them go to that.
 void LightFade::adopt(const LitMeshData& data) {
     shown_.adopted.clear();
-    if (corners_.size() != data.indices.size()) return;
+    if (corners_.size() != data.indices.size()) return cornerFade_.clear();
     std::vector<bool> settled(data.positions.size());
-    for (std::size_t i = 0; i < corners_.size(); ++i)
-        if (data.indices[i] == corners_[i]) settled[corners_[i]] = true;
-    struct Light {
-        Rgb direct, indirect;
-        glm::vec4 factors{-1};
-        float behind = 0;
-    };
-    std::vector<Light> lights; // all are read before any is written: a vertex may give and take
-    for (std::size_t i = 0; i < corners_.size(); ++i) {
-        const std::uint32_t v = data.indices[i], was = corners_[i];
+    std::vector<std::pair<std::uint32_t, Light>> changed; // entries, and what was shown there:
+    for (std::uint32_t i = 0; i < corners_.size(); ++i) { // a vertex may give and take
+        if (data.indices[i] == corners_[i])
+            settled[corners_[i]] = true;
+        else
+            changed.emplace_back(i, shownAt(i));
+    }
+    for (const auto& [entry, light] : changed) {
+        const std::uint32_t v = data.indices[entry];
         if (settled[v]) continue;
         settled[v] = true;
-        shown_.adopted.push_back({v, was});
-        lights.push_back({shown_.direct[was], shown_.indirect[was]});
-        if (shown_.factors.empty()) continue;
-        lights.back().factors = shown_.factors[was];
-        lights.back().behind = shown_.behind[was];
+        shown_.adopted.push_back({v, corners_[entry]});
+        beginWith(v, light);
     }
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        const std::uint32_t v = shown_.adopted[i].vertex;
-        shown_.direct[v] = lights[i].direct;
-        shown_.indirect[v] = lights[i].indirect;
-        if (!shown_.factors.empty()) {
-            shown_.factors[v] = lights[i].factors;
-            setBehind(v, lights[i].behind);
-        }
-        Flight& flight = flightOf(v / kBlock);
-        flight.direct[v % kBlock] = {};
-        flight.indirect[v % kBlock] = {};
-        ++shown_.blockRevisions[v / kBlock];
+    for (const auto& [entry, light] : changed)
+        cornerFade_.put(entry, data.indices[entry], beyond(data, data.indices[entry], light));
+}
+
+LightFade::Light LightFade::shownAt(std::uint32_t entry) const {
+    const std::uint32_t v = corners_[entry];
+    const CornerFade::Over over = cornerFade_.over(entry);
+    Light light{shown_.direct[v] + over.direct, shown_.indirect[v] + over.indirect};
+    if (shown_.factors.empty()) return light;
+    light.factors = shown_.factors[v];
+    light.behind = shown_.behind[v];
+    return light;
+}
+
+void LightFade::beginWith(std::uint32_t vertex, const Light& light) {
+    shown_.direct[vertex] = light.direct;
+    shown_.indirect[vertex] = light.indirect;
+    if (!shown_.factors.empty()) {
+        shown_.factors[vertex] = light.factors;
+        setBehind(vertex, light.behind);
     }
+    Flight& flight = flightOf(vertex / kBlock);
+    flight.direct[vertex % kBlock] = {};
+    flight.indirect[vertex % kBlock] = {};
+    ++shown_.blockRevisions[vertex / kBlock];
+}
+
+/// How much more light that is than what a vertex shows, without that of live lamps: it is brought
+/// up to date, from whatever it is in both, to what it is now.
+CornerFade::Over LightFade::beyond(const LitMeshData& data, std::uint32_t vertex,
+                                   const Light& light) const {
+    CornerFade::Over over{light.direct - shown_.direct[vertex],
+                          light.indirect - shown_.indirect[vertex]};
+    if (shown_.factors.empty()) return over;
+    for (std::size_t l = 0; l < data.lamps.size() && l < 4; ++l) {
+        const float was = light.factors[int(l)], is = shown_.factors[vertex][int(l)];
+        if (was >= 0 && is >= 0)
+            over.direct -= data.lamps[l].exitance[vertex / kBlock] * (was - is);
+    }
+    return over;
 }
 
 void LightFade::findBorders(const LitMeshData& data) {
@@ -133,9 +155,11 @@ void LightFade::setLamps(std::size_t lamps) {
 }
 
 void LightFade::takeOver(const LightFade& before) {
-    if (before.shown_.direct.size() != shown_.direct.size()) return;
-    shown_.direct = before.shown_.direct;
-    shown_.indirect = before.shown_.indirect;
+    if (before.vertices_ != vertices_) return;
+    for (std::size_t v = 0; v < vertices_; ++v) {
+        shown_.direct[v] = before.shown_.direct[v];
+        shown_.indirect[v] = before.shown_.indirect[v];
+    }
     std::fill(seen_.begin(), seen_.end(), 0);
     revision_ = 0;
 }
@@ -190,7 +214,7 @@ void LightFade::setBehind(std::size_t vertex, float behind) {
 
 LightFade::Flight& LightFade::flightOf(std::size_t block) {
     Flight& flight = flights_[block];
-    const std::size_t size = std::min(kBlock, shown_.direct.size() - block * kBlock);
+    const std::size_t size = std::min(kBlock, vertices_ - block * kBlock);
     flight.direct.resize(size);
     flight.indirect.resize(size);
     return flight;
@@ -276,7 +300,19 @@ bool LightFade::advanceBlock(const LitMeshData& data, std::size_t block, Flight&
     return done;
 }
 
+void LightFade::advanceCorners(const LitMeshData& data, const Frame& frame) {
+    const auto setOut = [&](std::uint32_t vertex) -> std::optional<double> {
+        if (!ready(data, vertex, frame)) return std::nullopt;
+        const auto flight = flights_.find(vertex / kBlock);
+        return flight != flights_.end() ? flight->second.direct[vertex % kBlock].start : kNever;
+    };
+    cornerFade_.advance(frame.time, frame.seconds, setOut);
+    cornerFade_.show(shown_);
+    fading_ |= !cornerFade_.empty();
+}
+
 void LightFade::advance(const LitGeometry& geometry, const Frame& frame) {
+    CornerFade::hide(shown_, vertices_);
     followTopology(geometry);
     if (revision_ != geometry.revision()) {
         revision_ = geometry.revision();
@@ -293,6 +329,7 @@ void LightFade::advance(const LitGeometry& geometry, const Frame& frame) {
             flight = flights_.erase(flight);
         else
             ++flight;
+    advanceCorners(geometry.data(), frame);
 }
 
 bool LightFade::anyUnready(const LitGeometry& geometry, const Frame& frame) const {
@@ -303,7 +340,7 @@ bool LightFade::anyUnready(const LitGeometry& geometry, const Frame& frame) cons
 
 bool LightFade::leaveBehind(const LitGeometry& geometry, const Frame& frame) {
     if (shown_.factors.empty() || !anyUnready(geometry, frame)) return false;
-    for (std::size_t v = 0; v < shown_.direct.size(); ++v) {
+    for (std::size_t v = 0; v < vertices_; ++v) {
         if (ready(geometry.data(), v, frame)) continue;
         Flight& flight = flightOf(v / kBlock);
         Way<Direct>& way = flight.direct[v % kBlock];

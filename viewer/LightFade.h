@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenegraph/LitGeometry.h"
+#include "viewer/CornerFade.h"
 #include "viewer/ShownLight.h"
 
 #include <cstddef>
@@ -22,7 +23,7 @@ namespace penumbra {
 /// has, or stays. A target that comes while it is on its way starts a new way from what is shown.
 ///
 /// A vertex that comes to stand for a corner of a triangle (see Contact.h) begins with the light
-/// that was shown there.
+/// that was shown there. If it goes on with its own, the corner does not: see CornerFade.
 ///
 /// Only blocks that wait or are on their way cost anything.
 class LightFade {
@@ -57,9 +58,10 @@ public:
     void takeOver(const LightFade& before);
 
     const ShownLight& shown() const { return shown_; }
-    bool changing() const { return !flights_.empty(); } ///< something is on its way, or waits
-    bool fading() const { return fading_; }             ///< direct light is on its way
-    bool waiting() const { return waiting_; }           ///< some vertices are not ready
+    /// Something is on its way, or waits.
+    bool changing() const { return !flights_.empty() || !cornerFade_.empty(); }
+    bool fading() const { return fading_; }   ///< direct light is on its way
+    bool waiting() const { return waiting_; } ///< some vertices are not ready
     bool anyBehind() const { return behind_ > 0; }
 
 private:
@@ -91,17 +93,30 @@ private:
     Direct shownDirect(std::size_t vertex, const Frame& frame) const;
     void setShown(std::size_t vertex, const Direct& direct, const Frame& frame);
     void setBehind(std::size_t vertex, float behind);
+    /// What is shown somewhere.
+    struct Light {
+        Rgb direct, indirect;
+        glm::vec4 factors{-1};
+        float behind = 0;
+    };
     void adopt(const LitMeshData& data);
+    Light shownAt(std::uint32_t entry) const;
+    void beginWith(std::uint32_t vertex, const Light& light);
+    CornerFade::Over beyond(const LitMeshData& data, std::uint32_t vertex,
+                            const Light& light) const;
     Flight& flightOf(std::size_t block);
     bool advanceBlock(const LitMeshData& data, std::size_t block, Flight& flight,
                       const Frame& frame);
+    void advanceCorners(const LitMeshData& data, const Frame& frame);
     void goOn(std::size_t vertex, Way<Direct>& way, const Frame& frame);
     bool advanceDirect(const LitMeshData& data, std::size_t vertex, Way<Direct>& way,
                        const Frame& frame);
     bool advanceIndirect(const LitMeshData& data, std::size_t vertex, Way<Rgb>& way,
                          const Frame& frame);
 
+    std::size_t vertices_ = 0; ///< of the geometry
     ShownLight shown_;
+    CornerFade cornerFade_;
     std::vector<std::uint64_t> seen_; ///< block revisions of the geometry
     std::uint64_t revision_ = 0, topology_ = 0;
     std::vector<std::uint32_t> corners_;              ///< of triangles, as last seen

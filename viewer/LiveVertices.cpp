@@ -12,6 +12,14 @@ Rgb atLeastNone(Rgb light) {
     return {std::max(0.0f, light.r), std::max(0.0f, light.g), std::max(0.0f, light.b)};
 }
 
+/// What an entry of LitMeshData::indices is drawn with, if not with this vertex.
+std::size_t drawnAt(const ShownLight& shown, std::uint32_t entry, std::size_t vertex) {
+    const auto at = std::lower_bound(shown.redrawn.begin(), shown.redrawn.end(), entry,
+                                     [](const auto& r, std::uint32_t e) { return r.first < e; });
+    if (at == shown.redrawn.end() || at->first != entry) return vertex;
+    return shown.direct.size() - shown.copies.size() + at->second;
+}
+
 } // namespace
 
 void LiveVertices::restore(Copy& copy, const ShownLight& from, std::uint32_t block) {
@@ -30,8 +38,8 @@ void LiveVertices::follow(Copy& copy, const ShownLight& from) {
         copy.vertices = from.direct.size();
         copy.light.direct.resize(copy.vertices);
         copy.light.indirect.resize(copy.vertices);
-        copy.light.blockRevisions.assign(blocks, 0);
-        copy.seen.assign(blocks, 0);
+        copy.light.blockRevisions.resize(blocks, 0);
+        copy.seen.resize(blocks, 0);
     }
     copy.touched.assign(blocks, 0);
     for (const std::uint32_t block : copy.live)
@@ -96,20 +104,36 @@ void LiveVertices::bringUpToDate(Copy& copy, const LiveLight& light, const Shown
     copy.live.push_back(at.block);
 }
 
+/// Copies that are there already show so much more than their vertices as they do without live
+/// lamps.
+void LiveVertices::bringCopiesUpToDate(Copy& copy, const ShownLight& from) {
+    const std::size_t first = from.direct.size() - from.copies.size();
+    for (std::size_t c = 0; c < from.copies.size(); ++c) {
+        const std::uint32_t v = from.copies[c];
+        const Rgb over = from.direct[first + c] - from.direct[v];
+        copy.light.direct[first + c] = atLeastNone(copy.light.direct[v] + over);
+    }
+    if (!from.copies.empty())
+        std::fill(copy.touched.begin() + std::ptrdiff_t(first / kBlock), copy.touched.end(), 1);
+}
+
 /// Corners that something touches now get vertices of their own for as long as the geometry has
 /// none for them.
 void LiveVertices::drawTouched(Copy& copy, std::span<const LiveRows::Touched> touched,
                                const LiveLight& light, const ShownLight& from) {
-    std::vector<std::uint32_t> copies;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> redrawn;
+    std::vector<std::uint32_t> copies = from.copies;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> redrawn = from.redrawn;
     copy.light.direct.resize(copy.vertices);
     copy.light.indirect.resize(copy.vertices);
     for (const LiveRows::Touched& corner : touched) {
         const LiveSurface& surface = rows_.surface(corner.object);
-        for (const std::uint32_t entry : surface.entriesOf(corner.corner))
+        std::size_t drawn = corner.vertex; // without live lamps
+        for (const std::uint32_t entry : surface.entriesOf(corner.corner)) {
+            drawn = drawnAt(from, entry, drawn);
             redrawn.emplace_back(entry, std::uint32_t(copies.size()));
+        }
         copies.push_back(corner.vertex);
-        Rgb direct = from.direct[corner.vertex];
+        Rgb direct = from.direct[drawn];
         for (std::size_t l = 0; l < light.lamps.size(); ++l)
             direct =
                 direct + light.lamps[l].exitance *
@@ -117,7 +141,7 @@ void LiveVertices::drawTouched(Copy& copy, std::span<const LiveRows::Touched> to
                                     l, corner.vertex, corner.factors[l],
                                     [&] { return corner.unoccluded[l]; });
         copy.light.direct.push_back(atLeastNone(direct));
-        copy.light.indirect.push_back(from.indirect[corner.vertex]);
+        copy.light.indirect.push_back(from.indirect[drawn]);
     }
     const std::size_t blocks = (copy.light.direct.size() + kBlock - 1) / kBlock;
     copy.light.blockRevisions.resize(blocks);
@@ -135,6 +159,7 @@ void LiveVertices::drawAllTouched(const LiveLight& light, const ShownOf& shown) 
     for (auto& [geometry, copy] : copies_) {
         const ShownLight* const from = shown(*geometry);
         if (!from || from->factors.empty()) continue;
+        bringCopiesUpToDate(copy, *from);
         const auto [first, last] = std::equal_range(
             rows_.touched().begin(), rows_.touched().end(), LiveRows::Touched{copy.object},
             [](const auto& a, const auto& b) { return a.object < b.object; });

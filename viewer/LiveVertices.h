@@ -36,7 +36,7 @@ public:
 private:
     struct Copy {
         std::uint32_t object = 0;
-        std::size_t vertices = 0; ///< of the geometry; copies are behind them
+        std::size_t vertices = 0; ///< with copies that there are already; more are behind them
         ShownLight light;
         std::vector<std::uint64_t> seen;   ///< block revisions of what is copied
         std::vector<std::uint32_t> live;   ///< blocks that differ from that
@@ -52,6 +52,7 @@ private:
                         const Unoccluded& unoccluded);
     void bringUpToDate(Copy& copy, const LiveLight& light, const ShownLight& from,
                        const LiveRows::Reached& at);
+    static void bringCopiesUpToDate(Copy& copy, const ShownLight& from);
     void drawTouched(Copy& copy, std::span<const LiveRows::Touched> touched, const LiveLight& light,
                      const ShownLight& from);
     void drawAllTouched(const LiveLight& light, const ShownOf& shown);

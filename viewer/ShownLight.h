@@ -29,7 +29,7 @@ struct ShownLight {
     /// Those of the last time that triangles came to be made of other vertices.
     std::vector<AdoptedVertex> adopted;
 
-    /// Corners of triangles that are drawn with light of their own: `direct` and `indirect` go on
+    /// Corners of triangles that are drawn with light of their own: what is above goes on
     /// behind the vertices of the geometry with vertices that lie where these do,
     std::vector<std::uint32_t> copies;
     /// and these entries of LitMeshData::indices are drawn with those, counted from the first one

@@ -33,7 +33,7 @@ LitMeshData strip(std::size_t blocks, std::size_t lamps) {
     data.materials.emplace_back();
     data.lamps.assign(lamps, {.factor = std::vector<float>(count, 0.5f),
                               .known = std::vector<Known>(blocks, Known::exact),
-                              .exitance = {}});
+                              .exitance = std::vector<Rgb>(blocks)});
     return data;
 }
 
@@ -232,6 +232,101 @@ TEST(LightFade, AVertexThatIsGivenToAnotherCornerBeginsWithTheLightThere) {
     ASSERT_EQ(surface.fade.shown().adopted.size(), 1u);
     EXPECT_EQ(surface.fade.shown().adopted[0].vertex, own);
     EXPECT_EQ(surface.fade.shown().adopted[0].from, 70u);
+}
+
+/// A strip in which the last corner, of vertex 5 in the first block, comes to be drawn with vertex
+/// 70 of the second, which others have as well.
+struct ReturnedCorner : Surface {
+    explicit ReturnedCorner(std::size_t lamps) : Surface(2, lamps) {
+        setLast(5);
+        show(0);
+    }
+    void setLast(std::uint32_t vertex) {
+        geometry.setTopology([&](LitMeshData& data) { data.indices.back() = vertex; });
+    }
+    /// What is shown there.
+    float corner() const {
+        const ShownLight& shown = fade.shown();
+        const auto last = std::uint32_t(geometry.data().indices.size() - 1);
+        for (const auto& [entry, copy] : shown.redrawn)
+            if (entry == last) return shown.direct[geometry.data().positions.size() + copy].r;
+        return shown.direct[geometry.data().indices.back()].r;
+    }
+};
+
+TEST(LightFade, ACornerThatIsDrawnWithASharedVertexAgainGoesToItsLightWithoutAJump) {
+    ReturnedCorner surface(0);
+    surface.publish(0, 300), surface.publish(1, 500);
+    surface.show(1), surface.show(2);
+    surface.setLast(70);
+    surface.show(3);
+    EXPECT_EQ(surface.corner(), 300) << "what was shown there";
+    EXPECT_EQ(surface.direct(70), 500) << "others have it as it is";
+    ASSERT_EQ(surface.fade.shown().copies.size(), 1u);
+    EXPECT_EQ(surface.fade.shown().copies[0], 70u);
+    surface.show(3.125);
+    EXPECT_NEAR(surface.corner(), 400, 1e-3f);
+    EXPECT_TRUE(surface.fade.changing());
+    surface.setLast(5); // touched again
+    surface.show(3.125);
+    EXPECT_NEAR(surface.corner(), 400, 1e-3f);
+    surface.show(3.375);
+    EXPECT_EQ(surface.corner(), 300);
+    EXPECT_TRUE(surface.fade.shown().copies.empty());
+    EXPECT_FALSE(surface.fade.changing());
+}
+
+TEST(LightFade, ACornerThatIsDrawnWithASharedVertexAgainWaitsForItsLight) {
+    // The vertex was covered, and its new light comes later than the triangles: a corner that went
+    // to the old light first would be dark in between.
+    ReturnedCorner surface(1);
+    surface.publish(0, 300), surface.publish(1, 0);
+    surface.show(1), surface.show(2);
+    surface.setLast(70);
+    surface.publish(1, 280, Known::stale);
+    surface.show(3), surface.show(3.2);
+    EXPECT_EQ(surface.corner(), 300);
+    surface.publish(1, 280);
+    surface.show(4), surface.show(4.125);
+    EXPECT_NEAR(surface.corner(), 290, 1e-3f);
+    surface.show(4.25);
+    EXPECT_EQ(surface.corner(), 280);
+}
+
+TEST(LightFade, ACornerThatIsDrawnWithASharedVertexAgainSetsOutWithItEachTimeThatThisDoes) {
+    // Its light comes in two parts. Whoever goes on to the first one is dark in between.
+    ReturnedCorner surface(0);
+    surface.publish(0, 300), surface.publish(1, 0);
+    surface.show(1), surface.show(2);
+    surface.setLast(70);
+    surface.publish(1, 10);
+    surface.show(3), surface.show(3.01);
+    const float then = surface.corner();
+    EXPECT_GT(then, 295);
+    surface.publish(1, 300);
+    surface.show(3.01), surface.show(3.135);
+    EXPECT_NEAR(surface.corner(), (then + 300) / 2, 1e-3f);
+    surface.show(3.26);
+    EXPECT_EQ(surface.corner(), 300);
+}
+
+TEST(LightFade, ACornerThatIsDrawnWithASharedVertexAgainKeepsNoLightOfLiveLamps) {
+    // At both it is brought up to date to the same: 300 and 0.5 of the lamp's 100, 120 and 0.25.
+    ReturnedCorner surface(1);
+    const auto publish = [&](std::size_t block, float direct, float factor) {
+        surface.geometry.setBlock(block, [&](LitMeshData& data) {
+            for (std::size_t v = block * LitGeometry::kBlock; v < (block + 1) * LitGeometry::kBlock;
+                 ++v)
+                data.direct[v] = Rgb(direct), data.lamps[0].factor[v] = factor;
+            data.lamps[0].exitance.assign(2, Rgb(100));
+        });
+    };
+    publish(0, 300, 0.5f), publish(1, 120, 0.25f);
+    surface.show(1), surface.show(2);
+    surface.setLast(70);
+    surface.show(3);
+    EXPECT_EQ(surface.corner(), 275) << "250 of other lamps, and what the vertex has of this one";
+    EXPECT_EQ(surface.fade.shown().factors.back().x, 0.25f);
 }
 
 TEST(LightFade, GoesOnFromWhatWasShownWhenTheSurfaceComesAnew) {

@@ -66,6 +66,14 @@ protected:
         EXPECT_GT(differences.size(), exact.size() / 4);
         return differences;
     }
+    /// Its light as it is, of which all that is direct is the lamp's.
+    static void showWithFactors(LiveRoom& room) {
+        room.show(ownLight);
+        for (auto& [geometry, light] : room.shown)
+            for (std::size_t v = 0; v < light.direct.size(); ++v)
+                light.factors[v] =
+                    glm::vec4(light.direct[v].r / (room.room.light->luminance().r * 3.14159265f));
+    }
     static glm::dmat4 lifted() {
         return glm::translate(glm::dmat4(1.0), glm::dvec3(0.3, 0.2, 0.5));
     }
@@ -126,14 +134,8 @@ TEST_P(LiveLightTest, AMovedThingTakesItsShadowAlong) {
     room.room.box->setMatrix(lifted());
     ASSERT_TRUE(room.settle());
     const ArrangementPtr then = room.arrangement();
-    room.show(ownLight);
-    std::map<const LitGeometry*, ShownLight> old = room.shown;
-    for (const LitObject& object : room.room.node->objects()) {
-        const LitMeshData& data = object.geometry->data();
-        for (std::size_t v = 0; v < data.positions.size(); ++v)
-            old[object.geometry.get()].factors[v] =
-                glm::vec4(data.direct[v].r / (room.room.light->luminance().r * 3.14159265f));
-    }
+    showWithFactors(room);
+    const std::map<const LitGeometry*, ShownLight> old = room.shown;
     InteractiveRenderer interactive(options());
     const std::vector<Rgb> before = room.draw(interactive, {}, kSize);
 
@@ -160,6 +162,36 @@ TEST_P(LiveLightTest, AMovedThingTakesItsShadowAlong) {
     EXPECT_LT(mean(errors), 0.01f * whole);
     EXPECT_LT(mean(errors), 0.15f * mean(staleErrors));
     EXPECT_LT(percentile(errors, 0.99), 0.2f * whole);
+}
+
+TEST_P(LiveLightTest, ACopyOfAVertexIsBroughtUpToDateAsThatIs) {
+    LiveRoom room;
+    room.room.box->setMatrix(lifted());
+    ASSERT_TRUE(room.settle());
+    const ArrangementPtr then = room.arrangement();
+    room.room.box->setMatrix(glm::translate(glm::dmat4(1.0), glm::dvec3(-0.4, 0.6, 0.3)));
+    ASSERT_TRUE(room.settle());
+    showWithFactors(room);
+    InteractiveRenderer interactive(options());
+    const LiveLight live = room.live(room.arrangement(), then);
+    const std::vector<Rgb> with = room.draw(interactive, live, kSize, GetParam());
+    for (auto& [geometry, light] : room.shown) {
+        const std::vector<std::uint32_t>& indices = geometry->data().indices;
+        for (std::uint32_t i = 0; i < indices.size(); ++i) { // every corner has its own
+            light.copies.push_back(indices[i]);
+            light.redrawn.emplace_back(i, i);
+            light.direct.push_back(Rgb(light.direct[indices[i]]));
+            light.indirect.push_back(Rgb(light.indirect[indices[i]]));
+            light.factors.push_back(glm::vec4(light.factors[indices[i]]));
+            light.behind.push_back(0);
+        }
+        const std::size_t blocks = (light.direct.size() + 63) / LitGeometry::kBlock;
+        light.blockRevisions.assign(blocks, ++room.revision);
+        light.revision = light.redrawnRevision = room.revision;
+    }
+    const std::vector<Rgb> copied = room.draw(interactive, live, kSize, GetParam());
+    for (std::size_t i = 0; i < with.size(); ++i)
+        ASSERT_NEAR(copied[i].r, with[i].r, 1e-5f * with[i].r + 1e-6f);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sampling, LiveLightTest, testing::Values(LiveBy::maps, LiveBy::rays),
