@@ -55,7 +55,7 @@ void CornerFade::show(ShownLight& shown) const {
         shown.direct.push_back(shown.direct[v] + corner.now.direct);
         shown.indirect.push_back(shown.indirect[v] + corner.now.indirect);
         if (shown.factors.empty()) continue;
-        shown.factors.push_back(glm::vec4(shown.factors[v]));
+        shown.factors.emplace_back(shown.factors[v]);
         shown.behind.push_back(float(shown.behind[v]));
     }
     constexpr std::size_t kBlock = LitGeometry::kBlock;

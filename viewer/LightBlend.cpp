@@ -105,6 +105,17 @@ void LightBlend::comeToRest(double time) {
     since_ = time;
 }
 
+/// While light is solved after an edit, indirect light goes up and down: rows are followed one
+/// sender after another, and what they change is sent on last. So it is taken when it has settled;
+/// if that is not soon, now and then.
+bool LightBlend::indirectSetsOut(const RadiosityState& state, double time) {
+    constexpr double kLongest = 1; // [s]
+    const bool settled = state.phase == RadiosityState::Phase::settled && state.queued == 0;
+    if (!lamps_.empty() && !settled && time - indirectSince_ < kLongest) return false;
+    indirectSince_ = time;
+    return true;
+}
+
 void LightBlend::advanceFades(const LightFade::Frame& frame) {
     changing_ = fading_ = waiting_ = false;
     bool behind = false;
@@ -192,7 +203,9 @@ void LightBlend::advance(RadiosityNode& node, double time) {
     if (state.held == 0) sent_ = now_;
     if (state.lampsMarked && sent_ != (next_ ? next_ : rest_)) comeToRest(time);
     const bool fresh = lamps_.empty() || (state.lampsMarked && sent_ == (next_ ? next_ : rest_));
-    advanceFades(frameAt(time, fresh));
+    LightFade::Frame frame = frameAt(time, fresh);
+    frame.indirect = indirectSetsOut(state, time);
+    advanceFades(frame);
     changing_ |= next_ != nullptr;
     waiting_ |= !fresh;
     describeLive(node, time);

@@ -12,6 +12,7 @@
 namespace penumbra {
 
 class RadiosityNode;
+struct RadiosityState;
 
 /// How it is found out what live lamps reach.
 enum class LiveBy {
@@ -37,6 +38,9 @@ struct BlendOptions {
 /// keep the old one for themselves (they are *behind*) and follow one by one. Only one arrangement
 /// can be left behind at a time; if a third comes to rest before its vertices have followed, it
 /// waits until all are ready.
+///
+/// Indirect light is not exchanged. It fades to what was published when that has settled; if that
+/// takes long, each second.
 ///
 /// It makes no difference who moves things: a hand, arrow keys, undo, an animation. If nobody has
 /// asked for live lamps, light fades as it is published.
@@ -78,6 +82,7 @@ private:
     void lookAround(const RadiosityNode& node);
     void restAnew();
     bool quiet() const;
+    bool indirectSetsOut(const RadiosityState& state, double time);
     LightFade::Frame frameAt(double time, bool fresh) const;
     void comeToRest(double time);
     void advanceFades(const LightFade::Frame& frame);
@@ -93,6 +98,7 @@ private:
     ArrangementPtr rest_, next_; ///< rest_ fades to next_, if there is one
     ArrangementPtr behind_;      ///< what some vertices are left with
     double since_ = 0;           ///< of next_ [s]
+    double indirectSince_ = 0;   ///< that indirect light set out last [s]
     LiveLight live_;
     bool changing_ = false, fading_ = false, waiting_ = false;
 };

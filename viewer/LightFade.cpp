@@ -279,6 +279,7 @@ bool LightFade::advanceIndirect(const LitMeshData& data, std::size_t vertex, Way
         step();
     }
     if (wanted == (way.start != kNever ? way.target : now)) return way.start == kNever;
+    if (!frame.indirect) return false;
     way = {now, wanted, frame.time};
     step();
     return way.start == kNever;

@@ -19,8 +19,9 @@ namespace penumbra {
 ///
 /// A vertex takes a new target when it is *ready*: its direct light, when the factors of all live
 /// lamps are exact in its block and in the blocks that share a triangle with it, so that no
-/// triangle is half ready; its indirect light, always. Until then it goes on to the target that it
-/// has, or stays. A target that comes while it is on its way starts a new way from what is shown.
+/// triangle is half ready; its indirect light, when a frame says so, all at once. Until then it
+/// goes on to the target that it has, or stays. A target that comes while it is on its way starts a
+/// new way from what is shown.
 ///
 /// A vertex that comes to stand for a corner of a triangle (see Contact.h) begins with the light
 /// that was shown there. If it goes on with its own, the corner does not: see CornerFade.
@@ -41,6 +42,7 @@ public:
         /// Vertices that are behind are so with that arrangement, and not with one before it: those
         /// follow only when `rest` has come to 0, for a vertex has but two arrangements.
         bool behindIsRest = true;
+        bool indirect = true; ///< indirect light may set out, and does not wait
     };
 
     /// Begins anew with another number of live lamps: no factors are known. \pre nothing is behind

@@ -39,6 +39,8 @@ const std::vector<DragScript> kScripts{
     {"gallery", "", "/World/TwistedColumn", {0.7, 0.4, 0}},
 };
 
+constexpr int kAfterIndirect = 120; ///< frames after the release: its light takes longer
+
 struct Variant {
     const char *byMaps, *byRays; ///< null: rays have no points to choose, it would be the first
     BlendOptions blend;
@@ -170,8 +172,9 @@ int run(int argc, char** argv) {
     }
     std::printf("                              |   start     |    motion     |       "
                 "hand-over        | flick |  ready settled real%% | frames | frame ms\n");
-    for (const DragScript& script : kScripts) {
+    for (DragScript script : kScripts) {
         if (!only.empty() && only != script.scene) continue;
+        if (indirect) script.after = kAfterIndirect;
         for (const Variant& variant : kVariants) {
             const auto number = int(&variant - kVariants.data());
             const char* const name = by == LiveBy::rays ? variant.byRays : variant.byMaps;

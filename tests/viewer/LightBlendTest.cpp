@@ -17,7 +17,7 @@ constexpr double kStep = 1.0 / 60;
 /// A room, its light, and the screen.
 class Screen {
 public:
-    Screen() : room(options()) {}
+    explicit Screen(const RadiosityOptions& light = options()) : room(light) {}
     static RadiosityOptions options() {
         RadiosityOptions options = fineRoom();
         options.meshing = {.patchSize = 0.8f, .elementSize = 0.2f};
@@ -127,6 +127,29 @@ TEST_F(LightBlendTest, TheHandOverIsAFadeWithoutStepsThatEndsAtTheSolution) {
         }
         ASSERT_LE(sum - whole, 0.03f) << "pixel " << p;
     }
+}
+
+TEST_F(LightBlendTest, IndirectLightStaysUntilItHasSettledAndComesThen) {
+    Screen screen(fineRoom()); // takes a while, in which light is published as far as it is
+    ASSERT_TRUE(screen.begin());
+    std::vector<std::vector<Rgb>> before;
+    const auto objects = screen.node().objects();
+    for (const LitObject& object : objects)
+        before.push_back(screen.blend.shown(*object.geometry)->indirect);
+    screen.take(0.5);
+    const RadiosityState& state = screen.node().state();
+    bool settled = false;
+    for (int i = 0; i < 5000 && !settled; ++i) {
+        screen.node().update();
+        screen.blend.advance(screen.node(), screen.time += 1e-4);
+        settled = state.phase == RadiosityState::Phase::settled && state.queued == 0;
+        for (std::size_t o = 0; o < objects.size() && !settled; ++o)
+            for (std::size_t v = 0; v < before[o].size(); ++v)
+                ASSERT_EQ(screen.blend.shown(*objects[o].geometry)->indirect[v], before[o][v]);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    ASSERT_TRUE(screen.rest());
+    EXPECT_LT(largestStep(screen.frame(), screen.published()), 1e-5f);
 }
 
 TEST_F(LightBlendTest, WhoTakesItAgainInTheMiddleSeesNoStep) {

@@ -137,6 +137,24 @@ TEST(LightFade, IndirectLightFollowsAtOnceWhateverDirectLightWaitsFor) {
     EXPECT_EQ(surface.direct(), 100);
 }
 
+TEST(LightFade, IndirectLightThatMayNotSetOutYetFinishesItsWayAndWaits) {
+    Surface surface;
+    const auto show = [&](double time, bool indirect) {
+        surface.fade.advance(surface.geometry, {.time = time, .lamps = 1, .indirect = indirect});
+        return surface.fade.shown().indirect[5].r;
+    };
+    surface.publish(0, 100, Known::exact, 40);
+    EXPECT_EQ(show(1, false), 20);
+    EXPECT_TRUE(surface.fade.changing());
+    EXPECT_EQ(show(2, true), 20) << "sets out";
+    surface.publish(0, 100, Known::exact, 60);
+    EXPECT_NEAR(show(2.125, false), 30, 1e-3f);
+    EXPECT_EQ(show(2.25, false), 40);
+    EXPECT_EQ(show(3, true), 40);
+    EXPECT_EQ(show(3.25, false), 60);
+    EXPECT_FALSE(surface.fade.changing());
+}
+
 TEST(LightFade, LampsThatBecomeKnownChangeNothingOfWhatIsSeen) {
     Surface surface;
     surface.fade.setLamps(1);
