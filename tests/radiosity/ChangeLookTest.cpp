@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 
 namespace penumbra {
 
@@ -41,6 +42,8 @@ struct Outcome {
     std::string object;
     double expected = 0, came = 0;
     double share = 0; ///< of the receivers, for which more than the least is expected
+    int stay = 0;     ///< receivers with an entry of which it was said that it stays,
+    int didNot = 0;   ///< and it did not
 };
 
 double meanOf(const ExpectedFactors& said, std::span<const Receiver> receivers) {
@@ -74,6 +77,7 @@ std::vector<Outcome> outcomes(Stage& stage, const glm::dmat4& to) {
     ChangeLook look(lit.rays());
     std::vector<Outcome> result;
     std::vector<Factors> before;
+    std::vector<std::uint64_t> open;
     const std::size_t blocks = set.firstPrivate / kBlock;
     for (std::uint32_t b = 0; b < blocks; ++b) {
         std::vector<Receiver> receivers;
@@ -84,8 +88,9 @@ std::vector<Outcome> outcomes(Stage& stage, const glm::dmat4& to) {
         const ExpectedFactors said = look.at(sender, {receivers, ~std::uint64_t(0), 0},
                                              own ? ~std::uint64_t(0) : 0, moved, row);
         result.push_back({set.objects[set.vertexBlockObject[b].value].path, meanOf(said, receivers),
-                          0, shareOf(said, row)});
+                          0, shareOf(said, row), 0, 0});
         before.push_back(factorsOf(row));
+        open.push_back(said.open);
     }
     EXPECT_LE(look.takeRayCount().total(), 2 * kBlock * blocks);
     lit.solver().settle();
@@ -95,6 +100,9 @@ std::vector<Outcome> outcomes(Stage& stage, const glm::dmat4& to) {
         for (std::size_t r = 0; r < kBlock; ++r) {
             count += !isPadding(set.vertices[b * kBlock + r].receiver);
             result[b].came += std::abs(now[r] - before[b][r]);
+            if ((open[b] >> r & 1) != 0) continue;
+            result[b].stay += before[b][r] > 0;
+            result[b].didNot += now[r] != before[b][r];
         }
         if (count > 0) result[b].came /= count;
     }
@@ -115,6 +123,29 @@ TEST(ChangeLook, KnowsHowMuchAndWhereAShadowMoves) {
     EXPECT_NEAR(expected, came, 0.3 * came);
     EXPECT_LT(missed, 0.03 * came);
     EXPECT_LT(inVain, 0.15 * came); // mostly what is expected of every block, whatever is seen
+}
+
+TEST(ChangeLook, WhatItSaysStaysDoesSoBitForBit) {
+    int stay = 0, didNot = 0, open = 0;
+    for (const double step : {0.0, 0.1, 0.2, 0.3, 0.4, 0.5}) {
+        Stage stage;
+        stage.stand(moved(-1.5, 0.3, 0.4)); // nothing touches anything
+        // Samples that they hide are not asked, and entries in half-shadow have more of them.
+        for (int i = 0; i < 4; ++i) {
+            const float y = 0.6f * float(i) - 0.9f;
+            stage.scene.root->add(
+                object("beam" + std::to_string(i),
+                       boxData({-2, y - 0.1f, 1.2f}, {2, y + 0.1f, 1.3f}, false)));
+        }
+        for (const Outcome& block : outcomes(stage, moved(0.3 + step, 0.1 + step, 0.4))) {
+            if (block.object != "/floor") continue;
+            stay += block.stay, didNot += block.didNot;
+            open += block.share > 0;
+        }
+    }
+    EXPECT_EQ(didNot, 0);
+    EXPECT_GT(stay, 10000);
+    EXPECT_GT(open, 0);
 }
 
 TEST(ChangeLook, ExpectsWhatGoesDarkToChangeAsMuchAsItWasLit) {

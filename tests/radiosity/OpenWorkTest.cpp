@@ -217,12 +217,14 @@ TEST_F(OpenWorkOfTwoRows, ComesInPartsIfTheOrderLooks) {
     EXPECT_GT(work.bound(0), 0);
     EXPECT_TRUE(work.next(0, steps)->look) << "the other block may be worth more than the rest";
     work.expect(0, 1, {});
+    EXPECT_EQ(work.count(), 1u) << "nothing is to be done there";
+    EXPECT_EQ(work.bound(1), 0);
     const auto rest = work.take(0, steps);
     EXPECT_EQ(rest->block, 0u);
     EXPECT_EQ(rest->receivers, 1u << 7);
     EXPECT_EQ(rest->anew, 0u);
     EXPECT_EQ(rest->since, 3u);
-    EXPECT_EQ(work.take(0, steps)->receivers, 0u) << "nothing is to be done there";
+    EXPECT_FALSE(work.take(0, steps));
     EXPECT_EQ(work.count(), 0u);
     EXPECT_EQ(work.bound(0), 0);
 }
