@@ -47,7 +47,7 @@ View chooseView(RenderCommand& command, const SceneSolution& solution) {
 }
 
 ExrMetadata metadata(const RenderCommand& command, const SceneSolution& solution) {
-    const SolveStatistics s = solution.solver().statistics();
+    const SolveStatistics s = solution.statistics();
     ExrMetadata data;
     data.texts["software"] = "Penumbra " PENUMBRA_VERSION;
     data.texts["scene"] = std::filesystem::path(command.solve.scene).filename().string();

@@ -147,6 +147,24 @@ void reportDiagnostics(const std::vector<Diagnostic>& diagnostics, bool verbose)
         std::fprintf(stderr, "%s\n", diagnostic.line().c_str());
 }
 
+namespace {
+
+void add(WorkCount& sum, const WorkCount& work) {
+    sum.rays += work.rays;
+    sum.blocksVisited += work.blocksVisited;
+    sum.entriesChanged += work.entriesChanged;
+    sum.seconds += work.seconds;
+}
+
+void addCosts(SolveStatistics& sum, const SolveStatistics& s) {
+    sum.shots += s.shots;
+    add(sum.direct, s.direct);
+    add(sum.indirect, s.indirect);
+    add(sum.detail, s.detail);
+}
+
+} // namespace
+
 SceneSolution::PhaseTimer::PhaseTimer(double& sum) : sum_(sum), start_(now()) {}
 SceneSolution::PhaseTimer::~PhaseTimer() {
     sum_ += now() - start_;
@@ -222,22 +240,30 @@ void SceneSolution::light() {
             static_cast<unsigned long long>(s.shots));
 }
 
+SolveStatistics SceneSolution::statistics() const {
+    SolveStatistics all = solver().statistics();
+    addCosts(all, earlier_);
+    return all;
+}
+
 void SceneSolution::show(double frame) {
     if (loaded_.animation) loaded_.animation->setTime(frame);
     placed_ = placeScene(*loaded_.scene);
     const double start = now();
     FrameCost cost;
-    SolveStatistics before;
+    SolveStatistics before = solver().statistics();
     if (settings_.fromScratch) {
         cost.rebuilt = true;
         mesh(sizesOf(patches()));
     } else {
-        before = solver().statistics();
         const LitScene::Followed followed = lit_->follow(placed_);
         cost.rebuilt = followed.rebuilt;
         cost.edits = followed.change.objects.size() + followed.change.emitters.size() +
                      followed.change.colours;
-        if (followed.rebuilt) before = {};
+    }
+    if (cost.rebuilt) {
+        addCosts(earlier_, before);
+        before = {};
     }
     light();
     const SolveStatistics after = solver().statistics();

@@ -82,6 +82,8 @@ public:
     const PatchSet& patches() const { return lit_->patches(); }
     const RayScene& rays() const { return lit_->rays(); }
     const Solver& solver() const { return lit_->solver(); }
+    /// The solver's, with what all frames cost, also those after which it began anew.
+    SolveStatistics statistics() const;
     const Lighting& lighting() const { return lighting_; }
     const std::vector<FrameCost>& frames() const { return frames_; } ///< if frames are played
     ProgressBar& progress() { return progress_; }
@@ -116,6 +118,7 @@ private:
     PlacedScene placed_;
     std::unique_ptr<LitScene> lit_;
     Lighting lighting_;
+    SolveStatistics earlier_; ///< costs alone: of solvers that were given up
     std::vector<FrameCost> frames_;
 };
 

@@ -74,7 +74,7 @@ void run(const SolveCommand& command) {
     }
     if (!command.solve.stats.empty()) writeStatistics(command.solve.stats, solution);
     if (command.solve.quiet || command.values == "-") return;
-    const SolveStatistics s = solution.solver().statistics();
+    const SolveStatistics s = solution.statistics();
     const PatchSet& patches = solution.patches();
     fmt::print(stderr,
                "{} patches, {} elements, {} emitters; {:.1f} M rays, {} shots in {:.1f} s; relaxed "

@@ -50,7 +50,7 @@ nlohmann::ordered_json frameJson(const FrameCost& cost) {
 
 void writeStatistics(const std::string& path, const SceneSolution& solution) {
     const PatchSet& patches = solution.patches();
-    const SolveStatistics s = solution.solver().statistics();
+    const SolveStatistics s = solution.statistics();
     nlohmann::ordered_json json;
     json["scene"] = {{"objects", patches.objects.size()},   {"polygons", patches.polygons},
                      {"patches", patches.patches.size()},   {"elements", patches.elements.size()},

@@ -148,12 +148,18 @@ TEST_F(Frames, AreLitAsTheyAreAlone) {
 }
 
 TEST_F(Frames, FromScratchForgetEverythingEachTime) {
-    const auto frames = solve("v", {"--frames", "1:3", "--from-scratch"}).at("frames");
+    const auto stats = solve("v", {"--frames", "1:3", "--from-scratch"});
+    const auto& frames = stats.at("frames");
     ASSERT_EQ(frames.size(), 3u);
+    std::uint64_t rays = 0, shots = 0;
     for (const auto& frame : frames) {
         EXPECT_EQ(frame.at("rebuilt"), true);
         EXPECT_GT(frame.at("rays"), frames[0].at("rays").get<int>() / 2);
+        rays += frame.at("rays").get<std::uint64_t>();
+        shots += frame.at("shots").get<std::uint64_t>();
     }
+    EXPECT_EQ(stats.at("solve").at("rays"), rays) << "of all frames, as those of updates are";
+    EXPECT_EQ(stats.at("solve").at("shots"), shots);
 }
 
 } // namespace
