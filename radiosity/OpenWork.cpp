@@ -17,7 +17,7 @@ constexpr float kVisit = 48, kEntry = 0.5f;
 /// rays do.
 constexpr double kLeastPart = 4 * kVisit;
 
-float costOf(const ExpectedFactors& expected, std::size_t receiver) {
+float entryCost(const ExpectedFactors& expected, std::size_t receiver) {
     return kEntry + expected.rays[receiver];
 }
 
@@ -94,7 +94,7 @@ double OpenWork::costOf(const Entry& entry, std::uint64_t receivers) const {
     if (!entry.prospect) return double(cost({0, entry.block, entry.anew & receivers, 0, 0}));
     double cost = kVisit;
     for (; receivers != 0; receivers &= receivers - 1)
-        cost += penumbra::costOf(entry.prospect->expected, std::size_t(std::countr_zero(receivers)));
+        cost += entryCost(entry.prospect->expected, std::size_t(std::countr_zero(receivers)));
     return cost;
 }
 
@@ -128,8 +128,7 @@ void OpenWork::rankReceivers(std::uint32_t row, Entry& entry) {
     prospect.count = prospect.first = 0;
     for (std::uint64_t left = entry.left; left != 0; left &= left - 1) {
         const auto i = std::size_t(std::countr_zero(left));
-        ranked[prospect.count++] = {gains[i] / penumbra::costOf(prospect.expected, i),
-                                    std::uint8_t(i)};
+        ranked[prospect.count++] = {gains[i] / entryCost(prospect.expected, i), std::uint8_t(i)};
     }
     std::sort(ranked.begin(), ranked.begin() + std::ptrdiff_t(prospect.count),
               [](const Ranked& a, const Ranked& b) {
@@ -153,7 +152,7 @@ OpenWork::Part OpenWork::bestPart(const Prospect& prospect) const {
     for (std::size_t i = prospect.first; i < prospect.count; ++i) {
         all.receivers |= std::uint64_t(1) << prospect.by[i];
         all.gain += prospect.gain[i];
-        all.cost += penumbra::costOf(prospect.expected, prospect.by[i]);
+        all.cost += entryCost(prospect.expected, prospect.by[i]);
         const bool few = best.cost < kVisit + kLeastPart;
         if (whole_ || few || all.gain * best.cost >= best.gain * all.cost) best = all;
     }
@@ -305,7 +304,8 @@ std::optional<OpenBlock> OpenWork::next(double enough, std::size_t& steps) {
             continue;
         }
         const bool looks = !choice->overdue && order_->looks();
-        if (looks && entry.prospect && entry.prospect->view != order_->view()) { // the viewer has moved
+        if (looks && entry.prospect &&
+            entry.prospect->view != order_->view()) { // the viewer has moved
             queue_.rank(entry.handle, choosePart(row, entry));
             continue;
         }

@@ -126,9 +126,9 @@ private:
     /// What a look at a block said, and what comes of its receivers in which order.
     struct Prospect {
         ExpectedFactors expected;
-        std::uint32_t view = 0;     ///< the order's, when they were ranked
-        std::size_t count = 0;      ///< receivers that were left then,
-        std::size_t first = 0;      ///< of which these are done
+        std::uint32_t view = 0;                              ///< the order's, when they were ranked
+        std::size_t count = 0;                               ///< receivers that were left then,
+        std::size_t first = 0;                               ///< of which these are done
         std::array<std::uint8_t, ExpectedFactors::kSize> by; ///< the best per cost first
         std::array<float, ExpectedFactors::kSize> gain;      ///< likewise
         bool ranked = false;

@@ -295,11 +295,10 @@ void RayScene::trace(void* scene, ShadowRays& rays) const {
         packet.dir_z[i] = used ? rays.directionZ[i] : 1;
         // Where the processor has no 16 lanes Embree does not ask which are valid.
         packet.tnear[i] = used ? 0.0f : 1.0f;
-        packet.tfar[i] = reaches[i] =
-            used ? reach(std::sqrt(packet.dir_x[i] * packet.dir_x[i] +
-                                   packet.dir_y[i] * packet.dir_y[i] +
-                                   packet.dir_z[i] * packet.dir_z[i]))
-                 : 0.0f;
+        packet.tfar[i] = reaches[i] = used ? reach(std::sqrt(packet.dir_x[i] * packet.dir_x[i] +
+                                                             packet.dir_y[i] * packet.dir_y[i] +
+                                                             packet.dir_z[i] * packet.dir_z[i]))
+                                           : 0.0f;
         packet.time[i] = 0;
         packet.mask[i] = 0xffffffffu;
         packet.id[i] = unsigned(i);

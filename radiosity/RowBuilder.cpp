@@ -432,7 +432,9 @@ int RowBuilder::updatePatchBlock(const PatchSender& sender, const ReceiverBlock&
             patchRays_[k].blocker = blockerOf(draft, patchRays_[k].sample);
     }
     const auto isNew = [&](const PatchRay& ray) { return anew >> ray.receiver & 1; };
-    const auto again = [&](const PatchRay& ray) { return isNew(ray) || isAmong(moved, ray.blocker); };
+    const auto again = [&](const PatchRay& ray) {
+        return isNew(ray) || isAmong(moved, ray.blocker);
+    };
     // First what was visible, against what moved; what that blocks is not traced again.
     std::vector<std::uint8_t> retraced(patchRays_.size());
     for (std::size_t k = 0; k < retraced.size(); ++k) retraced[k] = again(patchRays_[k]);

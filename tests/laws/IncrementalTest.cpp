@@ -46,18 +46,19 @@ std::uint32_t anySeed() {
         rc::gen::resize(rc::kNominalSize, rc::gen::arbitrary<std::uint32_t>()));
 }
 
-void check(FollowedRoom& followed) {
-    const std::string differs = followed.differs();
-    if (!differs.empty()) RC_FAIL("after " + followed.said + "\n" + differs);
+/// Edits that are worked off one by one. \return what differs in the end
+std::string differsAfterSettledEdits(FollowedRoom& followed, int edits) {
+    for (; edits > 0; --edits) {
+        followed.edit();
+        followed.lit.solver().settle();
+    }
+    return followed.differs();
 }
 
 RC_GTEST_PROP(Incremental, EqualsFromScratchAfterEditsThatSettle, ()) {
     FollowedRoom followed(anySeed());
-    for (int edits = *rc::gen::inRange(1, 9); edits > 0; --edits) {
-        followed.edit();
-        followed.lit.solver().settle();
-    }
-    check(followed);
+    const std::string differs = differsAfterSettledEdits(followed, *rc::gen::inRange(1, 9));
+    if (!differs.empty()) RC_FAIL("after " + followed.said + "\n" + differs);
 }
 
 /// Edits that come while earlier ones are not yet worked off. \return what differs in the end
@@ -111,22 +112,14 @@ TEST(Incremental, EqualsFromScratchWhereAShadowRayGrazesABox) {
     // By rounding it passes beside a triangle that it is said to hit, if the boxes of the hierarchy
     // let it through: those of the box alone did, those of the whole scene did not.
     FollowedRoom followed(2464783612);
-    for (int edits = 4; edits > 0; --edits) {
-        followed.edit();
-        followed.lit.solver().settle();
-    }
-    EXPECT_EQ(followed.differs(), "") << followed.said;
+    EXPECT_EQ(differsAfterSettledEdits(followed, 4), "") << followed.said;
 }
 
 TEST(Incremental, EqualsFromScratchWhereARayGrazesSomethingAtItsVeryBeginning) {
     // It is in doubt there, and is asked again a hair aside. A ray that was turned aside instead
     // looked elsewhere altogether.
     FollowedRoom settled(795163583);
-    for (int edits = 4; edits > 0; --edits) {
-        settled.edit();
-        settled.lit.solver().settle();
-    }
-    EXPECT_EQ(settled.differs(), "") << settled.said;
+    EXPECT_EQ(differsAfterSettledEdits(settled, 4), "") << settled.said;
     constexpr std::uint32_t kSeed = 2796649543;
     FollowedRoom overlapping(kSeed);
     EXPECT_EQ(differsAfterOverlappingEdits(overlapping, kSeed, 13), "") << overlapping.said;

@@ -59,7 +59,7 @@ TEST(NearestHit, IsInDoubtAboutWhatItPassesByUnlessTheNeighbourIsMet) {
     ASSERT_TRUE(nearest.inDoubt(1e-6f));
     const glm::vec3 aside = nearest.aside(1e-4f);
     EXPECT_NEAR(glm::length(aside), 1e-4, 1e-9);
-    EXPECT_EQ(aside.z, 0); // beside the ray
+    EXPECT_EQ(aside.z, 0);           // beside the ray
     EXPECT_GT(aside.y - aside.x, 0); // away from the lower half
     EXPECT_TRUE(nearest.take(kUpper, offered(0, 1, 2)));
     EXPECT_FALSE(nearest.inDoubt(1e-6f));

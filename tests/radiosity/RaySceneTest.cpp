@@ -65,9 +65,9 @@ RayMesh cube(const glm::mat3& turn, glm::vec3 offset) {
                 for (int i = 0; i < 4; ++i) {
                     const auto first = std::uint32_t(mesh.vertices.size());
                     for (const auto& [k, l] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
-                        mesh.vertices.push_back(
-                            offset + turn * (side * normal + (0.5f * float(i + k) - 1) * u +
-                                             (0.5f * float(j + l) - 1) * v));
+                        mesh.vertices.push_back(offset + turn * (side * normal +
+                                                                 (0.5f * float(i + k) - 1) * u +
+                                                                 (0.5f * float(j + l) - 1) * v));
                     mesh.triangles.push_back({first, first + 1, first + 2});
                     mesh.triangles.push_back({first, first + 2, first + 3});
                 }
