@@ -63,6 +63,13 @@ struct WorkCount {
         return {a.rays - b.rays, a.blocksVisited - b.blocksVisited,
                 a.entriesChanged - b.entriesChanged, a.seconds - b.seconds};
     }
+    WorkCount& operator+=(const WorkCount& more) {
+        rays += more.rays;
+        blocksVisited += more.blocksVisited;
+        entriesChanged += more.entriesChanged;
+        seconds += more.seconds;
+        return *this;
+    }
 };
 
 struct SolveStatistics {

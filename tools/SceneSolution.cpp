@@ -88,7 +88,12 @@ void addSolveOptions(CLI::App& command, SolveSettings& settings) {
 
 void checkOutputs(const std::string& scene, const std::vector<std::string>& outputs) {
     namespace fs = std::filesystem;
-    std::vector<fs::path> taken{fs::weakly_canonical(scene)};
+    const auto placeOf = [](const fs::path& path) {
+        std::error_code none; // a pipe given as a file, /dev/fd/63, has no canonical name
+        const fs::path place = fs::weakly_canonical(path, none);
+        return none ? path : place;
+    };
+    std::vector<fs::path> taken{placeOf(scene)};
     for (const std::string& output : outputs) {
         if (output.empty() || output == "-") continue;
         const fs::path folder = fs::path(output).parent_path();
@@ -97,7 +102,7 @@ void checkOutputs(const std::string& scene, const std::vector<std::string>& outp
                                     output, folder.string()));
         if (fs::is_directory(output))
             throw Error(fmt::format("{}: error: can't write: is a folder (name a file)", output));
-        const fs::path place = fs::weakly_canonical(output);
+        const fs::path place = placeOf(output);
         if (std::find(taken.begin(), taken.end(), place) != taken.end() &&
             fs::path(output) != "/dev/null")
             throw CLI::ValidationError(output, "would overwrite the scene or another result");
@@ -149,18 +154,11 @@ void reportDiagnostics(const std::vector<Diagnostic>& diagnostics, bool verbose)
 
 namespace {
 
-void add(WorkCount& sum, const WorkCount& work) {
-    sum.rays += work.rays;
-    sum.blocksVisited += work.blocksVisited;
-    sum.entriesChanged += work.entriesChanged;
-    sum.seconds += work.seconds;
-}
-
 void addCosts(SolveStatistics& sum, const SolveStatistics& s) {
     sum.shots += s.shots;
-    add(sum.direct, s.direct);
-    add(sum.indirect, s.indirect);
-    add(sum.detail, s.detail);
+    sum.direct += s.direct;
+    sum.indirect += s.indirect;
+    sum.detail += s.detail;
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -37,25 +38,28 @@ bool listed(const char* extensions, std::string_view name) {
     return false;
 }
 
-/// Every display worth trying, the best first. Asking for one opens no connection yet.
+/// Every display worth trying: graphics cards before Mesa's software. Asking for one opens no
+/// connection yet.
 std::vector<EGLDisplay> candidateDisplays() {
     const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     std::vector<EGLDisplay> displays;
     const auto add = [&](EGLDisplay display) {
         if (display != EGL_NO_DISPLAY) displays.push_back(display);
     };
-    if (listed(extensions, "EGL_MESA_platform_surfaceless"))
-        add(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
     if (listed(extensions, "EGL_EXT_platform_device") &&
         (listed(extensions, "EGL_EXT_device_base") ||
-         listed(extensions, "EGL_EXT_device_enumeration"))) {
+         (listed(extensions, "EGL_EXT_device_enumeration") &&
+          listed(extensions, "EGL_EXT_device_query")))) {
         std::array<EGLDeviceEXT, 16> devices;
         EGLint count = 0;
         if (eglQueryDevicesEXT(EGLint(devices.size()), devices.data(), &count))
-            for (EGLint i = 0; i < count; ++i)
-                add(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[std::size_t(i)],
-                                             nullptr));
+            for (const EGLDeviceEXT device : std::span(devices).first(std::size_t(count)))
+                if (!listed(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS),
+                            "EGL_MESA_device_software"))
+                    add(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
     }
+    if (listed(extensions, "EGL_MESA_platform_surfaceless"))
+        add(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
     add(eglGetDisplay(EGL_DEFAULT_DISPLAY));
     return displays;
 }

@@ -12,6 +12,8 @@
 #include "viewer/WalkLight.h"
 #include "viewer/Walkthrough.h"
 
+#include <epoxy/gl.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -46,6 +48,7 @@ public:
     }
 
     DragResult play() {
+        result_.card = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
         settle();
         for (const auto& object : light_->node().objects())
             result_.elements += object.geometry->data().indices.size() / 6;
@@ -53,10 +56,7 @@ public:
         select();
         settle();
         walk();
-        for (int i = 0; i < script_.idle; ++i) {
-            frame();
-            result_.idleWork += work_ / script_.idle;
-        }
+        for (int i = 0; i < script_.idle; ++i) frame(&result_.idle);
         result_.grabbed = result_.frames.size();
         light_->node().grab(*thing_);
         for (int i = 0; i < script_.held; ++i) frame();
@@ -110,25 +110,31 @@ private:
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
     }
-    std::vector<float> draw(const DrawList& list, const LiveLight& live) {
+    void draw(const DrawList& list, const LiveLight& live = {}) {
         renderer_.drawScene(list, view(), {}, options_.size.x, options_.size.y, live);
+    }
+    std::vector<float> drawn() {
         std::vector<float> luminances;
         for (const Rgb& pixel : renderer_.readLuminances()) luminances.push_back(luminance(pixel));
         return luminances;
     }
-    void frame() {
+    std::vector<float> drawnAtRest() {
+        draw(listVisible(light_->lit(), Frustum(view().worldToClip())));
+        return drawn();
+    }
+    void frame(FrameTimes* times = nullptr) {
         const Clock::time_point begin = Clock::now();
         const std::clock_t worked = std::clock();
         walk_.advance(kFrame);
         light_->update(walk_, view());
         const Frustum frustum(view().worldToClip());
-        result_.frames.push_back({draw(light_->listVisible(frustum), light_->live()), {}});
+        draw(light_->listVisible(frustum), light_->live());
+        glFinish();
+        if (times) times->add(since(begin), double(std::clock() - worked) / CLOCKS_PER_SEC);
+        result_.frames.push_back({drawn(), {}});
         result_.lamps = std::max(result_.lamps, light_->lampsDrawnLive());
         poses_.push_back(thing_->matrix());
-        lastFrame_ = since(begin);
-        work_ = double(std::clock() - worked) / CLOCKS_PER_SEC;
-        if (lastFrame_ < kFrame)
-            std::this_thread::sleep_for(std::chrono::duration<double>(kFrame - lastFrame_));
+        std::this_thread::sleep_until(begin + std::chrono::duration<double>(kFrame));
     }
     void drag() {
         for (int i = 1; i <= script_.drag; ++i) {
@@ -137,11 +143,8 @@ private:
             matrix[3] += glm::dvec4(s * s * (3 - 2 * s) * script_.way, 0);
             thing_->setMatrix(matrix);
             walk_.followScene();
-            frame();
-            result_.mean += lastFrame_ / script_.drag;
-            result_.dragWork += work_ / script_.drag;
+            frame(&result_.motion);
             result_.dragBytes += double(renderer_.statistics().lightBytes) / script_.drag;
-            result_.slowest = std::max(result_.slowest, lastFrame_);
         }
     }
     /// Looks aside and back.
@@ -151,8 +154,7 @@ private:
             CameraPose turned = pose;
             turned.heading += 0.01 * (i + 1);
             walk_.rig().put(turned, walk_.rig().lens());
-            frame();
-            result_.walkWork += work_ / script_.walk;
+            frame(&result_.turning);
         }
         walk_.rig().put(pose, walk_.rig().lens());
         result_.frames.clear();
@@ -164,13 +166,12 @@ private:
         return int(std::lround(255 * std::pow(shown, 1 / 2.2)));
     }
     void compareFromScratch() {
-        const std::vector<float> after =
-            draw(light_->listVisible(Frustum(view().worldToClip())), light_->live());
+        draw(light_->listVisible(Frustum(view().worldToClip())), light_->live());
+        const std::vector<float> after = drawn();
         light_.reset();
         makeLight();
         settle();
-        const std::vector<float> anew =
-            draw(listVisible(light_->lit(), Frustum(view().worldToClip())), {});
+        const std::vector<float> anew = drawnAtRest();
         for (std::size_t p = 0; p < after.size(); ++p) {
             const int steps = std::abs(displayedByte(after[p]) - displayedByte(anew[p]));
             result_.fromScratchMost = std::max(result_.fromScratchMost, steps);
@@ -211,7 +212,7 @@ private:
                 thing_->setMatrix(poses_[i]);
                 walk_.followScene();
                 settle();
-                picture = draw(listVisible(light_->lit(), Frustum(view().worldToClip())), {});
+                picture = drawnAtRest();
             }
             result_.frames[i].exact = picture;
         }
@@ -249,7 +250,6 @@ private:
     std::shared_ptr<Transform> thing_;
     glm::dmat4 start_{1.0};
     std::vector<glm::dmat4> poses_;
-    double lastFrame_ = 0, work_ = 0; ///< of the last frame: by the clock, of processors [s]
     DragResult result_;
 };
 

@@ -7,6 +7,7 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -19,9 +20,9 @@ struct DragScript {
     std::string camera; ///< path of a camera; empty: the first
     std::string object; ///< path of the prim that is dragged
     glm::dvec3 way{0};  ///< how far [m]
-    int idle = 4;       ///< frames before it is taken hold of
+    int idle = 8;       ///< frames before it is taken hold of
     int held = 2;       ///< frames in the hand before it moves
-    int walk = 6;       ///< frames in which the camera turns, for their time alone
+    int walk = 12;      ///< frames in which the camera turns, for their time alone
     int drag = 12;      ///< frames in motion
     int after = 40;     ///< frames after it is let go
 };
@@ -42,6 +43,25 @@ struct NamedStep {
     glm::dvec3 position{0}; ///< [m, world]
 };
 
+/// What frames of a kind took, from what has changed to a picture that is drawn; reading it back is
+/// not counted.
+struct FrameTimes {
+    std::size_t frames = 0;
+    double clock = 0, longest = 0; ///< of all together and of the longest [s]
+    /// Of processors, of all threads and all frames [s]: counts when other work keeps the machine
+    /// busy.
+    double work = 0;
+
+    void add(double seconds, double worked) {
+        ++frames;
+        clock += seconds;
+        longest = std::max(longest, seconds);
+        work += worked;
+    }
+    double mean() const { return frames ? clock / double(frames) : 0; }
+    double meanWork() const { return frames ? work / double(frames) : 0; }
+};
+
 /// What came of it.
 struct DragResult {
     std::vector<FramePair> frames;                    ///< exact: empty where it was not asked for
@@ -50,12 +70,10 @@ struct DragResult {
     double realSeconds = 0;                           ///< that the frames after the release took
     double readySeconds = 0;   ///< of the clock, from the release until no vertex waits
     double settledSeconds = 0; ///< until all light is settled, shown, and at rest
+    std::string card;          ///< what drew, as OpenGL calls it
     std::size_t elements = 0;
-    std::size_t lamps = 0;        ///< drawn live
-    double slowest = 0, mean = 0; ///< frames in motion [s]
-    /// Processor time a frame, of all threads, when nothing moves, when the camera turns, and in
-    /// motion [s]; counts when other work keeps the machine busy.
-    double idleWork = 0, walkWork = 0, dragWork = 0;
+    std::size_t lamps = 0;            ///< drawn live
+    FrameTimes idle, turning, motion; ///< when nothing moves, when the camera turns, in motion
     /// Bytes of light that are copied to the graphics card: a frame in motion, and all told from
     /// the release on.
     double dragBytes = 0, bytesAfter = 0;

@@ -15,9 +15,10 @@
 // release on: 99.9th percentile of pixels and most (see PopFigures.h), share of pixels above 1;
 // excess variation; milliseconds of the clock until no vertex waits, until all has settled, and how
 // much time the lighting thread had in percent of that of the script; frames until the error of
-// 99.9 % and of all pixels can't be seen any more; mean and longest frame in motion. Below: more of
-// the first frames in motion; processor time of frames; light copied to the graphics card; the
-// picture at rest in the end against that of a solution from scratch, as displayed in 8 bits.
+// 99.9 % and of all pixels can't be seen any more. Below: more of the first frames in motion; what
+// frames took, by the clock (mean and longest) and of processors; light copied to the graphics
+// card; the picture at rest in the end against that of a solution from scratch, as displayed in 8
+// bits.
 #include "Consistency.h"
 #include "DragRun.h"
 
@@ -96,15 +97,24 @@ void report(const DragScript& script, const char* variant, const DragResult& r) 
     std::printf("%-8s %-20s | %5.2f %5.2f | %6.2f %6.2f | %6.2f %6.2f %6.2f %% | %6.3f | ",
                 script.scene.c_str(), variant, grab.most, start.most, motion.p999, motion.most,
                 over.p999, over.most, 100 * over.share, over.flicker);
-    std::printf("%4.0f %5.0f %5.0f | %3zu %3zu | %5.1f %5.1f\n", 1000 * r.readySeconds,
-                1000 * r.settledSeconds, 100 * r.realSeconds / (double(end - r.released) / 60),
-                framesToExact(r, 0.999), framesToExact(r, 1), 1000 * r.mean, 1000 * r.slowest);
+    std::printf("%4.0f %5.0f %5.0f | %3zu %3zu\n", 1000 * r.readySeconds, 1000 * r.settledSeconds,
+                100 * r.realSeconds / (double(end - r.released) / 60), framesToExact(r, 0.999),
+                framesToExact(r, 1));
     std::printf(
-        "         first frames: 99.9 %% %.2f, above 1 %.2f %%; processor ms a frame: idle %.1f, "
-        "turning %.1f, in motion %.1f; copied to the card: %.0f kB a frame in motion, %.0f kB from "
-        "the release on; from scratch: at most %d of 255, beyond 1 %.3f %%\n",
-        start.p999, 100 * start.share, 1000 * r.idleWork, 1000 * r.walkWork, 1000 * r.dragWork,
-        1e-3 * r.dragBytes, 1e-3 * r.bytesAfter, r.fromScratchMost, 100 * r.fromScratchBeyond);
+        "         first frames: 99.9 %% %.2f, above 1 %.2f %%; copied to the card: %.0f kB a "
+        "frame in motion, %.0f kB from the release on; from scratch: at most %d of 255, "
+        "beyond 1 %.3f %%\n",
+        start.p999, 100 * start.share, 1e-3 * r.dragBytes, 1e-3 * r.bytesAfter, r.fromScratchMost,
+        100 * r.fromScratchBeyond);
+    std::printf("         ms a frame, mean, longest and of processors:");
+    const auto frames = [](const char* when, const FrameTimes& times) {
+        std::printf(" %s %.1f, %.1f, %.1f;", when, 1000 * times.mean(), 1000 * times.longest,
+                    1000 * times.meanWork());
+    };
+    frames("idle", r.idle);
+    frames("turning", r.turning);
+    frames("in motion", r.motion);
+    std::printf("\n");
     const auto name = [&](const char* when, const std::vector<NamedStep>& worst) {
         for (const NamedStep& w : worst) {
             const FramePair &before = r.frames[w.step.frame - 1], &after = r.frames[w.step.frame];
@@ -171,7 +181,7 @@ int run(int argc, char** argv) {
         return 0;
     }
     std::printf("                              |   start     |    motion     |       "
-                "hand-over        | flick |  ready settled real%% | frames | frame ms\n");
+                "hand-over        | flick |  ready settled real%% | frames\n");
     for (DragScript script : kScripts) {
         if (!only.empty() && only != script.scene) continue;
         if (indirect) script.after = kAfterIndirect;
@@ -189,8 +199,8 @@ int run(int argc, char** argv) {
             options.indirect = indirect;
             const DragResult result = runDrag(script, options);
 
-            std::printf("%s: %zu elements, %zu lamps drawn live\n", script.scene.c_str(),
-                        result.elements, result.lamps);
+            std::printf("%s: %zu elements, %zu lamps drawn live, by %s\n", script.scene.c_str(),
+                        result.elements, result.lamps, result.card.c_str());
             report(script, name, result);
             if (!keep.empty())
                 keepFrames(result, options.size, keep + "/" + script.scene + std::to_string(number),
