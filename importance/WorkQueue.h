@@ -64,6 +64,8 @@ public:
     Handle add(const Task& task);
     /// A task is worth something else now.
     void rank(Handle handle, const Worth& worth);
+    /// A task goes by another id from now on.
+    void setId(Handle handle, std::uint64_t id) { slots_[handle].task.id = id; }
     /// A task is not open any more.
     void remove(Handle handle);
 

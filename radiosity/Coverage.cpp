@@ -110,12 +110,14 @@ void Coverage::refresh(std::vector<std::uint32_t> elements, Change& change) {
         vertices.insert(vertices.end(), v.begin(), v.end());
     }
     makeUnique(vertices);
-    for (std::uint32_t v : vertices) {
-        const bool apart = parted(v);
-        for (std::uint32_t corner : fans_.at(v))
+    std::vector<std::uint8_t> apart(vertices.size());
+    parallelFor(vertices.size(), 64, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) apart[i] = parted(vertices[i]);
+    });
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        for (std::uint32_t corner : fans_.at(vertices[i]))
             if (shared_[corner / 4].patch != Element::kNone)
-                settleCorner(corner / 4, corner % 4, apart, change);
-    }
+                settleCorner(corner / 4, corner % 4, apart[i], change);
     makeUnique(change.vertices);
     makeUnique(change.patches);
     if (set_.nodes.empty()) return; // only direct light is asked for
@@ -126,7 +128,16 @@ void Coverage::refresh(std::vector<std::uint32_t> elements, Change& change) {
             nodes.insert(nodes.end(), patch.cornerNodes.begin(), patch.cornerNodes.end());
     }
     makeUnique(nodes);
-    for (std::uint32_t n : nodes) settleNode(n, change);
+    std::vector<Receiver> places(nodes.size());
+    parallelFor(nodes.size(), 64, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) places[i] = placeOfNode(nodes[i]);
+    });
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        Receiver& now = set_.nodes[nodes[i]];
+        if (now.position == places[i].position && now.normal == places[i].normal) continue;
+        now = places[i];
+        change.nodes.push_back(nodes[i]);
+    }
 }
 
 void Coverage::examine(const std::vector<std::uint32_t>& elements) {
@@ -220,8 +231,8 @@ std::uint32_t Coverage::takeVertex(ObjectId object) {
     return vertex;
 }
 
-/// A node that is covered takes its light at the nearest place of its patches that is not.
-void Coverage::settleNode(std::uint32_t node, Change& change) {
+/// Where a node takes its light: if it is covered, at the nearest place of its patches that is not.
+Receiver Coverage::placeOfNode(std::uint32_t node) const {
     const ObjectPart& part = set_.objects[set_.nodeBlockObject[node / PatchSet::kBlock].value];
     Receiver wanted = set_.uncoveredNodes[node];
     const float cover = coverDistance(set_.elementSize, set_.skin);
@@ -247,10 +258,7 @@ void Coverage::settleNode(std::uint32_t node, Change& change) {
             }
         }
     }
-    Receiver& now = set_.nodes[node];
-    if (now.position == wanted.position && now.normal == wanted.normal) return;
-    now = wanted;
-    change.nodes.push_back(node);
+    return wanted;
 }
 
 } // namespace penumbra

@@ -43,7 +43,7 @@ private:
     void examine(const std::vector<std::uint32_t>& elements);
     bool parted(std::uint32_t vertex) const;
     void settleCorner(std::uint32_t element, std::uint32_t corner, bool parted, Change& change);
-    void settleNode(std::uint32_t node, Change& change);
+    Receiver placeOfNode(std::uint32_t node) const;
     std::uint32_t takeVertex(ObjectId object);
     void refresh(std::vector<std::uint32_t> elements, Change& change);
 

@@ -106,7 +106,6 @@ WorkQueue::Task OpenWork::task(std::uint32_t row, const Entry& entry) const {
     // A look may find that all the change is in a few receivers.
     const double expense = order_->looks() ? double(kVisit) : double(cost(block));
     WorkQueue::Task task = order_->rank({row, entry.block, bound, expense});
-    task.id = std::uint64_t(row) << 32 | entry.block;
     task.since = taken_;
     return task;
 }
@@ -180,7 +179,9 @@ void OpenWork::forget(Entry& entry) {
 }
 
 void OpenWork::enqueue(std::uint32_t row, Entry& entry) {
-    entry.handle = queue_.add(task(row, entry));
+    WorkQueue::Task one = task(row, entry);
+    one.id = idOf(row, std::size_t(&entry - rows_[row].entries.data()));
+    entry.handle = queue_.add(one);
     if (entry.prospect) queue_.rank(entry.handle, choosePart(row, entry));
 }
 
@@ -248,6 +249,8 @@ void OpenWork::open(std::uint32_t row, std::span<const OpenBlock> blocks) {
     for (; old != list.entries.end(); ++old)
         if (old->open) merged.push_back(std::move(*old));
     list.entries = std::move(merged);
+    for (std::size_t e = 0; e < list.entries.size(); ++e)
+        if (list.entries[e].handle != kPutOff) queue_.setId(list.entries[e].handle, idOf(row, e));
     setUnsorted(row);
 }
 
@@ -298,7 +301,8 @@ std::optional<OpenBlock> OpenWork::next(double enough, std::size_t& steps) {
         const std::optional<WorkQueue::Choice> choice = queue_.choose(taken_);
         if (!choice) return {};
         const auto row = std::uint32_t(choice->task.id >> 32);
-        Entry& entry = *find(row, std::uint32_t(choice->task.id));
+        const auto at = std::uint32_t(choice->task.id);
+        Entry& entry = rows_[row].entries[at];
         if (enough > 0 && bound(entry.block) <= enough) {
             putOff(entry);
             continue;
@@ -318,13 +322,14 @@ std::optional<OpenBlock> OpenWork::next(double enough, std::size_t& steps) {
                          receivers,
                          costOf(entry, receivers),
                          looks && !entry.prospect,
-                         choice->overdue};
+                         choice->overdue,
+                         at};
     }
     return {};
 }
 
 void OpenWork::close(const OpenBlock& block) {
-    Entry& entry = *find(block.row, block.block);
+    Entry& entry = rows_[block.row].entries[block.entry];
     const WorkQueue::Choice choice{entry.handle, {}, block.overdue};
     taken_ += block.cost;
     entry.left &= ~block.receivers;
@@ -361,7 +366,7 @@ void OpenWork::expect(std::uint32_t row, std::uint32_t block, const ExpectedFact
 }
 
 void OpenWork::putBack(const OpenBlock& block) {
-    Entry& entry = *find(block.row, block.block);
+    Entry& entry = rows_[block.row].entries[block.entry];
     queue_.rank(entry.handle, worthOf(block.row, entry));
 }
 

@@ -24,6 +24,7 @@ struct OpenBlock {
     double cost = 1;                             ///< from next(): about [rays]
     bool look = false;                           ///< from next(): look first, see expect()
     bool overdue = false;                        ///< from next(): comes for its age
+    std::uint32_t entry = 0;                     ///< from next(): where it stands among the open
 };
 
 /// What to expect of the entries of a block.
@@ -153,6 +154,9 @@ private:
         double light = 0, factor = 0;
         std::uint32_t count = 0;
     };
+    static std::uint64_t idOf(std::uint32_t row, std::size_t entry) {
+        return std::uint64_t(row) << 32 | entry;
+    }
     WorkQueue::Task task(std::uint32_t row, const Entry& entry) const;
     double costOf(const Entry& entry, std::uint64_t receivers) const;
     void rankReceivers(std::uint32_t row, Entry& entry);

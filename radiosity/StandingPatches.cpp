@@ -2,8 +2,6 @@
 
 namespace penumbra {
 
-namespace {
-
 RayScene raysThrough(const PatchSet& set) {
     RayScene rays(set.rayMeshes, set.extent);
     for (std::uint32_t o = 0; o < set.objects.size(); ++o)
@@ -11,8 +9,6 @@ RayScene raysThrough(const PatchSet& set) {
     rays.commit();
     return rays;
 }
-
-} // namespace
 
 StandingPatches::StandingPatches(PatchSet& set)
     : set_(set), rays_(raysThrough(set)), coverage_(set, rays_) {}

@@ -10,6 +10,9 @@
 
 namespace penumbra {
 
+/// Rays through what is there of a set, as it stands.
+RayScene raysThrough(const PatchSet& set);
+
 /// Keeps a PatchSet, the rays through it and what its objects cover of each other true to where
 /// they stand. All three depend on that alone and not on how things came there, apart from which
 /// private vertices stand for which corners.

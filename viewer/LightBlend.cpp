@@ -1,5 +1,6 @@
 #include "viewer/LightBlend.h"
 
+#include "radiosity/Parallel.h"
 #include "radiosity/RadiosityNode.h"
 #include "scenegraph/Light.h"
 #include "viewer/Arrangements.h"
@@ -117,11 +118,14 @@ bool LightBlend::indirectSetsOut(const RadiosityState& state, double time) {
 }
 
 void LightBlend::advanceFades(const LightFade::Frame& frame) {
+    parallelFor(entries_.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t e = first; e < last; ++e)
+            if (entries_[e].fade) entries_[e].fade->advance(*entries_[e].geometry, frame);
+    });
     changing_ = fading_ = waiting_ = false;
     bool behind = false;
-    for (Entry& entry : entries_) {
+    for (const Entry& entry : entries_) {
         if (!entry.fade) continue;
-        entry.fade->advance(*entry.geometry, frame);
         changing_ |= entry.fade->changing();
         fading_ |= entry.fade->fading();
         waiting_ |= entry.fade->waiting();

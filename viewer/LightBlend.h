@@ -20,6 +20,15 @@ enum class LiveBy {
     rays  ///< by radiosity's rays, vertex by vertex: LiveVertices
 };
 
+/// What is best: rays are radiosity's own, so that the fast shadow is the soft one, and maps cost a
+/// graphics card next to nothing.
+/// \param software the processor draws: then rays are faster, too
+/// \param threads  that the processor has: from 8 on it traces a frame's rays in the time of one or
+///                 two frames
+inline LiveBy bestLiveBy(bool software, unsigned threads) {
+    return software || threads >= 8 ? LiveBy::rays : LiveBy::maps;
+}
+
 struct BlendOptions {
     double seconds = 0.25; ///< that a vertex takes from one light to the next; 0: it jumps
     int points = 16;       ///< of a lamp for its fast shadows, at most 16

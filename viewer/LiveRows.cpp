@@ -1,5 +1,6 @@
 #include "viewer/LiveRows.h"
 
+#include "radiosity/Parallel.h"
 #include "radiosity/Shaft.h"
 #include "scenegraph/Frustum.h"
 #include "viewer/Arrangements.h"
@@ -148,44 +149,57 @@ unsigned LiveRows::lampsReaching(const LiveLight& light, std::uint32_t object,
     return lamps;
 }
 
-/// Blocks with vertices that a change may reach and that can be seen. Of what moves, half looks
-/// away.
-void LiveRows::findReached(const LiveLight& light, const View* view) {
-    reached_.clear();
-    std::optional<Frustum> frustum;
-    if (view) frustum.emplace(view->worldToClip());
-    for (std::uint32_t o = 0; o < surfaces_.size(); ++o) {
-        if (!surfaces_[o]) continue;
-        const std::span<const Bounds> blocks = surfaces_[o].blocks();
-        const glm::dmat4& toWorld = light.now->objects[o].toWorld;
-        std::vector<std::uint64_t> seen;
-        if (view && light.objects[o].moves)
-            seen = surfaces_[o].turnedTo(glm::inverse(toWorld) * glm::dvec4(view->eye, 1));
-        for (std::uint32_t b = 0; b < blocks.size(); ++b) {
-            const std::uint64_t vertices = seen.empty() ? ~std::uint64_t(0) : seen[b];
-            if (blocks[b].empty() || vertices == 0) continue;
-            const Bounds drawn = grown(blocks[b], surfaces_[o].largestElement());
-            if (frustum && !frustum->mayContain(transformed(drawn, toWorld))) continue;
-            if (const unsigned lamps = lampsReaching(light, o, blocks[b]))
-                reached_.push_back({o, b, lamps, vertices});
-        }
-        findReachedStandIns(light, o);
+/// Blocks with vertices that a change may reach and that can be seen, of one object. Of what moves,
+/// half looks away.
+std::vector<LiveRows::Reached> LiveRows::reachedOf(const LiveLight& light, std::uint32_t object,
+                                                   const View* view, const Frustum* frustum) const {
+    const LiveSurface& surface = surfaces_[object];
+    std::vector<Reached> reached;
+    if (!surface) return reached;
+    const std::span<const Bounds> blocks = surface.blocks();
+    const glm::dmat4& toWorld = light.now->objects[object].toWorld;
+    std::vector<std::uint64_t> seen;
+    if (view && light.objects[object].moves)
+        seen = surface.turnedTo(glm::inverse(toWorld) * glm::dvec4(view->eye, 1));
+    for (std::uint32_t b = 0; b < blocks.size(); ++b) {
+        const std::uint64_t vertices = seen.empty() ? ~std::uint64_t(0) : seen[b];
+        if (blocks[b].empty() || vertices == 0) continue;
+        const Bounds drawn = grown(blocks[b], surface.largestElement());
+        if (frustum && !frustum->mayContain(transformed(drawn, toWorld))) continue;
+        if (const unsigned lamps = lampsReaching(light, object, blocks[b]))
+            reached.push_back({object, b, lamps, vertices});
     }
+    addReachedStandIns(light, object, reached);
+    return reached;
 }
 
 /// Vertices that stand for corners lie all over the object: each is looked at by itself. What
 /// touches one of the elements around a corner concerns it as well.
-void LiveRows::findReachedStandIns(const LiveLight& light, std::uint32_t object) {
+void LiveRows::addReachedStandIns(const LiveLight& light, std::uint32_t object,
+                                  std::vector<Reached>& reached) const {
     for (const auto& [vertex, corner] : surfaces_[object].standIns()) {
         const Bounds box = surfaces_[object].elementBox(corner);
         const unsigned lamps = lampsReaching(light, object, grown(box, box.diagonal()));
         if (lamps == 0) continue;
         const auto block = std::uint32_t(vertex / kBlock);
-        if (reached_.empty() || reached_.back().object != object || reached_.back().block != block)
-            reached_.push_back({object, block, 0, 0});
-        reached_.back().lamps |= lamps;
-        reached_.back().vertices |= std::uint64_t(1) << vertex % kBlock;
+        if (reached.empty() || reached.back().block != block)
+            reached.push_back({object, block, 0, 0});
+        reached.back().lamps |= lamps;
+        reached.back().vertices |= std::uint64_t(1) << vertex % kBlock;
     }
+}
+
+void LiveRows::findReached(const LiveLight& light, const View* view) {
+    std::optional<Frustum> frustum;
+    if (view) frustum.emplace(view->worldToClip());
+    std::vector<std::vector<Reached>> of(surfaces_.size());
+    parallelFor(surfaces_.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t o = first; o < last; ++o)
+            of[o] = reachedOf(light, std::uint32_t(o), view, frustum ? &*frustum : nullptr);
+    });
+    reached_.clear();
+    for (const std::vector<Reached>& reached : of)
+        reached_.insert(reached_.end(), reached.begin(), reached.end());
 }
 
 /// Corners that are touched now and drawn with vertices that they share with others; what these are
@@ -261,7 +275,8 @@ void LiveRows::prepare(const LiveLight& light, const ShownOf& shown, const View*
     chooseSlots(light);
     findReached(light, view);
     findTouched(light);
-    for (std::size_t s = slots_.size(); s-- > 0;) trace(light, slots_[s]); // now last: it stays
+    // Now comes last: what all arrangements have in common is as it was when it was lit.
+    for (std::size_t s = slots_.size(); s-- > 0;) trace(light, slots_[s]);
     traceTouched();
 }
 
@@ -270,12 +285,6 @@ void LiveRows::forget() {
     clear_.clear();
     reached_.clear();
     touched_.clear();
-}
-
-const LiveRows::Factors& LiveRows::factors(std::size_t slot, const Reached& at,
-                                           std::size_t lamp) const {
-    const auto own = slots_[slot].table.find(keyOf(at, lamp));
-    return (own != slots_[slot].table.end() ? own->second : clear_.at(keyOf(at, lamp))).factors;
 }
 
 float LiveRows::unoccluded(const Reached& at, std::size_t lamp, std::size_t vertex) const {

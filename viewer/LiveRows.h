@@ -20,6 +20,7 @@
 
 namespace penumbra {
 
+class Frustum;
 class RowBuilder;
 
 /// Rows of the shadow-form-factor-list for the live lamps, of those vertices alone that a change
@@ -62,8 +63,11 @@ public:
     std::span<const Reached> reached() const { return reached_; }
 
     using Factors = std::array<float, kBlock>; ///< F V of the vertices of a block
-    /// Of a lamp that reaches the block. \param slot 0: now; 1 ...: the anchors
-    const Factors& factors(std::size_t slot, const Reached& at, std::size_t lamp) const;
+    /// Of a lamp that reaches the block. \param slot 0: now; 1 ...: the anchors \param at an index
+    /// of reached()
+    const Factors& factors(std::size_t slot, std::size_t at, std::size_t lamp) const {
+        return slots_[slot].found[at * kMostLampsDrawnLive + lamp]->factors;
+    }
     /// What a lamp gives to a vertex now when nothing is in its way.
     float unoccluded(const Reached& at, std::size_t lamp, std::size_t vertex) const;
 
@@ -92,6 +96,8 @@ private:
         std::vector<TouchedCorner> touched;
         std::unordered_map<Key, Receiver> instead; ///< of vertices that are lit somewhere else
         Table table;
+        /// What is known of what is reached, by index of reached() and lamp; null: not reached.
+        std::vector<const Known*> found;
     };
     struct Task {
         const Slot* slot;
@@ -117,8 +123,13 @@ private:
     unsigned lampsThrough(const LiveLight& light, const Slot& slot, const Bounds& box) const;
     unsigned lampsReaching(const LiveLight& light, std::uint32_t object, const Bounds& box) const;
     void findReached(const LiveLight& light, const View* view);
-    void findReachedStandIns(const LiveLight& light, std::uint32_t object);
+    std::vector<Reached> reachedOf(const LiveLight& light, std::uint32_t object, const View* view,
+                                   const Frustum* frustum) const;
+    void addReachedStandIns(const LiveLight& light, std::uint32_t object,
+                            std::vector<Reached>& reached) const;
     void findTouched(const LiveLight& light);
+    std::vector<unsigned> lampsInDoubt(const LiveLight& light, const Slot& slot) const;
+    const RayScene& raysOf(const Slot& slot);
     void trace(const LiveLight& light, Slot& slot);
     void traceTouched();
     bool isClear(const Task& task, std::size_t vertex, const Receiver& receiver) const;

@@ -60,22 +60,40 @@ void LiveRows::run(const Task& task, RowBuilder& builder) const {
     }
 }
 
+/// For all that is reached, lamps that something that moves may be before in this arrangement.
+std::vector<unsigned> LiveRows::lampsInDoubt(const LiveLight& light, const Slot& slot) const {
+    std::vector<unsigned> lamps(reached_.size(), ~0u);
+    parallelFor(reached_.size(), 64, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const auto& [object, block, reaching, vertices] = reached_[i];
+            const std::span<const Bounds> blocks = surfaces_[object].blocks();
+            if (light.objects[object].moves || block >= blocks.size()) continue;
+            const Bounds box = transformed(blocks[block], slot.of->objects[object].toWorld);
+            lamps[i] = lampsThrough(light, slot, grown(box, stage_->skin()));
+        }
+    });
+    return lamps;
+}
+
+/// Things stay as they stand now.
+const RayScene& LiveRows::raysOf(const Slot& slot) {
+    if (&slot != &slots_.front()) return stage_->raysAt(*slot.of);
+    stage_->stand(*slot.of);
+    return stage_->rays();
+}
+
 void LiveRows::trace(const LiveLight& light, Slot& slot) {
     std::vector<Task> tasks;
-    for (const Reached& at : reached_) {
-        const std::span<const Bounds> blocks = surfaces_[at.object].blocks();
+    const std::vector<unsigned> inDoubt = lampsInDoubt(light, slot);
+    slot.found.assign(reached_.size() * kMostLampsDrawnLive, nullptr);
+    for (std::size_t i = 0; i < reached_.size(); ++i) {
+        const Reached& at = reached_[i];
         const bool moves = light.objects[at.object].moves;
-        const bool own = moves || at.block >= blocks.size();
-        const unsigned hidden =
-            own ? ~0u
-                : lampsThrough(
-                      light, slot,
-                      grown(transformed(blocks[at.block], slot.of->objects[at.object].toWorld),
-                            stage_->skin()));
         for (std::size_t l = 0; l < slot.senders.size(); ++l) {
             if (!(at.lamps >> l & 1)) continue;
-            const bool inTheWay = hidden >> l & 1;
+            const bool inTheWay = inDoubt[i] >> l & 1;
             Known& known = (inTheWay ? slot.table : clear_)[keyOf(at, l)];
+            slot.found[i * kMostLampsDrawnLive + l] = &known;
             const std::uint64_t missing = at.vertices & ~known.vertices;
             known.vertices |= missing;
             for (std::uint64_t bits = missing; bits != 0; bits &= bits - 1)
@@ -87,9 +105,9 @@ void LiveRows::trace(const LiveLight& light, Slot& slot) {
         }
     }
     if (tasks.empty()) return;
-    stage_->stand(*slot.of);
+    const RayScene& rays = raysOf(slot);
     parallelFor(tasks.size(), 8, [&](std::size_t first, std::size_t last) {
-        RowBuilder builder(stage_->rays());
+        RowBuilder builder(rays);
         for (std::size_t t = first; t < last; ++t) run(tasks[t], builder);
     });
 }

@@ -7,7 +7,11 @@
 namespace penumbra {
 
 LiveStage::LiveStage(PatchSet set)
-    : set_(std::move(set)), standing_(set_), standsAs_(set_.objects.size()) {}
+    : set_(std::move(set)), standing_(set_), aside_(raysThrough(set_)),
+      standsAs_(set_.objects.size()), asideAs_(set_.objects.size()) {
+    for (std::uint32_t o = 0; o < set_.objects.size(); ++o)
+        asideStands_.push_back({{o}, set_.objects[o].pose, set_.objects[o].present});
+}
 
 /// Has a thing of the fixed part be moved. Radiosity will mesh the scene anew; until then what the
 /// rest of the fixed part made of it stays.
@@ -20,20 +24,45 @@ void LiveStage::free(std::uint32_t object) {
     part.shape.rayVertices = set_.rayMeshes[object].vertices;
 }
 
-void LiveStage::stand(const Arrangement& arrangement) {
-    std::vector<StandingPatches::Stand> wanted;
-    const std::size_t count = std::min(standsAs_.size(), arrangement.objects.size());
+/// What stands otherwise than in `places`, which follow.
+std::vector<StandingPatches::Stand> LiveStage::follow(Places& places,
+                                                      const Arrangement& arrangement) {
+    std::vector<Stand> wanted;
+    const std::size_t count = std::min(places.size(), arrangement.objects.size());
     for (std::uint32_t o = 0; o < count; ++o) {
         const Arrangement::Place& place = arrangement.objects[o];
-        if (standsAs_[o] == place) continue;
-        const bool known = std::exchange(standsAs_[o], place).has_value();
+        if (places[o] == place) continue;
+        const bool known = std::exchange(places[o], place).has_value();
         if (!set_.objects[o].movable) {
             if (!known) continue; // it is where it was when it was meshed
             free(o);
         }
         wanted.push_back({{o}, placementOf(place.toWorld).pose, place.visible});
     }
-    standing_.place(wanted);
+    return wanted;
+}
+
+void LiveStage::stand(const Arrangement& arrangement) {
+    standing_.place(follow(standsAs_, arrangement));
+}
+
+const RayScene& LiveStage::raysAt(const Arrangement& arrangement) {
+    bool changed = false;
+    for (const Stand& stand : follow(asideAs_, arrangement)) {
+        const ObjectId object = stand.object;
+        Stand& now = asideStands_[object.value];
+        if (stand.present == now.present && stand.pose == now.pose) continue;
+        changed = true;
+        if (stand.present != now.present) aside_.show(object, stand.present);
+        if (stand.pose != now.pose) {
+            std::vector<glm::vec3> vertices = set_.objects[object.value].shape.rayVertices;
+            for (glm::vec3& vertex : vertices) vertex = stand.pose.point(vertex);
+            aside_.move(object, vertices);
+        }
+        now = stand;
+    }
+    if (changed) aside_.commit();
+    return aside_;
 }
 
 Receiver LiveStage::receiver(std::uint32_t object, std::size_t vertex) const {

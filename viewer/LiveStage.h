@@ -32,6 +32,9 @@ public:
     void stand(const Arrangement& arrangement);
 
     const RayScene& rays() const { return standing_.rays(); }
+    /// Rays through things as they stand in another arrangement; what they touch there is not
+    /// looked for. Costs what changes from one call to the next.
+    const RayScene& raysAt(const Arrangement& arrangement);
     /// Where a vertex of an object takes its light when nothing touches it; as things stand, and in
     /// a pose of the object.
     Receiver receiver(std::uint32_t object, std::size_t vertex) const;
@@ -49,11 +52,16 @@ public:
     float skin() const { return set_.skin; } ///< how far receivers hover [m]
 
 private:
+    using Stand = StandingPatches::Stand;
+    using Places = std::vector<std::optional<Arrangement::Place>>;
     void free(std::uint32_t object);
+    std::vector<Stand> follow(Places& places, const Arrangement& arrangement);
 
     PatchSet set_;
     StandingPatches standing_;
-    std::vector<std::optional<Arrangement::Place>> standsAs_;
+    RayScene aside_; ///< of raysAt()
+    std::vector<Stand> asideStands_;
+    Places standsAs_, asideAs_; ///< what was asked for last
 };
 
 } // namespace penumbra

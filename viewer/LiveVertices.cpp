@@ -1,5 +1,7 @@
 #include "viewer/LiveVertices.h"
 
+#include "radiosity/Parallel.h"
+
 #include <algorithm>
 
 namespace penumbra {
@@ -53,7 +55,7 @@ void LiveVertices::follow(Copy& copy, const ShownLight& from) {
 }
 
 /// Factors of a lamp at a block, in the arrangements of the anchors.
-LiveVertices::Then LiveVertices::thenOf(const LiveLight& light, const LiveRows::Reached& at,
+LiveVertices::Then LiveVertices::thenOf(const LiveLight& light, std::size_t at,
                                         std::size_t lamp) const {
     Then then{};
     for (std::size_t a = 0; a < light.anchors.size(); ++a)
@@ -80,14 +82,16 @@ float LiveVertices::change(const LiveLight& light, const ShownLight& from, const
     return std::max(change, -known);
 }
 
-void LiveVertices::bringUpToDate(Copy& copy, const LiveLight& light, const ShownLight& from,
-                                 const LiveRows::Reached& at) {
+/// \return whether anything of the block differs from what it carries
+bool LiveVertices::bringUpToDate(Copy& copy, const LiveLight& light, const ShownLight& from,
+                                 std::size_t reached) const {
+    const LiveRows::Reached& at = rows_.reached()[reached];
     const std::size_t begin = at.block * kBlock, end = std::min(begin + kBlock, from.direct.size());
     bool any = false;
     for (std::size_t l = 0; l < light.lamps.size(); ++l) {
         if (!(at.lamps >> l & 1)) continue;
-        const LiveRows::Factors& now = rows_.factors(0, at, l);
-        const Then then = thenOf(light, at, l);
+        const LiveRows::Factors& now = rows_.factors(0, reached, l);
+        const Then then = thenOf(light, reached, l);
         for (std::size_t v = begin; v < end; ++v) {
             if (!(at.vertices >> (v - begin) & 1)) continue;
             const float by = change(light, from, then, l, v, now[v - begin],
@@ -97,11 +101,32 @@ void LiveVertices::bringUpToDate(Copy& copy, const LiveLight& light, const Shown
             any = true;
         }
     }
-    if (!any) return;
-    for (std::size_t v = begin; v < end; ++v)
-        copy.light.direct[v] = atLeastNone(copy.light.direct[v]);
-    copy.touched[at.block] = 1;
-    copy.live.push_back(at.block);
+    if (any)
+        for (std::size_t v = begin; v < end; ++v)
+            copy.light.direct[v] = atLeastNone(copy.light.direct[v]);
+    return any;
+}
+
+/// Each block is listed once, so that they can be worked on side by side.
+void LiveVertices::bringAllUpToDate(const LiveLight& light, const ShownOf& shown) {
+    const std::span<const LiveRows::Reached> reached = rows_.reached();
+    const auto geometryOf = [&](std::size_t i) {
+        return light.objects[reached[i].object].geometry.get();
+    };
+    std::vector<std::uint8_t> differs(reached.size());
+    parallelFor(reached.size(), 8, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const ShownLight* const from = shown(*geometryOf(i));
+            if (from && !from->factors.empty())
+                differs[i] = bringUpToDate(copies_.at(geometryOf(i)), light, *from, i);
+        }
+    });
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+        if (!differs[i]) continue;
+        Copy& copy = copies_.at(geometryOf(i));
+        copy.touched[reached[i].block] = 1;
+        copy.live.push_back(reached[i].block);
+    }
 }
 
 /// Copies that are there already show so much more than their vertices as they do without live
@@ -137,9 +162,8 @@ void LiveVertices::drawTouched(Copy& copy, std::span<const LiveRows::Touched> to
         for (std::size_t l = 0; l < light.lamps.size(); ++l)
             direct =
                 direct + light.lamps[l].exitance *
-                             change(light, from, thenOf(light, rows_.reached()[corner.reached], l),
-                                    l, corner.vertex, corner.factors[l],
-                                    [&] { return corner.unoccluded[l]; });
+                             change(light, from, thenOf(light, corner.reached, l), l, corner.vertex,
+                                    corner.factors[l], [&] { return corner.unoccluded[l]; });
         copy.light.direct.push_back(atLeastNone(direct));
         copy.light.indirect.push_back(from.indirect[drawn]);
     }
@@ -183,11 +207,7 @@ void LiveVertices::update(const LiveLight& light, const ShownOf& shown, const Vi
     }
     for (auto& [geometry, copy] : copies_)
         if (const ShownLight* from = shown(*geometry)) follow(copy, *from);
-    for (const LiveRows::Reached& at : rows_.reached()) {
-        const LitGeometry& geometry = *light.objects[at.object].geometry;
-        const ShownLight* const from = shown(geometry);
-        if (from && !from->factors.empty()) bringUpToDate(copies_[&geometry], light, *from, at);
-    }
+    bringAllUpToDate(light, shown);
     drawAllTouched(light, shown);
     for (auto& [geometry, copy] : copies_)
         for (std::size_t block = 0; block < copy.touched.size(); ++block)

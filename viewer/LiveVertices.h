@@ -45,13 +45,14 @@ private:
     void follow(Copy& copy, const ShownLight& from);
     void restore(Copy& copy, const ShownLight& from, std::uint32_t block);
     using Then = std::array<const LiveRows::Factors*, 3>; ///< by anchor
-    Then thenOf(const LiveLight& light, const LiveRows::Reached& at, std::size_t lamp) const;
+    Then thenOf(const LiveLight& light, std::size_t at, std::size_t lamp) const;
     template <class Unoccluded>
     static float change(const LiveLight& light, const ShownLight& from, const Then& then,
                         std::size_t lamp, std::size_t vertex, float now,
                         const Unoccluded& unoccluded);
-    void bringUpToDate(Copy& copy, const LiveLight& light, const ShownLight& from,
-                       const LiveRows::Reached& at);
+    bool bringUpToDate(Copy& copy, const LiveLight& light, const ShownLight& from,
+                       std::size_t reached) const;
+    void bringAllUpToDate(const LiveLight& light, const ShownOf& shown);
     static void bringCopiesUpToDate(Copy& copy, const ShownLight& from);
     void drawTouched(Copy& copy, std::span<const LiveRows::Touched> touched, const LiveLight& light,
                      const ShownLight& from);

@@ -24,6 +24,7 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <thread>
 #include <utility>
 
 namespace penumbra {
@@ -190,7 +191,7 @@ void Viewer::lightScene() {
     if (how.solving.residual == 0) how.solving.residual = asked.solving.residual;
     light_.reset();
     light_.emplace(*walk_, how, makeProcessLink(),
-                   BlendOptions{.by = software_ ? LiveBy::rays : LiveBy::maps});
+                   BlendOptions{.by = bestLiveBy(software_, std::thread::hardware_concurrency())});
 }
 
 void Viewer::reload() {

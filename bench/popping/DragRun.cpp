@@ -122,9 +122,14 @@ private:
         draw(listVisible(light_->lit(), Frustum(view().worldToClip())));
         return drawn();
     }
-    void frame(FrameTimes* times = nullptr) {
+    /// \param matrix where the thing is put; null: it stays
+    void frame(FrameTimes* times = nullptr, const glm::dmat4* matrix = nullptr) {
         const Clock::time_point begin = Clock::now();
         const std::clock_t worked = std::clock();
+        if (matrix) {
+            thing_->setMatrix(*matrix);
+            walk_.followScene();
+        }
         walk_.advance(kFrame);
         light_->update(walk_, view());
         const Frustum frustum(view().worldToClip());
@@ -141,9 +146,7 @@ private:
             const double s = double(i) / script_.drag;
             glm::dmat4 matrix = start_;
             matrix[3] += glm::dvec4(s * s * (3 - 2 * s) * script_.way, 0);
-            thing_->setMatrix(matrix);
-            walk_.followScene();
-            frame(&result_.motion);
+            frame(&result_.motion, &matrix);
             result_.dragBytes += double(renderer_.statistics().lightBytes) / script_.drag;
         }
     }
