@@ -252,7 +252,7 @@ bool LightFade::advanceDirect(const LitMeshData& data, std::size_t vertex, Way<D
         wanted.factors == now.factors)
         return true;
     if (wanted == (way.start != kNever ? way.target : now)) return way.start == kNever;
-    if (wanted.light == now.light && !behind) {
+    if (wanted.light == now.light && wanted.old == now.old) {
         setShown(vertex, wanted, frame); // lamps have become known: nothing is seen of that
         way.start = kNever;
         return true;

@@ -184,9 +184,10 @@ TEST(LightFade, WhoIsNotReadyStaysBehindAndFollows) {
     EXPECT_FALSE(surface.fade.anyBehind());
 }
 
-TEST(LightFade, WhoFollowsLateHasTheLightOfNowAllTheTime) {
-    // Factors 0.5 before and 0.8 now, which the live light gives in full: with the share o of what
-    // was before in a vertex, f + o (0.8 - 0.5) is 0.8 whenever the vertex follows.
+/// Factors 0.5 before and 0.8 now, which the live light gives in full: with the share o of what was
+/// before in a vertex, f + o (0.8 - 0.5) is 0.8 whenever the vertex follows.
+/// \param light of all lamps now; before it was 100
+void expectTheLightOfNow(float light) {
     Surface surface(3);
     const auto frame = [&](double time) {
         const double s = std::clamp(time / 0.25, 0.0, 1.0);
@@ -196,7 +197,7 @@ TEST(LightFade, WhoFollowsLateHasTheLightOfNowAllTheTime) {
         surface.geometry.setBlock(block, [&](LitMeshData& data) {
             for (std::size_t v = 0; v < LitGeometry::kBlock; ++v) {
                 data.lamps[0].factor[block * LitGeometry::kBlock + v] = 0.8f;
-                data.direct[block * LitGeometry::kBlock + v] = Rgb(160);
+                data.direct[block * LitGeometry::kBlock + v] = Rgb(light);
             }
             data.lamps[0].known[block] = known;
         });
@@ -215,6 +216,14 @@ TEST(LightFade, WhoFollowsLateHasTheLightOfNowAllTheTime) {
         }
     }
     EXPECT_FALSE(surface.fade.anyBehind());
+}
+
+TEST(LightFade, WhoFollowsLateHasTheLightOfNowAllTheTime) {
+    expectTheLightOfNow(160);
+}
+
+TEST(LightFade, WhatIsAsBrightAsBeforeByOtherLampsHasTheLightOfNowAllTheTime) {
+    expectTheLightOfNow(100);
 }
 
 TEST(LightFade, AVertexThatComesToStandForACornerBeginsWithTheLightThere) {
