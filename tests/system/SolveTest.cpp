@@ -5,7 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <sstream>
+
+#include <unistd.h>
 
 namespace penumbra {
 
@@ -65,6 +68,19 @@ TEST_F(Solve, RepeatsTheSensorsAndAddsTheirIlluminance) {
         for (std::size_t k = 0; k < 6; ++k) EXPECT_FLOAT_EQ(float(rows[i][k]), float(in[i][k]));
         for (std::size_t k = 6; k < 9; ++k) EXPECT_GT(rows[i][k], 1); // a lamp of 100 nits
     }
+}
+
+TEST_F(Solve, SensorsMayComeFromAPipe) {
+    std::array<int, 2> ends;
+    ASSERT_EQ(pipe(ends.data()), 0);
+    ASSERT_EQ(write(ends[1], kSensors.data(), kSensors.size()), ssize_t(kSensors.size()));
+    close(ends[1]);
+    const std::string reading = "/dev/fd/" + std::to_string(ends[0]);
+    const Outcome outcome =
+        runPenumbra(solve(room, {"--sensors", reading, "--values", here.path("piped.csv")}));
+    close(ends[0]);
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(numbers(readFile(here.path("piped.csv"))), values());
 }
 
 TEST_F(Solve, GatheredAgreesWithDrawn) {
