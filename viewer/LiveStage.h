@@ -59,9 +59,9 @@ private:
 
     PatchSet set_;
     StandingPatches standing_;
-    RayScene aside_; ///< of raysAt()
-    std::vector<Stand> asideStands_;
-    Places standsAs_, asideAs_; ///< what was asked for last
+    RayScene aside_;                 ///< of raysAt()
+    std::vector<Stand> asideStands_; ///< of what is in it, by object
+    Places standsAs_, asideAs_;      ///< what was asked for last
 };
 
 } // namespace penumbra

@@ -1,4 +1,4 @@
-// The light of live lamps at vertices, where the processor draws.
+// The light of live lamps at vertices, by rays.
 #pragma once
 
 #include "viewer/LiveLight.h"
@@ -15,9 +15,9 @@
 namespace penumbra {
 
 /// Brings the light that vertices carry up to date, as LiveLight says, before it is drawn: with
-/// visibility by rays (LiveRows) in place of shadow maps. Rays find few vertices faster than a
-/// processor draws maps, and as they are radiosity's own, the fast shadow is the soft one: there is
-/// nothing to be seen of its becoming exact.
+/// visibility by rays (LiveRows) in place of shadow maps. As the rays are radiosity's own, the
+/// fast shadow is the soft one: there is nothing to be seen of its becoming exact. See
+/// bestLiveBy().
 class LiveVertices {
 public:
     /// \param samples as SolverOptions::samples \param patches see LiveRows
