@@ -49,6 +49,11 @@ Viewpoint::Viewpoint(const View& view, int width, int height)
                                            : 0.5 * width / std::tan(kOrthographicWidth / 2)),
       pixels_(double(width) * height) {}
 
+bool Viewpoint::operator==(const Viewpoint& other) const {
+    return eye_ == other.eye_ && clipToWorld_ == other.clipToWorld_ &&
+           pixelsPerRadian_ == other.pixelsPerRadian_ && pixels_ == other.pixels_;
+}
+
 double Viewpoint::pixelsPerDegree() const {
     return pixelsPerRadian_ * std::numbers::pi / 180;
 }

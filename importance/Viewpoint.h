@@ -21,6 +21,8 @@ public:
 
     /// Where the eye is [m, world]; an orthographic picture has no such place in the scene.
     const std::optional<glm::dvec3>& eye() const { return inScene_; }
+    /// Whether both see the same picture.
+    bool operator==(const Viewpoint& other) const;
     /// In the middle of the picture.
     double pixelsPerDegree() const;
     double pixels() const { return pixels_; } ///< of the whole picture

@@ -36,6 +36,8 @@ ExpectedFactors ChangeLook::at(const EmitterSender& sender, const ReceiverBlock&
     block.decode(std::span(drafts_).first(receivers.receivers.size()));
     ExpectedFactors expected;
     probes_.fill({});
+    anew_ = covered_ = uncovered_ = {};
+    groups_ = 0;
     for (std::size_t r = 0; r < receivers.receivers.size(); ++r) {
         const Receiver& receiver = receivers.receivers[r];
         if (!(receivers.some >> r & 1) || (isPadding(receiver) && !(anew >> r & 1))) continue;
@@ -46,17 +48,22 @@ ExpectedFactors ChangeLook::at(const EmitterSender& sender, const ReceiverBlock&
     }
     trace(alone_, moved);
     trace(whole_, {});
+    const LocalShare share(receivers.receivers);
     for (std::size_t r = 0; r < receivers.receivers.size(); ++r) {
-        Probe& probe = probes_[r];
-        const bool group = anew >> r & 1; // shares the ray of its group's first one
-        if (group && r % kAnewGroup != 0) probe.hidden = probes_[r - r % kAnewGroup].hidden;
-        const float change = group ? probe.now * (probe.hidden ? 0.0f : 1.0f) - probe.before
-                                   : probe.now * ((probe.stillHidden ? 0 : probe.uncovered) -
-                                                  (probe.hidden ? probe.covered : 0));
-        expected.factor[r] =
-            std::max(std::abs(change), kLeastShare * std::max(probe.now, probe.before));
+        const Probe& probe = probes_[r];
+        expected.factor[r] = std::max(std::abs(changeOf(r, anew >> r & 1, share)),
+                                      kLeastShare * std::max(probe.now, probe.before));
     }
     return expected;
+}
+
+/// Of F V, up or down. What happened to rays happens to as many of the samples around them.
+float ChangeLook::changeOf(std::size_t r, bool anew, const LocalShare& share) const {
+    const Probe& probe = probes_[r];
+    const auto blocked = [&](const Asked& asked) { return share.at(r, asked.all, asked.blocked); };
+    if (anew) return probe.now * (1 - blocked(anew_)) - probe.before;
+    return probe.now *
+           (probe.uncovered * (1 - blocked(uncovered_)) - probe.covered * blocked(covered_));
 }
 
 /// \return whether there is anything to be done
@@ -96,11 +103,11 @@ bool ChangeLook::probeStored(const EmitterSender& sender, const Receiver& receiv
     rays = float(std::popcount(covered) + std::popcount(uncovered));
     if (total > 0 && covered != 0) {
         probe.covered = weightOf(group, covered) / total;
-        add(alone_, group, oneOf(covered, r), probe.hidden, moved);
+        add(alone_, group, covered, r, covered_, moved);
     }
     if (total > 0 && uncovered != 0) {
         probe.uncovered = weightOf(group, uncovered) / total;
-        add(alone_, group, oneOf(uncovered, r), probe.stillHidden, moved);
+        add(alone_, group, uncovered, r, uncovered_, moved);
     }
     if (rays > 0) rays += kFurther;
     return true;
@@ -118,24 +125,33 @@ bool ChangeLook::probeAnew(const EmitterSender& sender, const ReceiverBlock& rec
     probe.now = wanted ? sender.formFactor(receiver) : 0.0f;
     if (!(probe.now > 0)) return draft.formFactor > 0;
     rays = float(sender.baseSamples()) + kFurther;
-    if (r % kAnewGroup != 0) return true;
+    const std::uint64_t ofGroup = std::uint64_t(1) << r / kAnewGroup;
+    if ((groups_ & ofGroup) != 0) return true;
+    groups_ |= ofGroup;
     SampleGroup group;
     sender.sampleGroup(receiver, 0, group);
-    if (group.rays.used != 0)
-        add(whole_, group, oneOf(group.rays.used, r), probe.hidden, {});
-    else
-        probe.hidden = true;
+    add(whole_, group, group.rays.used, r, anew_, {});
     return true;
 }
 
-void ChangeLook::add(Packet& packet, const SampleGroup& group, int sample, bool& answer,
-                     std::span<const MovedObject> moved) {
+/// Asks of a receiver by one of some samples (bits); if there are none, nothing is seen.
+void ChangeLook::add(Packet& packet, const SampleGroup& group, std::uint32_t samples,
+                     std::size_t receiver, Asked& asked, std::span<const MovedObject> moved) {
+    const std::uint64_t bit = std::uint64_t(1) << receiver;
+    asked.all |= bit;
+    if (samples == 0) {
+        asked.blocked |= bit;
+        return;
+    }
     if (packet.count == ShadowRays::kMost) trace(packet, moved);
+    const int sample = oneOf(samples, receiver);
     const glm::vec3 origin(group.rays.originX[sample], group.rays.originY[sample],
                            group.rays.originZ[sample]);
     const glm::vec3 along(group.rays.directionX[sample], group.rays.directionY[sample],
                           group.rays.directionZ[sample]);
-    packet.answers[std::size_t(packet.count)] = &answer;
+    const auto at = std::size_t(packet.count);
+    packet.answers[at] = &asked;
+    packet.receivers[at] = receiver;
     packet.rays.set(packet.count++, origin, origin + along);
 }
 
@@ -162,7 +178,10 @@ void ChangeLook::trace(Packet& packet, std::span<const MovedObject> moved) {
         rayCount_.single += std::uint64_t(std::popcount(some));
         traced(some);
     }
-    for (int i = 0; i < packet.count; ++i) *packet.answers[std::size_t(i)] = blocked >> i & 1;
+    for (; blocked != 0; blocked &= blocked - 1) {
+        const auto i = std::size_t(std::countr_zero(blocked));
+        packet.answers[i]->blocked |= std::uint64_t(1) << packet.receivers[i];
+    }
     packet.rays.used = 0;
     packet.count = 0;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "radiosity/EmitterSender.h"
+#include "radiosity/LocalShare.h"
 #include "radiosity/OpenWork.h"
 #include "radiosity/RayScene.h"
 #include "radiosity/Row.h"
@@ -23,9 +24,11 @@ namespace penumbra {
 /// - the samples that a moved object hid are visible if one of them is found to meet none of them:
 ///   what else may hide it is not looked for;
 /// - the samples that something else hides stay hidden;
-/// - an entry that is to be evaluated anew has its form factor, and is as visible as a sample of it
-///   or of one of its neighbours, against the whole scene. So what goes dark counts as much as what
-///   becomes light.
+/// - an entry that is to be evaluated anew has its form factor; a sample of one in four is traced
+///   against the whole scene. So what goes dark counts as much as what becomes light.
+///
+/// A single ray says yes or no. What is expected goes by its neighbours as well, see LocalShare:
+/// half-shadows are as wide as a few receivers.
 ///
 /// An entry of which nothing points at a moved object, and no sample was hidden by one, stays what
 /// it is: there is nothing to be done. What is found decides about an order only. One look a thread
@@ -53,26 +56,33 @@ private:
     struct Probe {
         float before = 0, now = 0;        ///< F V that was; F
         float covered = 0, uncovered = 0; ///< shares of the samples that may become hidden; visible
-        bool hidden = false, stillHidden = false; ///< what rays said of these
+    };
+    /// Bits: receivers of which a ray was traced, and those of which it was blocked.
+    struct Asked {
+        std::uint64_t all = 0, blocked = 0;
     };
     /// Rays that wait for company.
     struct Packet {
         ShadowRays rays;
-        std::array<bool*, ShadowRays::kMost> answers; ///< where it says that a ray is blocked
+        std::array<Asked*, ShadowRays::kMost> answers; ///< where to say that a ray is blocked,
+        std::array<std::size_t, ShadowRays::kMost> receivers; ///< and of which receiver
         int count = 0;
     };
     bool probeStored(const EmitterSender& sender, const Receiver& receiver, std::size_t r,
                      std::span<const MovedObject> moved, float& rays);
     bool probeAnew(const EmitterSender& sender, const ReceiverBlock& receivers, std::size_t r,
                    float& rays);
-    void add(Packet& packet, const SampleGroup& group, int sample, bool& answer,
-             std::span<const MovedObject> moved);
+    float changeOf(std::size_t r, bool anew, const LocalShare& share) const;
+    void add(Packet& packet, const SampleGroup& group, std::uint32_t samples, std::size_t receiver,
+             Asked& asked, std::span<const MovedObject> moved);
     void trace(Packet& packet, std::span<const MovedObject> moved);
 
     const RayScene& rays_;
     std::vector<RowBlock::Draft> drafts_;
     std::array<Probe, RowBlock::kSize> probes_;
-    Packet whole_, alone_; ///< against the whole scene; against moved objects
+    Asked anew_, covered_, uncovered_; ///< see changeOf()
+    std::uint64_t groups_ = 0;         ///< bits: those of which an entry is in anew_
+    Packet whole_, alone_;             ///< against the whole scene; against moved objects
     RayCount rayCount_;
 };
 

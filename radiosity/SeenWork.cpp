@@ -1,5 +1,8 @@
 #include "radiosity/SeenWork.h"
 
+#include "radiosity/LocalShare.h"
+#include "radiosity/Shaft.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -9,7 +12,7 @@
 namespace penumbra {
 
 SeenWork::SeenWork(const PatchSet& patches, const RayScene& rays, const DirectLight& light)
-    : rays_(rays), light_(light), places_(patches),
+    : patches_(patches), rays_(rays), light_(light), places_(patches),
       order_(std::make_shared<ImportanceOrder>(
           places_.placeOf(), [this](std::uint32_t place) { return look(place); },
           [this](std::uint32_t block, std::uint64_t which, std::span<PlaceValue> values) {
@@ -17,17 +20,41 @@ SeenWork::SeenWork(const PatchSet& patches, const RayScene& rays, const DirectLi
           })) {}
 
 void SeenWork::follow(std::span<const ObjectId> objects) {
+    const Bounds before = places_.boundsOf(objects);
     places_.follow(objects);
-    close_.clear();
-    if (order_->view() > 0) order_->attend(order_->attention()); // what moves hides other things
+    if (!from_) return;
+    if (from_->eye()) forgetSights(objects, before, places_.boundsOf(objects));
+    order_->attend(order_->attention());
+}
+
+/// Of the objects themselves, and of all that they may have hidden or may hide now.
+void SeenWork::forgetSights(std::span<const ObjectId> objects, const Bounds& before,
+                            const Bounds& now) {
+    const Bounds eye{glm::vec3(*from_->eye()), glm::vec3(*from_->eye())};
+    const auto stale = [&](ObjectId object, const Bounds& box) {
+        return std::find(objects.begin(), objects.end(), object) != objects.end() ||
+               shaftMeets(box, eye, before) || shaftMeets(box, eye, now);
+    };
+    std::erase_if(close_, [&](const auto& item) {
+        const auto& [block, sight] = item;
+        return block >= patches_.firstPrivate / PatchSet::kBlock || // are handed out anew
+               stale(patches_.vertexBlockObject[block], sight.box);
+    });
+    std::erase_if(sights_, [&](const auto& item) {
+        return stale(places_.objectOf(item.first), places_.known(item.first).box);
+    });
 }
 
 void SeenWork::attend(const Attention& attention, double ambient) {
     ambient_ = ambient;
+    if (!from_ || !(*from_ == attention.viewpoint)) {
+        close_.clear();
+        sights_.clear();
+        from_ = attention.viewpoint;
+    }
     Attention now = attention;
     if (!(now.adaptation > 0)) now.adaptation = adaptationTo(now.viewpoint);
     order_->attend(now);
-    close_.clear();
 }
 
 WorkPlace SeenWork::placeNow(std::uint32_t index) const {
@@ -51,24 +78,31 @@ double SeenWork::adaptationTo(const Viewpoint& viewpoint) const {
 }
 
 void SeenWork::lookClosely(std::uint32_t block, std::uint64_t which, std::span<PlaceValue> values) {
-    CloseView& close = close_[block];
+    CloseSight& close = close_[block];
+    if (close.view != order_->view()) close.valued = 0, close.view = order_->view();
     const Attention& attention = order_->attention();
     const bool looks = attention.factors.occlusion && attention.viewpoint.eye();
-    std::uint64_t open = which & ~close.known;
-    const std::uint64_t seen =
-        looks && open != 0 ? seenOf(block, open, glm::vec3(*attention.viewpoint.eye())) : 0;
-    for (; open != 0; open &= open - 1) {
+    if (const std::uint64_t unasked = which & ~close.asked; looks && unasked != 0) {
+        close.seen |= seenOf(block, unasked, glm::vec3(*attention.viewpoint.eye()));
+        close.asked |= unasked;
+    }
+    const std::size_t first = std::size_t(block) * PatchSet::kBlock;
+    std::array<Receiver, PatchSet::kBlock> receivers;
+    for (std::size_t r = 0; r < receivers.size(); ++r)
+        receivers[r] = patches_.vertices[first + r].receiver;
+    const LocalShare share(receivers);
+    for (std::uint64_t open = which & ~close.valued; open != 0; open &= open - 1) {
         const auto r = std::size_t(std::countr_zero(open));
-        const std::size_t v = std::size_t(block) * PatchSet::kBlock + r;
-        WorkPlace place = places_.atVertex(v, light_.vertices()[v]);
+        WorkPlace place = places_.atVertex(first + r, light_.vertices()[first + r]);
+        close.box.add(place.box);
         place.luminance += place.reflectance * float(ambient_ * std::numbers::inv_pi);
         std::optional<float> pixels;
-        if (looks) pixels = 0.0f;
-        if (seen >> r & 1)
-            pixels = float(attention.viewpoint.pixelsOf(place.box, place.normal, place.area));
+        if (looks) // what is drawn around a hidden vertex may be seen
+            pixels = share.at(r, close.asked, close.seen) *
+                     float(attention.viewpoint.pixelsOf(place.box, place.normal, place.area));
         close.values[r] = place.box.empty() ? PlaceValue() : placeValue(place, attention, pixels);
     }
-    close.known |= which;
+    close.valued |= which;
     std::copy(close.values.begin(), close.values.end(), values.begin());
 }
 
@@ -89,7 +123,8 @@ std::uint64_t SeenWork::seenOf(std::uint32_t block, std::uint64_t which, const g
     };
     for (; which != 0; which &= which - 1) {
         const auto r = std::uint32_t(std::countr_zero(which));
-        const Receiver& receiver = places_.receiver(std::size_t(block) * PatchSet::kBlock + r);
+        const Receiver& receiver =
+            patches_.vertices[std::size_t(block) * PatchSet::kBlock + r].receiver;
         const Bounds point{receiver.position, receiver.position};
         if (glm::dot(eye - receiver.position, receiver.normal) <= 0) continue; // also padding
         if (order_->attention().viewpoint.regionOf(point) != Viewpoint::Region::picture) continue;
@@ -109,9 +144,13 @@ ImportanceOrder::Sight SeenWork::look(std::uint32_t index) {
     if (!attention.factors.occlusion || !viewpoint.eye() ||
         viewpoint.regionOf(place.box) != Viewpoint::Region::picture)
         return sight;
-    const VertexPlaces::Sight seen = places_.sight(index, rays_, viewpoint);
-    rayCount_ += std::uint64_t(seen.rays);
-    sight.seen = seen.pixels;
+    const auto [known, fresh] = sights_.try_emplace(index, 0.0f);
+    if (fresh) {
+        const VertexPlaces::Sight seen = places_.sight(index, rays_, viewpoint);
+        rayCount_ += std::uint64_t(seen.rays);
+        known->second = seen.pixels;
+    }
+    sight.seen = known->second;
     return sight;
 }
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -17,7 +18,8 @@ namespace penumbra {
 
 /// Orders blocks of vertices by what a viewer gains from them. What hides them from the eye is
 /// found by a few rays to each place when it is asked for, and by one to each vertex of which the
-/// light may change; so it costs nothing where nothing is open.
+/// light may change; so it costs nothing where nothing is open. What was found is kept for as long
+/// as the viewer stays and nothing moves that may stand in between.
 class SeenWork {
 public:
     /// All must outlive this and the order.
@@ -37,20 +39,27 @@ private:
     ImportanceOrder::Sight look(std::uint32_t place);
     void lookClosely(std::uint32_t block, std::uint64_t which, std::span<PlaceValue> values);
     std::uint64_t seenOf(std::uint32_t block, std::uint64_t which, const glm::vec3& eye);
+    void forgetSights(std::span<const ObjectId> objects, const Bounds& before, const Bounds& now);
     WorkPlace placeNow(std::uint32_t place) const;
     double adaptationTo(const Viewpoint& viewpoint) const;
 
+    const PatchSet& patches_;
     const RayScene& rays_;
     const DirectLight& light_;
     VertexPlaces places_;
     std::shared_ptr<ImportanceOrder> order_;
     double ambient_ = 0; ///< [lux]
-    /// Vertices of a block, in this view.
-    struct CloseView {
-        std::uint64_t known = 0; ///< bits
+    /// What was found of the vertices of a block: bits, and what they come to in one view.
+    struct CloseSight {
+        Bounds box;                        ///< around them [m, world]
+        std::uint64_t asked = 0, seen = 0; ///< by a ray
+        std::uint64_t valued = 0;          ///< in the order's view
+        std::uint32_t view = 0;
         std::array<PlaceValue, 64> values;
     };
-    std::unordered_map<std::uint32_t, CloseView> close_; ///< by block
+    std::unordered_map<std::uint32_t, CloseSight> close_; ///< by block
+    std::unordered_map<std::uint32_t, float> sights_;     ///< by place: pixels seen
+    std::optional<Viewpoint> from_;                       ///< where all of that was found
     std::uint64_t rayCount_ = 0;
 };
 

@@ -47,14 +47,12 @@ void Solver::attend(const Attention& attention) {
     if (options_.order != UpdateOrder::importance) return;
     direct_.setWhole(attention.whole);
     const double ambient = meanRadiosity();
-    if (seen_) {
-        seen_->attend(attention, ambient);
+    if (!seen_) seen_ = std::make_unique<SeenWork>(set_, rays_, direct_);
+    seen_->attend(attention, ambient);
+    if (std::exchange(inSeenOrder_, true))
         direct_.rekey();
-    } else {
-        seen_ = std::make_unique<SeenWork>(set_, rays_, direct_);
-        seen_->attend(attention, ambient);
+    else
         direct_.setOrder(seen_->order());
-    }
 }
 
 void Solver::setOrder(UpdateOrder order) {
@@ -69,7 +67,7 @@ void Solver::setOrder(UpdateOrder order) {
 
 void Solver::setDirectOrder(std::shared_ptr<const OrderOfWork> order) {
     direct_.setOrder(std::move(order));
-    seen_.reset();
+    inSeenOrder_ = false;
 }
 
 void Solver::apply(const SceneChange& change) {
@@ -77,7 +75,7 @@ void Solver::apply(const SceneChange& change) {
     direct_.apply(change);
     if (seen_) {
         seen_->follow(change.objects);
-        direct_.rekey();
+        if (inSeenOrder_) direct_.rekey();
     }
     if (indirect_) indirect_->apply(change);
     if (detail_) detail_->apply(change);

@@ -193,7 +193,8 @@ private:
     SolverOptions options_;
     DirectLight direct_;
     std::optional<Attention> attention_;      ///< of the viewer, if there is one
-    std::unique_ptr<SeenWork> seen_;          ///< in the order of importance
+    std::unique_ptr<SeenWork> seen_;          ///< what they see, once somebody looked
+    bool inSeenOrder_ = false;                ///< direct light is done in the order of that
     std::unique_ptr<IndirectLight> indirect_; ///< null: direct light only
     std::unique_ptr<DetailGather> detail_;
     bool handedOver_ = false; ///< whether the indirect light knows of the direct light as it is

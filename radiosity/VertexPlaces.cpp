@@ -81,9 +81,16 @@ void VertexPlaces::locate(std::uint32_t index) {
 
 void VertexPlaces::follow(std::span<const ObjectId> objects) {
     for (std::uint32_t place = 0; place < size(); ++place)
-        if (std::find(objects.begin(), objects.end(),
-                      patches_.vertexBlockObject[firstBlock_[place]]) != objects.end())
+        if (std::find(objects.begin(), objects.end(), objectOf(place)) != objects.end())
             locate(place);
+}
+
+Bounds VertexPlaces::boundsOf(std::span<const ObjectId> objects) const {
+    Bounds box;
+    for (std::uint32_t place = 0; place < size(); ++place)
+        if (std::find(objects.begin(), objects.end(), objectOf(place)) != objects.end())
+            box.add(known(place).box);
+    return box;
 }
 
 WorkPlace VertexPlaces::at(std::uint32_t index, std::span<const Rgb> light) const {

@@ -31,9 +31,11 @@ public:
 
     /// A place as it stands; its luminance is not known.
     const WorkPlace& known(std::uint32_t place) const { return clusters_.places[place]; }
-    const Receiver& receiver(std::size_t vertex) const {
-        return patches_.vertices[vertex].receiver;
+    ObjectId objectOf(std::uint32_t place) const {
+        return patches_.vertexBlockObject[firstBlock_[place]];
     }
+    /// Around all places of some objects [m, world].
+    Bounds boundsOf(std::span<const ObjectId> objects) const;
     /// A vertex as a place of its own; padding is one without area. \param light its illuminance
     /// [lux]
     WorkPlace atVertex(std::size_t vertex, Rgb light) const;
