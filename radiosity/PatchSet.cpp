@@ -10,6 +10,15 @@ Receiver placed(const Receiver& receiver, const Pose& pose) {
 
 } // namespace
 
+Emitter placedEmitter(const Emitter& own, const Pose& pose) {
+    Emitter emitter = own;
+    emitter.centre = pose.point(own.centre);
+    emitter.axis = pose.direction(own.axis);
+    for (auto& polygon : emitter.polygons)
+        for (glm::vec3& corner : polygon) corner = pose.point(corner);
+    return emitter;
+}
+
 void placeObject(PatchSet& set, ObjectId object, const Pose& pose) {
     ObjectPart& part = set.objects[object.value];
     const ObjectShape& shape = part.shape;
@@ -29,12 +38,9 @@ void placeObject(PatchSet& set, ObjectId object, const Pose& pose) {
     }
     for (std::uint32_t i = 0; i < part.emitters.count; ++i) {
         Emitter& emitter = set.emitters[part.emitters.first + i];
-        const Emitter& own = shape.emitters[i];
-        emitter.centre = pose.point(own.centre);
-        emitter.axis = pose.direction(own.axis);
-        for (std::size_t p = 0; p < own.polygons.size(); ++p)
-            for (std::size_t k = 0; k < own.polygons[p].size(); ++k)
-                emitter.polygons[p][k] = pose.point(own.polygons[p][k]);
+        const Rgb exitance = emitter.exitance;
+        emitter = placedEmitter(shape.emitters[i], pose);
+        emitter.exitance = exitance; // it may have been dimmed since
     }
     RayMesh& rays = set.rayMeshes[object.value];
     for (std::size_t i = 0; i < rays.vertices.size(); ++i)

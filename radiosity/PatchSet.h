@@ -81,6 +81,13 @@ struct Emitter {
     std::string path; ///< of the light or mesh in the scene
 };
 
+/// A mesh that shines, and all that shines of it, of one brightness.
+struct ShiningMesh {
+    std::string path;
+    /// As they send direct light: see PatchSet::emitters. Their exitances are the scene's affair.
+    std::vector<Emitter> emitters;
+};
+
 /// Triangles of one object for tracing rays.
 struct RayMesh {
     std::vector<glm::vec3> vertices;
@@ -179,6 +186,8 @@ struct PatchSet {
     }
 };
 
+/// An emitter of an object's own frame, as seen from a pose.
+Emitter placedEmitter(const Emitter& own, const Pose& pose);
 /// Writes a movable object's share of the arrays as seen from `pose`.
 void placeObject(PatchSet& set, ObjectId object, const Pose& pose);
 /// Box around an object's triangles [m, world].

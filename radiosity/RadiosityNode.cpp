@@ -152,7 +152,8 @@ void RadiosityNode::Impl::rebuildBranch(Group& lit) {
     branch.clear();
     objects.clear();
     for (const LitObjects::Entry& entry : shown->entries()) {
-        objects.push_back({entry.path, glm::dmat4(1.0), true, entry.toObject, entry.geometry});
+        objects.push_back(
+            {entry.path, glm::dmat4(1.0), true, entry.toObject, entry.geometry, entry.shining});
         auto choice = std::make_shared<Switch>(entry.path);
         auto place = std::make_shared<Transform>(entry.path);
         if (entry.geometry) place->add(entry.geometry);

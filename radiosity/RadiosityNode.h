@@ -33,6 +33,7 @@ struct LitObject {
     /// Its patches with their light; the same node as long as the scene is not meshed anew. Null
     /// until all of it has light.
     std::shared_ptr<LitGeometry> geometry;
+    std::vector<ShiningMesh> shining = {}; ///< in the frame of the geometry
 };
 
 /// A group of which everything below is lit by radiosity, in a thread or a process of its own.

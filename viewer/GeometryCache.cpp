@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cassert>
 #include <numeric>
+#include <span>
 #include <utility>
 
 namespace penumbra {
@@ -52,6 +53,14 @@ std::size_t replaceValues(const GlObject& buffer, const std::vector<T>& values, 
     glBufferSubData(GL_ARRAY_BUFFER, GLintptr(first * sizeof(T)), GLsizeiptr(count * sizeof(T)),
                     values.data() + first);
     return count * sizeof(T);
+}
+
+/// What the shader wants of the factors.
+std::vector<glm::vec4> forMaps(std::span<const LampFactors> factors) {
+    std::vector<glm::vec4> first;
+    first.reserve(factors.size());
+    for (const LampFactors& f : factors) first.emplace_back(f[0], f[1], f[2], f[3]);
+    return first;
 }
 
 /// The triangles, those of one material after those of another.
@@ -209,7 +218,7 @@ void GpuGeometry::requireFactors(const ShownLight& shown) {
     if (shown.factors.empty()) {
         dropFactors();
     } else {
-        factors_ = attributeBuffer(kFactors, shown.factors, GL_DYNAMIC_DRAW, room_);
+        factors_ = attributeBuffer(kFactors, forMaps(shown.factors), GL_DYNAMIC_DRAW, room_);
         behind_ = attributeBuffer(kBehind, shown.behind, GL_DYNAMIC_DRAW, room_);
     }
     glBindVertexArray(0);
@@ -222,8 +231,9 @@ std::size_t GpuGeometry::copyBlocks(const ShownLight* shown, const LitGeometry& 
         replaceValues(direct_, shown ? shown->direct : own.direct, first, count) +
         replaceValues(indirect_, shown ? shown->indirect : own.indirect, first, count);
     if (shown && !shown->factors.empty())
-        bytes += replaceValues(factors_, shown->factors, first, count) +
-                 replaceValues(behind_, shown->behind, first, count);
+        bytes +=
+            writeValues(factors_, forMaps(std::span(shown->factors).subspan(first, count)), first) +
+            replaceValues(behind_, shown->behind, first, count);
     return bytes;
 }
 

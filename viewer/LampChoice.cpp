@@ -1,7 +1,9 @@
 #include "viewer/LampChoice.h"
 
 #include "radiosity/LightShapes.h"
+#include "radiosity/RadiosityNode.h"
 #include "scenegraph/Light.h"
+#include "scenegraph/Mesh.h"
 #include "viewer/Arrangements.h"
 
 #include <algorithm>
@@ -12,8 +14,6 @@
 namespace penumbra {
 
 namespace {
-
-constexpr double kLeastShare = 0.05;
 
 /// Share of an object's corners and middle that sees a point.
 double seenShare(const SceneRays& rays, const Bounds& box, ObjectId object, glm::dvec3 lamp,
@@ -30,50 +30,113 @@ double seenShare(const SceneRays& rays, const Bounds& box, ObjectId object, glm:
     return seen / 9.0;
 }
 
-/// Illuminance of a small thing that faces the lamp, without obstacles, in far approximation [lux].
-double lightAt(const Emitter& lamp, glm::vec3 centre, glm::vec3 normal, glm::vec3 thing) {
-    const glm::dvec3 way = glm::dvec3(thing) - glm::dvec3(centre);
-    const double d2 = std::max(glm::dot(way, way), 1e-4);
-    const double cosine = lamp.kind == Emitter::Kind::sphere
-                              ? 0.25 // a sphere shows a quarter of its area
-                              : std::max(0.0, glm::dot(glm::dvec3(normal), way) / std::sqrt(d2));
-    return luminance(lamp.exitance) * lamp.area * cosine / (3.14159265358979 * d2 + lamp.area);
+glm::dvec3 middle(const std::vector<glm::vec3>& polygon) {
+    glm::dvec3 sum(0);
+    for (const glm::vec3 corner : polygon) sum += corner;
+    return sum / double(polygon.size());
+}
+
+/// Along the normal, as long as the area [m^2].
+glm::dvec3 areaVector(const std::vector<glm::vec3>& polygon) {
+    glm::dvec3 sum(0);
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+        sum += 0.5 * glm::cross(glm::dvec3(polygon[i - 1] - polygon[0]),
+                                glm::dvec3(polygon[i] - polygon[0]));
+    return sum;
+}
+
+/// Illuminance of a small thing that faces an emitter, without obstacles, in far approximation
+/// [lux].
+double lightAt(const Emitter& emitter, glm::dvec3 thing) {
+    const auto light = [&](glm::dvec3 centre, glm::dvec3 normal, double area) {
+        const glm::dvec3 way = thing - centre;
+        const double d2 = std::max(glm::dot(way, way), 1e-4);
+        const double cosine = emitter.kind == Emitter::Kind::sphere
+                                  ? 0.25 // a sphere shows a quarter of its area
+                                  : std::max(0.0, glm::dot(normal, way) / std::sqrt(d2));
+        return luminance(emitter.exitance) * area * cosine / (3.14159265358979 * d2 + area);
+    };
+    if (emitter.kind != Emitter::Kind::polygons)
+        return light(emitter.centre, emitter.axis, emitter.area);
+    double sum = 0;
+    for (const auto& polygon : emitter.polygons) {
+        const glm::dvec3 across = areaVector(polygon);
+        const double area = glm::length(across);
+        if (area > 0) sum += light(middle(polygon), across / area, area);
+    }
+    return sum;
+}
+
+/// Where an emitter is looked for.
+glm::dvec3 centreOf(const Emitter& emitter) {
+    if (emitter.kind != Emitter::Kind::polygons) return emitter.centre;
+    glm::dvec3 sum(0);
+    double area = 0;
+    for (const auto& polygon : emitter.polygons) {
+        const double part = glm::length(areaVector(polygon));
+        sum += part * middle(polygon);
+        area += part;
+    }
+    return sum / std::max(area, 1e-30);
 }
 
 } // namespace
 
-std::vector<std::size_t> lampsThatMatter(const PlacedScene& placed, const SceneRays& rays,
-                                         ObjectId object, std::size_t most) {
-    std::vector<std::pair<double, std::size_t>> found;
+std::vector<Lamp> lampsDrawable(const RadiosityNode& node, LiveBy by) {
+    std::vector<Lamp> lamps;
+    const PlacedScene& placed = node.placed();
+    const auto add = [&](const std::string& path, ObjectId object) {
+        const Rgb exitance = exitanceOf(placed, path);
+        if (maxChannel(exitance) <= 0) return;
+        std::vector<Emitter> emitters = emittersOf(node, path);
+        if (emitters.empty() || (by == LiveBy::maps && !hasShadowMaps(emitters))) return;
+        for (Emitter& emitter : emitters) emitter.exitance = exitance;
+        lamps.push_back({path, object, std::move(emitters)});
+    };
+    for (const auto& light : placed.lights) add(light.path, light.object);
+    for (const LitObject& object : node.objects())
+        for (const ShiningMesh& shining : object.shining) {
+            const auto mesh = std::find_if(placed.meshes.begin(), placed.meshes.end(),
+                                           [&](const auto& m) { return m.path == shining.path; });
+            if (mesh != placed.meshes.end()) add(mesh->path, mesh->object);
+        }
+    return lamps;
+}
+
+LampLimits lampLimits(LiveBy by) {
+    if (by == LiveBy::maps) return {.most = kMostLampsByMaps, .least = 0.05};
+    return {.most = kMostLampsDrawnLive, .least = 0.01};
+}
+
+std::vector<std::string> lampsThatMatter(const std::vector<Lamp>& lamps, const SceneRays& rays,
+                                         ObjectId object, const LampLimits& limits) {
+    std::vector<std::pair<double, const Lamp*>> found;
     double sum = 0;
     const Bounds box = rays.bounds(object);
-    for (std::size_t l = 0; l < placed.lights.size(); ++l) {
-        const auto& light = placed.lights[l];
-        if (!placed.objects[light.object.value].visible) continue;
-        const Emitter lamp = lightEmitter(*light.node, light.toWorld);
-        if (!canBeDrawnLive(lamp) || maxChannel(lamp.exitance) <= 0) continue;
-        if (light.object == object) {
-            found.emplace_back(std::numeric_limits<double>::infinity(), l);
+    for (const Lamp& lamp : lamps) {
+        if (lamp.object == object) {
+            found.emplace_back(std::numeric_limits<double>::infinity(), &lamp);
             continue;
         }
         if (box.empty()) continue;
-        glm::vec3 normal = lamp.axis;
-        if (lamp.kind == Emitter::Kind::polygons) {
-            const auto& p = lamp.polygons.front();
-            normal = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
-        }
-        const double all = lightAt(lamp, lamp.centre, normal, box.centre());
-        const double share =
-            all > 0 ? seenShare(rays, box, object, glm::dvec3(lamp.centre), light.object) : 0;
-        sum += all * share;
-        if (share > 0) found.emplace_back(all * share, l);
+        double light = 0;
+        for (const Emitter& emitter : lamp.emitters)
+            if (const double all = lightAt(emitter, box.centre()); all > 0)
+                light += all * seenShare(rays, box, object, centreOf(emitter), lamp.object);
+        sum += light;
+        if (light > 0) found.emplace_back(light, &lamp);
     }
-    std::erase_if(found, [&](const auto& lamp) { return lamp.first < kLeastShare * sum; });
+    std::erase_if(found, [&](const auto& lamp) { return lamp.first < limits.least * sum; });
     std::stable_sort(found.begin(), found.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
-    std::vector<std::size_t> lamps;
-    for (std::size_t i = 0; i < std::min(most, found.size()); ++i) lamps.push_back(found[i].second);
-    return lamps;
+    std::vector<std::string> paths;
+    std::size_t emitters = 0;
+    for (const auto& [light, lamp] : found) {
+        if (emitters + lamp->emitters.size() > limits.most) continue;
+        emitters += lamp->emitters.size();
+        paths.push_back(lamp->path);
+    }
+    return paths;
 }
 
 } // namespace penumbra

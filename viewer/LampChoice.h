@@ -1,22 +1,41 @@
 // Which lamps matter to a thing.
 #pragma once
 
+#include "radiosity/PatchSet.h"
 #include "scenegraph/Objects.h"
+#include "viewer/LightBlend.h"
 #include "viewer/SceneRays.h"
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace penumbra {
 
+/// A light or a mesh that shines.
+struct Lamp {
+    std::string path;
+    ObjectId object;
+    std::vector<Emitter> emitters; ///< [m, world]
+};
+
+/// The lamps below a node that shine, are shown and can be drawn live: by rays all lights and those
+/// meshes of which all that shines is of one brightness, by maps rectangles, disks and spheres.
+std::vector<Lamp> lampsDrawable(const RadiosityNode& node, LiveBy by);
+
+struct LampLimits {
+    std::size_t most = kMostLampsDrawnLive; ///< emitters: each costs as much as another lamp
+    double least = 0;                       ///< share of all light that a lamp has to have
+};
+LampLimits lampLimits(LiveBy by);
+
 /// The lamps to be drawn live while an object moves, the most important ones first: those in it,
 /// then those that give it the most light, of which it may take the most away from what lies
-/// behind it. Of a lamp that gives E without obstacles and is seen from a share v of the object
-/// (its corners and its middle), E v counts; what is less than a twentieth of all is left out, as
-/// nobody would see its shadows. Lamps of shapes that can't be drawn live are left out, too.
+/// behind it. Of an emitter that gives E without obstacles and is seen from a share v of the object
+/// (its corners and its middle), E v counts.
 ///
-/// \return at most `most` indices into placed.lights
-std::vector<std::size_t> lampsThatMatter(const PlacedScene& placed, const SceneRays& rays,
-                                         ObjectId object, std::size_t most);
+/// \param object in `rays`, as Lamp::object \return paths
+std::vector<std::string> lampsThatMatter(const std::vector<Lamp>& lamps, const SceneRays& rays,
+                                         ObjectId object, const LampLimits& limits);
 
 } // namespace penumbra

@@ -2,13 +2,11 @@
 
 #include "radiosity/Parallel.h"
 #include "radiosity/RadiosityNode.h"
-#include "scenegraph/Light.h"
 #include "viewer/Arrangements.h"
 #include "viewer/Smoothstep.h"
 
 #include <algorithm>
 #include <cassert>
-#include <numbers>
 #include <utility>
 
 namespace penumbra {
@@ -167,11 +165,7 @@ void LightBlend::describeLive(const RadiosityNode& node, double time) {
 void LightBlend::describeLamps(const RadiosityNode& node, LiveLight& light) const {
     const PlacedScene& placed = node.placed();
     for (const std::string& path : lamps_) {
-        const auto placedLamp = std::find_if(placed.lights.begin(), placed.lights.end(),
-                                             [&](const auto& l) { return l.path == path; });
-        LiveLight::Lamp lamp;
-        if (placedLamp != placed.lights.end())
-            lamp.exitance = placedLamp->node->luminance() * std::numbers::pi_v<float>;
+        LiveLight::Lamp lamp{exitanceOf(placed, path)};
         const std::size_t l = light.lamps.size();
         lamp.moves = std::any_of(light.anchors.begin(), light.anchors.end(),
                                  [&](const LiveLight::Anchor& a) {
@@ -189,10 +183,14 @@ LiveLight LightBlend::expecting(const RadiosityNode& node, const std::string& ob
         light.objects.push_back({entry.geometry, entry.path == object});
     describeLamps(node, light);
     const PlacedScene& placed = node.placed();
-    for (const auto& lamp : placed.lights)
-        for (std::size_t l = 0; l < lamps_.size(); ++l)
-            if (lamp.path == lamps_[l] && placed.objects[lamp.object.value].path == object)
-                light.lamps[l].moves = true;
+    const auto moveWith = [&](const auto& lamps) {
+        for (const auto& lamp : lamps)
+            for (std::size_t l = 0; l < lamps_.size(); ++l)
+                if (lamp.path == lamps_[l] && placed.objects[lamp.object.value].path == object)
+                    light.lamps[l].moves = true;
+    };
+    moveWith(placed.lights);
+    moveWith(placed.meshes);
     return light;
 }
 

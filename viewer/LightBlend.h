@@ -33,7 +33,7 @@ struct BlendOptions {
     double seconds = 0.25; ///< that a vertex takes from one light to the next; 0: it jumps
     int points = 16;       ///< of a lamp for its fast shadows, at most 16
     LiveBy by = LiveBy::maps;
-    std::size_t lamps = kMostLampsDrawnLive; ///< drawn live at most, no more than that
+    std::size_t lamps = kMostLampsDrawnLive; ///< emitters drawn live at most, see LampLimits
 };
 
 /// Follows the light of a RadiosityNode such that nothing on the screen jumps: when something

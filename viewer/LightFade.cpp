@@ -16,6 +16,11 @@ Rgb mix(Rgb a, Rgb b, float w) {
     return a + (b - a) * w;
 }
 
+LampFactors mix(LampFactors a, const LampFactors& b, float w) {
+    for (std::size_t l = 0; l < kMostLampsDrawnLive; ++l) a[l] += (b[l] - a[l]) * w;
+    return a;
+}
+
 /// Whether two values differ by no more than 16-bit floats do.
 bool alike(Rgb a, Rgb b) {
     const float most = 2e-3f * std::max(maxChannel(a), maxChannel(b));
@@ -42,7 +47,7 @@ void LightFade::followTopology(const LitGeometry& geometry) {
     shown_.direct.resize(now);
     shown_.indirect.resize(now);
     if (!shown_.factors.empty()) {
-        shown_.factors.resize(now, glm::vec4(-1));
+        shown_.factors.resize(now);
         shown_.behind.resize(now, 0);
     }
     for (std::size_t v = before; v < now; ++v) {
@@ -113,8 +118,8 @@ CornerFade::Over LightFade::beyond(const LitMeshData& data, std::uint32_t vertex
     CornerFade::Over over{light.direct - shown_.direct[vertex],
                           light.indirect - shown_.indirect[vertex]};
     if (shown_.factors.empty()) return over;
-    for (std::size_t l = 0; l < data.lamps.size() && l < 4; ++l) {
-        const float was = light.factors[int(l)], is = shown_.factors[vertex][int(l)];
+    for (std::size_t l = 0; l < data.lamps.size() && l < kMostLampsDrawnLive; ++l) {
+        const float was = light.factors[l], is = shown_.factors[vertex][l];
         if (was >= 0 && is >= 0)
             over.direct -= data.lamps[l].exitance[vertex / kBlock] * (was - is);
     }
@@ -144,10 +149,10 @@ void LightFade::findBorders(const LitMeshData& data) {
 void LightFade::setLamps(std::size_t lamps) {
     assert(behind_ == 0);
     const std::size_t vertices = lamps > 0 ? shown_.direct.size() : 0;
-    shown_.factors.assign(vertices, glm::vec4(-1));
+    shown_.factors.assign(vertices, LampFactors());
     shown_.behind.assign(vertices, 0);
     for (auto& [block, flight] : flights_)
-        for (auto& way : flight.direct) way.from.factors = way.target.factors = glm::vec4(-1);
+        for (auto& way : flight.direct) way.from.factors = way.target.factors = LampFactors();
     for (std::uint64_t& revision : shown_.blockRevisions) ++revision;
     ++shown_.revision;
     std::fill(seen_.begin(), seen_.end(), 0); // all are looked at again
@@ -182,9 +187,9 @@ bool LightFade::ready(const LitMeshData& data, std::size_t vertex, const Frame& 
 LightFade::Direct LightFade::target(const LitMeshData& data, std::size_t vertex) const {
     Direct direct{data.direct[vertex]};
     if (shown_.factors.empty()) return direct;
-    for (std::size_t l = 0; l < data.lamps.size() && l < 4; ++l)
+    for (std::size_t l = 0; l < data.lamps.size() && l < kMostLampsDrawnLive; ++l)
         if (data.lamps[l].known[vertex / kBlock] != LampShare::Known::no)
-            direct.factors[int(l)] = data.lamps[l].factor[vertex];
+            direct.factors[l] = data.lamps[l].factor[vertex];
     return direct;
 }
 
@@ -231,10 +236,9 @@ void LightFade::goOn(std::size_t vertex, Way<Direct>& way, const Frame& frame) {
         return;
     }
     fading_ = true;
-    setShown(
-        vertex,
-        {mix(a.light, b.light, w), glm::mix(a.factors, b.factors, w), a.old + (b.old - a.old) * w},
-        frame);
+    setShown(vertex,
+             {mix(a.light, b.light, w), mix(a.factors, b.factors, w), a.old + (b.old - a.old) * w},
+             frame);
 }
 
 bool LightFade::advanceDirect(const LitMeshData& data, std::size_t vertex, Way<Direct>& way,
@@ -258,7 +262,8 @@ bool LightFade::advanceDirect(const LitMeshData& data, std::size_t vertex, Way<D
         return true;
     }
     way = {now, wanted, frame.time};
-    for (int l = 0; l < 4; ++l) // what was not known is taken to be as it is now
+    for (std::size_t l = 0; l < kMostLampsDrawnLive;
+         ++l) // what was not known is taken to be as it is now
         if (way.from.factors[l] < 0) way.from.factors[l] = wanted.factors[l];
     goOn(vertex, way, frame);
     return way.start == kNever;

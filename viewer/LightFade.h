@@ -72,7 +72,7 @@ private:
 
     struct Direct {
         Rgb light;
-        glm::vec4 factors{-1};
+        LampFactors factors = {};
         float old =
             0; ///< share that the arrangement before, or the one that is behind, has in them
         friend bool operator==(const Direct&, const Direct&) = default;
@@ -98,7 +98,7 @@ private:
     /// What is shown somewhere.
     struct Light {
         Rgb direct, indirect;
-        glm::vec4 factors{-1};
+        LampFactors factors = {};
         float behind = 0;
     };
     void adopt(const LitMeshData& data);

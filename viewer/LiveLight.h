@@ -4,17 +4,17 @@
 #include "radiosity/PatchSet.h"
 #include "scenegraph/LitGeometry.h"
 #include "scenegraph/Rgb.h"
+#include "viewer/ShownLight.h"
 
 #include <glm/glm.hpp>
 
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace penumbra {
 
-constexpr std::size_t kMostLampsDrawnLive = 4; ///< their factors are one attribute of a vertex
+constexpr std::size_t kMostLampsByMaps = 4; ///< their factors are one attribute of a vertex
 
 /// How lit objects and live lamps stand at one time.
 struct Arrangement {
@@ -23,8 +23,10 @@ struct Arrangement {
         bool visible = true;
         friend bool operator==(const Place&, const Place&) = default;
     };
-    std::vector<Place> objects;                ///< as LiveLight::objects
-    std::vector<std::optional<Emitter>> lamps; ///< none: hidden
+    std::vector<Place> objects; ///< as LiveLight::objects
+    /// What they send light from, as radiosity does it: a light is one emitter, a mesh one or more
+    /// [m, world]. None: hidden.
+    std::vector<std::vector<Emitter>> lamps;
 };
 using ArrangementPtr = std::shared_ptr<const Arrangement>;
 
@@ -56,7 +58,7 @@ struct LiveLight {
     };
 
     std::vector<Object> objects; ///< by LitGeometry::object()
-    std::vector<Lamp> lamps;     ///< at most kMostLampsDrawnLive
+    std::vector<Lamp> lamps;     ///< at most kMostLampsDrawnLive; by maps, kMostLampsByMaps
     ArrangementPtr now;
     std::vector<Anchor> anchors; ///< at most 3, none of them now
     int points = 16;             ///< of a lamp, from which shadows are drawn; at most 16

@@ -1,6 +1,7 @@
 #include "viewer/LiveMaps.h"
 
 #include "radiosity/Shaft.h"
+#include "viewer/Arrangements.h"
 
 #include <epoxy/gl.h>
 
@@ -202,8 +203,8 @@ std::size_t LiveMaps::draw(const LiveLight& light, GeometryCache& cache, std::si
     std::size_t drawn = 0;
     const Bounds thing = thingIn(light, at);
     for (std::size_t l = 0; l < lamps.size(); ++l) {
-        if (!at.lamps[l]) continue; // hidden: LiveKind::none
-        const Emitter lamp = placedLamp(*at.lamps[l]);
+        if (!hasShadowMaps(at.lamps[l])) continue; // hidden: LiveKind::none
+        const Emitter lamp = placedLamp(at.lamps[l].front());
         LampMaps& maps = lamps[l];
         maps.reach = {boxOf(lamp), thing, light.lamps[l].moves, l};
         describe(lamp, maps.row);

@@ -19,8 +19,8 @@ constexpr std::array<const char*, kLiveSlots> kPlaceNames{"livePlaces[0]", "live
 constexpr std::array<const char*, kLiveSlots> kNormalNames{"liveNormals[0]", "liveNormals[1]",
                                                            "liveNormals[2]", "liveNormals[3]"};
 
-constexpr std::array<const char*, kMostLampsDrawnLive> kLampNames{"lampList[0]", "lampList[1]",
-                                                                  "lampList[2]", "lampList[3]"};
+constexpr std::array<const char*, kMostLampsByMaps> kLampNames{"lampList[0]", "lampList[1]",
+                                                               "lampList[2]", "lampList[3]"};
 
 } // namespace
 
@@ -81,7 +81,7 @@ unsigned LivePass::reaching(const LitItem& item, const TriangleChunk& chunk) con
 /// The lamps of a mask, one after the other.
 void LivePass::Impl::setLamps(unsigned mask) {
     int count = 0;
-    for (int l = 0; l < int(kMostLampsDrawnLive); ++l)
+    for (int l = 0; l < int(kMostLampsByMaps); ++l)
         if (mask >> l & 1) program.set(kLampNames[std::size_t(count++)], l);
     program.set("liveLamps", count);
 }

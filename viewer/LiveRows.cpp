@@ -40,7 +40,7 @@ bool LiveRows::sameMoves(const LiveLight& light) {
     std::vector<bool> moves, lampMoves;
     for (const auto& object : light.objects) moves.push_back(object.moves);
     for (const auto& lamp : light.lamps) lampMoves.push_back(lamp.moves);
-    const std::vector<std::optional<Emitter>>& lamps = light.now->lamps;
+    const std::vector<std::vector<Emitter>>& lamps = light.now->lamps;
     bool same = moves == moves_ && lampMoves == lampMoves_ && lamps.size() == lamps_.size();
     for (std::size_t l = 0; same && l < lamps.size(); ++l)
         same = lampMoves[l] || sameLamp(lamps[l], lamps_[l]);
@@ -85,7 +85,8 @@ void LiveRows::carryOver(std::uint32_t object, const std::vector<AdoptedVertex>&
 void LiveRows::dropStandIns(std::uint32_t object) {
     const std::size_t first = surfaces_[object].blocks().size();
     const auto isStandIn = [&](const auto& entry) {
-        return entry.first >> 32 == object && std::uint32_t(entry.first) >> 2 >= first;
+        return entry.first >> 32 == object &&
+               std::uint32_t(entry.first) / kMostLampsDrawnLive >= first;
     };
     std::erase_if(clear_, isStandIn);
     for (Slot& slot : slots_) std::erase_if(slot.table, isStandIn);
@@ -94,10 +95,11 @@ void LiveRows::dropStandIns(std::uint32_t object) {
 LiveRows::Slot LiveRows::makeSlot(const LiveLight& light, const ArrangementPtr& of) {
     Slot slot;
     slot.of = of;
-    for (const std::optional<Emitter>& lamp : of->lamps) {
-        const int base = std::min(samples_, int(kBlock));
-        slot.senders.emplace_back();
-        if (lamp) slot.senders.back().emplace(*lamp, base, std::min(4 * base, int(kBlock)));
+    const int base = std::min(samples_, int(kBlock));
+    for (const std::vector<Emitter>& lamp : of->lamps) {
+        std::vector<EmitterSender>& senders = slot.senders.emplace_back();
+        for (const Emitter& emitter : lamp)
+            senders.emplace_back(emitter, base, std::min(4 * base, int(kBlock)));
     }
     for (std::uint32_t o = 0; o < surfaces_.size(); ++o) {
         if (!light.objects[o].moves || !surfaces_[o]) continue;
@@ -129,12 +131,12 @@ void LiveRows::chooseSlots(const LiveLight& light) {
 unsigned LiveRows::lampsThrough(const LiveLight& light, const Slot& slot, const Bounds& box) const {
     unsigned lamps = 0;
     for (std::size_t l = 0; l < light.lamps.size(); ++l) {
-        const auto inTheWay = [&](const Bounds& thing) {
-            return shaftMeets(slot.senders[l]->box(), box, thing);
+        const auto crossed = [&](const EmitterSender& sender) {
+            return std::any_of(slot.things.begin(), slot.things.end(), [&](const Bounds& thing) {
+                return shaftMeets(sender.box(), box, thing);
+            });
         };
-        if (light.lamps[l].moves ||
-            (slot.senders[l] && std::any_of(slot.things.begin(), slot.things.end(), inTheWay)))
-            lamps |= 1u << l;
+        if (light.lamps[l].moves || std::ranges::any_of(slot.senders[l], crossed)) lamps |= 1u << l;
     }
     return lamps;
 }
@@ -289,9 +291,14 @@ void LiveRows::forget() {
 
 float LiveRows::unoccluded(const Reached& at, std::size_t lamp, std::size_t vertex) const {
     const Slot& now = slots_.front();
-    if (!now.senders[lamp]) return 0;
     const Receiver receiver = ownReceiver(now, at.object, vertex);
-    return isPadding(receiver) ? 0 : now.senders[lamp]->formFactor(receiver);
+    return isPadding(receiver) ? 0 : unoccluded(now.senders[lamp], receiver);
+}
+
+float LiveRows::unoccluded(std::span<const EmitterSender> lamp, const Receiver& receiver) {
+    float sum = 0;
+    for (const EmitterSender& sender : lamp) sum += sender.formFactor(receiver);
+    return sum;
 }
 
 } // namespace penumbra

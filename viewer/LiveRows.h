@@ -90,7 +90,7 @@ private:
     using Table = std::unordered_map<Key, Known>;
     struct Slot {
         ArrangementPtr of;
-        std::vector<std::optional<EmitterSender>> senders; ///< by lamp; none: hidden
+        std::vector<std::vector<EmitterSender>> senders; ///< by lamp; none: hidden
         std::vector<Bounds> things; ///< boxes around what moves, one a thing [m, world]
         std::unordered_map<std::uint32_t, Pose> poses; ///< of objects that move
         std::vector<TouchedCorner> touched;
@@ -111,8 +111,9 @@ private:
         return Key(object) << 32 | piece;
     }
     static Key keyOf(const Reached& at, std::size_t lamp) {
-        return keyOf(at.object, std::uint64_t(at.block) << 2 | lamp);
+        return keyOf(at.object, at.block * std::uint64_t(kMostLampsDrawnLive) + lamp);
     }
+    static float unoccluded(std::span<const EmitterSender> lamp, const Receiver& receiver);
 
     bool sameMoves(const LiveLight& light);
     void followTriangles(const ShownOf& shown);
@@ -145,7 +146,7 @@ private:
     std::vector<Slot> slots_;
     Table clear_; ///< where nothing that moves is in the way
     std::vector<bool> moves_, lampMoves_;
-    std::vector<std::optional<Emitter>> lamps_; ///< that clear_ is of
+    std::vector<std::vector<Emitter>> lamps_; ///< that clear_ is of
     std::vector<Reached> reached_;
     std::vector<Touched> touched_;
 };

@@ -26,8 +26,10 @@ bool LiveRows::isClear(const Task& task, std::size_t vertex, const Receiver& rec
             if (thing.overlaps(around)) return false;
     }
     const Bounds place{receiver.position, receiver.position};
-    return std::none_of(slot.things.begin(), slot.things.end(), [&](const Bounds& thing) {
-        return shaftMeets(slot.senders[task.lamp]->box(), place, thing);
+    return std::ranges::none_of(slot.senders[task.lamp], [&](const EmitterSender& sender) {
+        return std::ranges::any_of(slot.things, [&](const Bounds& thing) {
+            return shaftMeets(sender.box(), place, thing);
+        });
     });
 }
 
@@ -43,13 +45,15 @@ void LiveRows::run(const Task& task, RowBuilder& builder) const {
         if (isClear(task, begin + i, receivers[i])) clear |= bit;
         if (!(clear & bit) || !(task.clear->vertices & bit)) wanted |= bit;
     }
-    if (wanted != 0) {
+    for (std::uint64_t bits = wanted & clear; bits != 0; bits &= bits - 1)
+        task.clear->factors[std::size_t(std::countr_zero(bits))] = 0;
+    for (const EmitterSender& sender : task.slot->senders[task.lamp]) {
+        if (wanted == 0) break;
         RowBlock block;
-        builder.updateEmitterBlock(*task.slot->senders[task.lamp], {receivers, wanted, 0}, wanted,
-                                   {}, block);
+        builder.updateEmitterBlock(sender, {receivers, wanted, 0}, wanted, {}, block);
         block.forEach([&](int i, float factor) {
             Known& known = clear >> i & 1 ? *task.clear : *task.known;
-            known.factors[std::size_t(i)] = factor;
+            known.factors[std::size_t(i)] += factor;
         });
     }
     if (clear == 0) return;
@@ -98,7 +102,7 @@ void LiveRows::trace(const LiveLight& light, Slot& slot) {
             known.vertices |= missing;
             for (std::uint64_t bits = missing; bits != 0; bits &= bits - 1)
                 known.factors[std::size_t(std::countr_zero(bits))] = 0;
-            if (missing == 0 || !slot.senders[l]) continue;
+            if (missing == 0 || slot.senders[l].empty()) continue;
             const bool some = inTheWay && !moves && !light.lamps[l].moves;
             tasks.push_back(
                 {&slot, &at, l, &known, some ? &clear_[keyOf(at, l)] : nullptr, missing});
@@ -129,18 +133,18 @@ void LiveRows::traceTouched() {
             const std::size_t lamp = job % now.senders.size();
             const std::size_t begin = job / now.senders.size() * kBlock;
             const std::size_t count = std::min(kBlock, touched_.size() - begin);
-            if (!now.senders[lamp]) continue;
             const std::uint64_t all = ~std::uint64_t(0) >> (kBlock - count);
-            RowBlock block;
-            builder.updateEmitterBlock(*now.senders[lamp],
-                                       {std::span(receivers).subspan(begin, count), all, 0}, all,
-                                       {}, block);
-            block.forEach([&](int i, float factor) {
-                touched_[begin + std::size_t(i)].factors[lamp] = factor;
-            });
+            for (const EmitterSender& sender : now.senders[lamp]) {
+                RowBlock block;
+                builder.updateEmitterBlock(
+                    sender, {std::span(receivers).subspan(begin, count), all, 0}, all, {}, block);
+                block.forEach([&](int i, float factor) {
+                    touched_[begin + std::size_t(i)].factors[lamp] += factor;
+                });
+            }
             for (std::size_t i = 0; i < count; ++i)
                 touched_[begin + i].unoccluded[lamp] =
-                    now.senders[lamp]->formFactor(receivers[begin + i]);
+                    unoccluded(now.senders[lamp], receivers[begin + i]);
         }
     });
 }

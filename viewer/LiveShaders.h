@@ -1,6 +1,8 @@
 // The text of the shader that draws lamps live, GLSL 3.30; see LiveLight.
 #pragma once
 
+#include "viewer/LiveLight.h"
+
 #include <string>
 
 namespace penumbra {
@@ -22,7 +24,7 @@ std::string liveVertexShader();
 ///     11           depth of the maps of what moves: a, b; of what does not: a, b
 ///     12 + 2 k     point k, scale x;  13 + 2 k: scale y, offset x, offset y
 enum class LiveKind { none, quad, disk, sphere };
-constexpr int kLiveRows = 4;
+constexpr int kLiveRows = int(kMostLampsByMaps);
 constexpr int kLiveColumns = 12 + 2 * 16;
 constexpr int kLiveSlots = 4;
 

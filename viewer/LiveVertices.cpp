@@ -76,7 +76,7 @@ float LiveVertices::change(const LiveLight& light, const ShownLight& from, const
         const float share = glm::mix(anchor.rest, anchor.behind, from.behind[vertex]);
         change += share * (now - (*then[a])[vertex % kBlock]);
     }
-    const float known = from.factors[vertex][int(lamp)];
+    const float known = from.factors[vertex][lamp];
     if (known < 0) return change;
     if (change > 0) change = std::min(change, std::max(0.0f, unoccluded() - known));
     return std::max(change, -known);

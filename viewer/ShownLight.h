@@ -3,13 +3,26 @@
 
 #include "scenegraph/Rgb.h"
 
-#include <glm/glm.hpp>
-
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 namespace penumbra {
+
+constexpr std::size_t kMostLampsDrawnLive = 8;
+
+/// Factors (see LampShare) of the live lamps at a vertex; negative: not known.
+struct LampFactors {
+    LampFactors() : LampFactors(-1) {}
+    explicit LampFactors(float all) { of.fill(all); }
+    float& operator[](std::size_t lamp) { return of[lamp]; }
+    float operator[](std::size_t lamp) const { return of[lamp]; }
+    friend bool operator==(const LampFactors&, const LampFactors&) = default;
+
+    std::array<float, kMostLampsDrawnLive> of;
+};
 
 /// A vertex that began with the light of another one, in whose place triangles have it.
 struct AdoptedVertex {
@@ -19,9 +32,8 @@ struct AdoptedVertex {
 /// In place of what a LitGeometry carries: the same vertices, in the same blocks.
 struct ShownLight {
     std::vector<Rgb> direct, indirect; ///< [lux]
-    /// Factors (see LampShare) of up to four live lamps that direct contains; negative: not known.
-    /// Empty: there are no live lamps.
-    std::vector<glm::vec4> factors;
+    /// Of the live lamps, that direct contains. Empty: there are none.
+    std::vector<LampFactors> factors;
     /// Share of the light that is of the arrangement which most vertices have left behind, in
     /// [0, 1] (see LiveLight::Anchor). As long as factors.
     std::vector<float> behind;

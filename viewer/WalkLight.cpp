@@ -1,7 +1,5 @@
 #include "viewer/WalkLight.h"
 
-#include "scenegraph/Light.h"
-#include "viewer/LampChoice.h"
 #include "viewer/Walkthrough.h"
 
 #include <algorithm>
@@ -14,8 +12,9 @@ WalkLight::WalkLight(const Walkthrough& walk, const RadiosityOptions& options,
                      std::unique_ptr<LightingLink> link, const BlendOptions& blend)
     : scene_(*walk.scene().root),
       node_(std::make_shared<RadiosityNode>("lit", options, std::move(link))), blend_(blend),
-      mostLamps_(std::min(blend.lamps, kMostLampsDrawnLive)), trigger_(options.trigger),
+      by_(blend.by), limits_(lampLimits(blend.by)), trigger_(options.trigger),
       order_(options.solving.order) {
+    limits_.most = std::min(limits_.most, blend.lamps);
     node_->add(walk.scene().root);
     if (blend.by == LiveBy::rays)
         vertices_.emplace(options.solving.samples, [this] { return node_->patches(); });
@@ -31,18 +30,16 @@ void WalkLight::setTrigger(Trigger trigger) {
 void WalkLight::chooseLamps(const Walkthrough& walk) {
     const auto& selection = walk.selection();
     if (!selection || !selection->movable()) return; // what was selected may be moved by undo
-    if (lampsFor_ == selection->object && lampsOf_ == walk.revision()) return;
+    if (lampsFor_ == selection->object && lampsOf_ == walk.revision() && lampsLit_ == complete())
+        return; // meshes that shine are known when they are lit
     const bool inHand = lampsFor_ == selection->object && walk.inHand();
     if (inHand) return; // no other lamps in the middle of a move
     lampsFor_ = selection->object;
     lampsOf_ = walk.revision();
-    const auto& lights = node_->placed().lights; // the same ones; the paths begin at the node
-    std::vector<std::string> paths;
-    for (const std::size_t l :
-         lampsThatMatter(walk.placed(), walk.rays(), selection->object, mostLamps_))
-        if (l < lights.size() && lights[l].node == walk.placed().lights[l].node)
-            paths.push_back(lights[l].path);
-    blend_.want(std::move(paths));
+    lampsLit_ = complete();
+    // The node's objects are the walkthrough's; its paths begin at the node.
+    blend_.want(
+        lampsThatMatter(lampsDrawable(*node_, by_), walk.rays(), selection->object, limits_));
 }
 
 /// By rays: brings the light of vertices up to date while something moves, and is ready for that

@@ -6,6 +6,7 @@
 #include "scenegraph/Frustum.h"
 #include "viewer/BlockAges.h"
 #include "viewer/DrawList.h"
+#include "viewer/LampChoice.h"
 #include "viewer/LightBlend.h"
 #include "viewer/LiveVertices.h"
 
@@ -77,7 +78,9 @@ private:
     BlockAges ages_;
     std::optional<LiveVertices> vertices_; ///< with LiveBy::rays
     LiveLight none_;
-    std::size_t mostLamps_;     ///< drawn live
+    LiveBy by_;
+    LampLimits limits_;
+    bool lampsLit_ = false;     ///< lampsFor_ was answered when all was lit
     std::uint64_t lampsOf_ = 0; ///< revision of the walkthrough, and
     ObjectId lampsFor_;         ///< the object, that live lamps were chosen for
     std::shared_ptr<const Transform> inHand_;

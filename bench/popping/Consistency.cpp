@@ -3,13 +3,12 @@
 #include "LoadScene.h"
 
 #include "radiosity/EmitterSender.h"
-#include "radiosity/LightShapes.h"
 #include "radiosity/RadiosityNode.h"
 #include "radiosity/process/LightingLink.h"
 #include "scenegraph/Frustum.h"
-#include "scenegraph/Light.h"
 #include "viewer/Arrangements.h"
 #include "viewer/InteractiveRenderer.h"
+#include "viewer/LampChoice.h"
 #include "viewer/LiveStage.h"
 #include "viewer/LiveVertices.h"
 #include "viewer/OffscreenContext.h"
@@ -21,7 +20,6 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <numbers>
 #include <thread>
 #include <vector>
 
@@ -43,14 +41,14 @@ public:
         node_ = std::make_shared<RadiosityNode>("lit", options_, makeThreadLink());
         node_->add(walk_.scene().root);
         node_->update();
-        for (const auto& light : node_->placed().lights)
-            if (canBeDrawnLive(lightEmitter(*light.node, light.toWorld)))
-                lamps_.push_back(light.path);
     }
 
     Consistency compare() {
-        for (std::size_t first = 0; first < lamps_.size(); first += kMostLampsDrawnLive) {
-            const std::size_t end = std::min(first + kMostLampsDrawnLive, lamps_.size());
+        settle(); // meshes that shine are known when they are lit
+        for (const Lamp& lamp : lampsDrawable(*node_, by_)) lamps_.push_back(lamp.path);
+        const std::size_t atOnce = lampLimits(by_).most;
+        for (std::size_t first = 0; first < lamps_.size(); first += atOnce) {
+            const std::size_t end = std::min(first + atOnce, lamps_.size());
             group_.assign(lamps_.begin() + std::ptrdiff_t(first),
                           lamps_.begin() + std::ptrdiff_t(end));
             compareGroup();
@@ -90,7 +88,7 @@ private:
             const std::size_t vertices = objects[o].geometry->data().positions.size();
             for (std::size_t v = 0; v < vertices; ++v) to.direct.push_back(light(o, v));
             to.indirect.assign(vertices, Rgb());
-            to.factors.assign(vertices, glm::vec4(-1));
+            to.factors.assign(vertices, LampFactors());
             to.behind.assign(vertices, 0);
             to.blockRevisions.assign(objects[o].geometry->blockRevisions().size(), ++revision_);
             to.revision = revision_;
@@ -110,21 +108,19 @@ private:
         renderer_.drawScene(list, view, {}, size_.x, size_.y, rays ? LiveLight() : live);
         return renderer_.readLuminances();
     }
-    Rgb exitance(std::size_t lamp) const {
-        for (const auto& light : node_->placed().lights)
-            if (light.path == group_[lamp])
-                return light.node->luminance() * std::numbers::pi_v<float>;
-        return {};
-    }
+    Rgb exitance(std::size_t lamp) const { return exitanceOf(node_->placed(), group_[lamp]); }
     /// Nothing is in the way of any of the lamps, as far as it shines there at all.
-    bool sees(const LiveStage& stage, const std::vector<EmitterSender>& senders,
-              std::uint32_t object, std::size_t vertex) const {
+    using Senders = std::vector<std::vector<EmitterSender>>; ///< by lamp
+    bool sees(const LiveStage& stage, const Senders& senders, std::uint32_t object,
+              std::size_t vertex) const {
         if (vertex >= stage.vertices(object)) return false; // something touches it
         const LitMeshData& data = node_->objects()[object].geometry->data();
         const Receiver receiver = stage.receiver(object, vertex);
-        for (std::size_t l = 0; l < senders.size(); ++l)
-            if (data.lamps[l].factor[vertex] < kSeen * senders[l].formFactor(receiver))
-                return false;
+        for (std::size_t l = 0; l < senders.size(); ++l) {
+            float all = 0;
+            for (const EmitterSender& sender : senders[l]) all += sender.formFactor(receiver);
+            if (data.lamps[l].factor[vertex] < kSeen * all) return false;
+        }
         return true;
     }
     /// As if the lamps had been dark before, so that all of their light is drawn live.
@@ -134,7 +130,7 @@ private:
         for (std::size_t l = 0; l < group_.size(); ++l) live.lamps.push_back({exitance(l), true});
         live.now = now;
         auto dark = std::make_shared<Arrangement>(*now);
-        for (auto& lamp : dark->lamps) lamp.reset();
+        for (auto& lamp : dark->lamps) lamp.clear();
         live.anchors.push_back({std::move(dark), 1, 0});
         return live;
     }
@@ -144,8 +140,9 @@ private:
         const auto now = std::make_shared<const Arrangement>(arrangementOf(*node_, group_));
         LiveStage stage(*node_->patches());
         stage.stand(*now);
-        std::vector<EmitterSender> senders;
-        for (const auto& lamp : now->lamps) senders.emplace_back(*lamp, 16, 16);
+        Senders senders(now->lamps.size());
+        for (std::size_t l = 0; l < senders.size(); ++l)
+            for (const Emitter& emitter : now->lamps[l]) senders[l].emplace_back(emitter, 16, 16);
         show([&](std::uint32_t object, std::size_t vertex) {
             const LitMeshData& data = node_->objects()[object].geometry->data();
             Rgb sum;

@@ -76,6 +76,35 @@ void writeRays(ByteWriter& out, const ObjectPart& part, const RayMesh& rays) {
     out.list(rays.solid);
 }
 
+void writeEmitters(ByteWriter& out, const LitScene& scene, const GraphCopy& graph,
+                   const ObjectPart& part) {
+    const PatchSet& set = scene.patches();
+    std::vector<std::uint32_t> meshes; // the others are lights
+    for (std::uint32_t i = 0; i < part.emitters.count; ++i)
+        if (scene.built().emitterSources[part.emitters.first + i].material) meshes.push_back(i);
+    out.put(std::uint64_t(meshes.size()));
+    for (const std::uint32_t i : meshes) {
+        const std::uint32_t e = part.emitters.first + i;
+        const Emitter& emitter = part.movable ? part.shape.emitters[i] : set.emitters[e];
+        out.text(emitter.path);
+        out.put(graph.numberOf(scene.built().emitterSources[e].material));
+        out.put(std::uint64_t(emitter.polygons.size()));
+        for (const auto& polygon : emitter.polygons) out.list(polygon);
+    }
+}
+
+std::vector<LitMeshEmitter> readEmitters(ByteReader& in) {
+    constexpr std::size_t kLength = sizeof(std::uint64_t); // that of a list, at least
+    std::vector<LitMeshEmitter> emitters(in.count(kLength));
+    for (LitMeshEmitter& emitter : emitters) {
+        emitter.path = in.text();
+        emitter.material = in.get<std::uint32_t>();
+        emitter.polygons.resize(in.count(kLength));
+        for (auto& polygon : emitter.polygons) polygon = in.list<glm::vec3>();
+    }
+    return emitters;
+}
+
 } // namespace
 
 std::vector<std::byte> describeMesh(const LitScene& scene, const GraphCopy& graph,
@@ -97,6 +126,7 @@ std::vector<std::byte> describeMesh(const LitScene& scene, const GraphCopy& grap
         writeVertices(out, set, part, blocks * kBlock);
         writeElements(out, set, o, elements[o]);
         writeRays(out, part, set.rayMeshes[o]);
+        writeEmitters(out, scene, graph, part);
     }
     return out.take();
 }
@@ -133,6 +163,7 @@ std::optional<LitMeshObject> LitMeshReader::next() {
     object.rays.vertices = reader_.list<glm::vec3>();
     object.rays.triangles = reader_.list<std::array<std::uint32_t, 3>>();
     object.rays.solid = reader_.list<std::uint8_t>();
+    object.emitters = readEmitters(reader_);
     if (!reader_.ok() || !sound(object)) {
         reader_.fail();
         return std::nullopt;
@@ -154,6 +185,12 @@ bool sound(const RayMesh& rays) {
            });
 }
 
+bool sound(const LitMeshEmitter& emitter) {
+    return std::all_of(emitter.polygons.begin(), emitter.polygons.end(), [](const auto& polygon) {
+        return polygon.size() >= 3 && std::all_of(polygon.begin(), polygon.end(), canBeTraced);
+    });
+}
+
 } // namespace
 
 bool LitMeshReader::sound(const LitMeshObject& object) const {
@@ -167,6 +204,8 @@ bool LitMeshReader::sound(const LitMeshObject& object) const {
                           vertices / kBlock <= blocks_ - object.firstBlock);
     return vertices % kBlock == 0 && place && object.normals.size() == vertices &&
            object.receivers.size() == vertices && penumbra::sound(object.rays) &&
+           std::all_of(object.emitters.begin(), object.emitters.end(),
+                       [](const LitMeshEmitter& emitter) { return penumbra::sound(emitter); }) &&
            object.elementMaterial.size() == object.elements.size() &&
            object.elementPatch.size() == object.elements.size() &&
            std::all_of(object.positions.begin(), object.positions.end(), canBeTraced) &&

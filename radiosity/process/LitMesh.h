@@ -18,6 +18,13 @@ namespace penumbra {
 class GraphCopy;
 class LitScene;
 
+/// Faces of a mesh that shine, as one sender of direct light: one of PatchSet::emitters.
+struct LitMeshEmitter {
+    std::string path;                             ///< of the mesh
+    std::uint32_t material = 0;                   ///< a number of the graph image
+    std::vector<std::vector<glm::vec3>> polygons; ///< in the frame of the vertices [m]
+};
+
 /// One object. Its vertices are those of its blocks, so a multiple of PatchSet::kBlock; padding
 /// lies at the origin.
 struct LitMeshObject {
@@ -33,6 +40,7 @@ struct LitMeshObject {
     std::vector<std::uint32_t> elementPatch; ///< any number, the same for those of one patch;
                                              ///< Element::kNone: covered all over
     RayMesh rays;                            ///< what blocks rays
+    std::vector<LitMeshEmitter> emitters;    ///< of its meshes; lights the graph knows of
 };
 
 /// Where a colour comes from: numbers of the graph image, kNone if there is none.

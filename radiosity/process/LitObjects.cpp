@@ -1,5 +1,6 @@
 #include "radiosity/process/LitObjects.h"
 
+#include "radiosity/LightShapes.h"
 #include "radiosity/process/LitPatches.h"
 #include "scenegraph/Error.h"
 
@@ -35,6 +36,27 @@ void clearLamps(LitMeshData& data, std::size_t count) {
     const std::size_t blocks = data.positions.size() / kBlock;
     data.lamps.assign(count, {std::vector<float>(data.positions.size()),
                               std::vector<LampShare::Known>(blocks), std::vector<Rgb>(blocks)});
+}
+
+/// Emitters of one mesh follow each other. Meshes with several materials that shine are left out:
+/// one factor says nothing of two brightnesses.
+std::vector<ShiningMesh> shiningOf(std::vector<LitMeshEmitter> emitters) {
+    std::vector<ShiningMesh> shining;
+    for (std::size_t first = 0, end = 0; first < emitters.size(); first = end) {
+        bool alike = true;
+        for (end = first + 1; end < emitters.size() && emitters[end].path == emitters[first].path;
+             ++end)
+            alike &= emitters[end].material == emitters[first].material;
+        if (!alike) continue;
+        ShiningMesh& mesh = shining.emplace_back(std::move(emitters[first].path));
+        for (std::size_t e = first; e < end; ++e) {
+            Emitter& emitter = mesh.emitters.emplace_back();
+            emitter.path = mesh.path;
+            emitter.polygons = std::move(emitters[e].polygons);
+            for (const auto& polygon : emitter.polygons) emitter.area += polygonArea(polygon);
+        }
+    }
+    return shining;
 }
 
 } // namespace
@@ -108,7 +130,8 @@ void LitObjects::takeObject(const Colour& colour) {
     missing_ += part.missing;
     changedParts_.push_back(number);
     parts_.push_back(std::move(part));
-    entries_.push_back({std::move(object->path), object->toObject, nullptr});
+    entries_.push_back({std::move(object->path), object->toObject, nullptr,
+                        shiningOf(std::move(object->emitters))});
 }
 
 /// Changes an object's data, wherever it is, in a way that concerns its triangles.

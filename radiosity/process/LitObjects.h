@@ -47,6 +47,7 @@ public:
         std::string path;
         glm::dmat4 toObject{1.0};
         std::shared_ptr<LitGeometry> geometry; ///< null: not all of it has light
+        std::vector<ShiningMesh> shining;
     };
     const std::vector<Entry>& entries() const { return entries_; }
     const MeshingOptions& sizes() const { return mesh_.head().sizes; }

@@ -84,6 +84,19 @@ inline NodePtr ceilingLamp(glm::vec3 centre, float width, float height, Rgb nits
                   {std::make_shared<Light>("light", RectShape{width, height}, nits)});
 }
 
+/// Two squares of 0.3 m that shine down from 2 m, 2 m apart, with backs of another material that
+/// does not: too far from each other to be one emitter in a mesh of patches below a metre.
+inline MeshData twoPanels(std::shared_ptr<Material> one, std::shared_ptr<Material> other) {
+    MeshData mesh;
+    for (const float x : {-1.0f, 1.0f}) {
+        addBox(mesh, {x - 0.15f, -0.15f, 2}, {x + 0.15f, 0.15f, 2.02f}, false, {4, 5});
+        mesh.faceMaterial.push_back(x < 0 ? 0 : 1);
+        mesh.faceMaterial.push_back(2);
+    }
+    mesh.materials = {std::move(one), std::move(other), paint(Rgb(0.5f))};
+    return mesh;
+}
+
 /// A scene with everything that is computed from it.
 struct Solution {
     Scene scene;

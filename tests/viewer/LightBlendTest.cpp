@@ -61,7 +61,7 @@ public:
     }
     bool begin() {
         if (!rest()) return false;
-        blend.want(LiveRoom::paths());
+        blend.want({"/lamp/light"});
         return rest();
     }
     void take(double x) {

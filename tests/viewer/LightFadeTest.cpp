@@ -158,9 +158,9 @@ TEST(LightFade, IndirectLightThatMayNotSetOutYetFinishesItsWayAndWaits) {
 TEST(LightFade, LampsThatBecomeKnownChangeNothingOfWhatIsSeen) {
     Surface surface;
     surface.fade.setLamps(1);
-    EXPECT_LT(surface.fade.shown().factors[5].x, 0);
+    EXPECT_LT(surface.fade.shown().factors[5][0], 0);
     surface.show(1);
-    EXPECT_EQ(surface.fade.shown().factors[5].x, 0.5f);
+    EXPECT_EQ(surface.fade.shown().factors[5][0], 0.5f);
     EXPECT_EQ(surface.direct(), 100);
     EXPECT_FALSE(surface.fade.changing());
 }
@@ -353,7 +353,7 @@ TEST(LightFade, ACornerThatIsDrawnWithASharedVertexAgainKeepsNoLightOfLiveLamps)
     surface.setLast(70);
     surface.show(3);
     EXPECT_EQ(surface.corner(), 275) << "250 of other lamps, and what the vertex has of this one";
-    EXPECT_EQ(surface.fade.shown().factors.back().x, 0.25f);
+    EXPECT_EQ(surface.fade.shown().factors.back()[0], 0.25f);
 }
 
 TEST(LightFade, GoesOnFromWhatWasShownWhenTheSurfaceComesAnew) {

@@ -35,7 +35,7 @@ protected:
         EXPECT_TRUE(room.settle());
         const ArrangementPtr now = room.arrangement();
         Arrangement dark = *now;
-        dark.lamps[0].reset();
+        dark.lamps[0].clear();
 
         InteractiveRenderer interactive(options());
         room.show(ownLight);
@@ -72,7 +72,7 @@ protected:
         for (auto& [geometry, light] : room.shown)
             for (std::size_t v = 0; v < light.direct.size(); ++v)
                 light.factors[v] =
-                    glm::vec4(light.direct[v].r / (room.room.light->luminance().r * 3.14159265f));
+                    LampFactors(light.direct[v].r / (room.room.light->luminance().r * 3.14159265f));
     }
     static glm::dmat4 lifted() {
         return glm::translate(glm::dmat4(1.0), glm::dvec3(0.3, 0.2, 0.5));
@@ -182,7 +182,7 @@ TEST_P(LiveLightTest, ACopyOfAVertexIsBroughtUpToDateAsThatIs) {
             light.redrawn.emplace_back(i, i);
             light.direct.push_back(Rgb(light.direct[indices[i]]));
             light.indirect.push_back(Rgb(light.indirect[indices[i]]));
-            light.factors.push_back(glm::vec4(light.factors[indices[i]]));
+            light.factors.push_back(LampFactors(light.factors[indices[i]]));
             light.behind.push_back(0);
         }
         const std::size_t blocks = (light.direct.size() + 63) / LitGeometry::kBlock;

@@ -32,14 +32,13 @@ inline RadiosityOptions fineRoom() {
 class LiveRoom {
 public:
     explicit LiveRoom(const RadiosityOptions& options = fineRoom(),
-                      const LightShape& lamp = RectShape{0.5f, 0.5f}, double lampHeight = 2.4)
-        : room(makeThreadLink(), options, lamp, lampHeight) {}
+                      const LightShape& shape = RectShape{0.5f, 0.5f}, double lampHeight = 2.4)
+        : room(makeThreadLink(), options, shape, lampHeight) {}
 
     bool settle() { return updateUntilSettled(*room.node); }
     ArrangementPtr arrangement() const {
-        return std::make_shared<Arrangement>(arrangementOf(*room.node, paths()));
+        return std::make_shared<Arrangement>(arrangementOf(*room.node, {&lamp, 1}));
     }
-    static std::vector<std::string> paths() { return {"/lamp/light"}; }
 
     /// \param light the light that each vertex carries
     using LightOf = std::function<Rgb(const LitMeshData&, std::size_t vertex)>;
@@ -51,7 +50,7 @@ public:
             for (std::size_t v = 0; v < data.positions.size(); ++v)
                 to.direct.push_back(light(data, v));
             to.indirect.assign(data.positions.size(), Rgb());
-            to.factors.assign(data.positions.size(), glm::vec4(-1));
+            to.factors.assign(data.positions.size(), LampFactors());
             to.behind.assign(data.positions.size(), 0);
             to.blockRevisions.assign(object.geometry->blockRevisions().size(), ++revision);
             to.revision = revision;
@@ -59,7 +58,7 @@ public:
     }
     /// What the lamp gives to a vertex of an object when nothing is in the way, over its exitance.
     float unoccluded(const LitObject& object, const ArrangementPtr& at, std::size_t vertex) const {
-        const EmitterSender sender(*at->lamps[0], 16, 16);
+        const EmitterSender sender(at->lamps[0].front(), 16, 16);
         const LitMeshData& data = object.geometry->data();
         const glm::dmat4 place = object.toNode * object.toObject;
         Receiver receiver;
@@ -69,14 +68,14 @@ public:
         return sender.formFactor(receiver);
     }
 
+    Rgb exitance() const { return exitanceOf(room.node->placed(), lamp); }
     LiveLight live(ArrangementPtr now, ArrangementPtr then) const {
         LiveLight live;
         for (const LitObject& object : room.node->objects())
             live.objects.push_back({object.geometry, false});
         for (std::size_t o = 0; o < live.objects.size(); ++o)
             live.objects[o].moves = !(now->objects[o] == then->objects[o]);
-        live.lamps.push_back({room.light->luminance() * 3.14159265f,
-                              now->lamps[0].has_value() != then->lamps[0].has_value()});
+        live.lamps.push_back({exitance(), !sameLamp(now->lamps[0], then->lamps[0])});
         live.now = std::move(now);
         live.anchors.push_back({std::move(then), 1, 0});
         return live;
@@ -108,6 +107,7 @@ public:
     }
 
     LitRoom room;
+    std::string lamp = "/lamp/light"; ///< that is drawn live
     std::map<const LitGeometry*, ShownLight> shown;
     std::uint64_t revision = 1;
 };

@@ -27,17 +27,40 @@ glm::dmat4 standing(double x, double y, double angle) {
 struct StandingRoom : LiveRoom {
     explicit StandingRoom(const glm::dmat4& place) : LiveRoom(directRoom()) {
         room.box->setMatrix(place);
+        settleAndShow();
+    }
+    void settleAndShow() {
         EXPECT_TRUE(settle());
         show(ownLight);
-        const Rgb exitance = room.light->luminance() * 3.14159265f;
         for (const LitObject& object : room.node->objects())
             for (std::size_t v = 0; v < object.geometry->data().positions.size(); ++v)
                 shown[object.geometry.get()].factors[v] =
-                    glm::vec4(object.geometry->data().direct[v].r / exitance.r);
+                    LampFactors(object.geometry->data().direct[v].r / exitance().r);
     }
+
+protected:
+    StandingRoom() : LiveRoom(directRoom()) {}
+
+public:
     LiveVertices vertices{directRoom().solving.samples, [this] { return room.node->patches(); }};
     LiveVertices::ShownOf shownOf() {
         return [this](const LitGeometry& geometry) { return &shown[&geometry]; };
+    }
+};
+
+/// The same with a movable mesh that shines in place of the lamp.
+struct GlowingRoom : StandingRoom {
+    GlowingRoom(const glm::dmat4& place, const glm::dmat4& panels) {
+        const auto glow = paint(Rgb(), Rgb(40));
+        const auto mesh = std::make_shared<Mesh>("mesh", twoPanels(glow, glow));
+        const auto thing = movable("panels", {mesh});
+        thing->setMatrix(panels);
+        room.node->add(thing);
+        room.light->setLuminance(Rgb());
+        room.box->setMatrix(place);
+        lamp = "/panels/mesh";
+        settleAndShow();
+        EXPECT_EQ(arrangement()->lamps[0].size(), 2u) << "emitters";
     }
 };
 
@@ -110,6 +133,19 @@ TEST(LiveVertices, AThingThatIsDraggedAlongLeavesNoTrace) {
         before.vertices.update(before.live(std::make_shared<Arrangement>(now), then),
                                before.shownOf());
     }
+    EXPECT_EQ(differing(before, after), 0u);
+}
+
+TEST(LiveVertices, AThingThatMovesShadesAMeshThatShinesAsRadiosityHasIt) {
+    const glm::dmat4 hung = glm::translate(glm::dmat4(1.0), glm::dvec3(0.2, 0.3, 0));
+    GlowingRoom before(standing(0.3, 0.2, 0.3), hung), after(standing(-0.53, 0.61, 0.8), hung);
+    EXPECT_EQ(differing(before, after), 0u);
+}
+
+TEST(LiveVertices, AMeshThatShinesTakesItsLightAlong) {
+    const glm::dmat4 box = standing(0.3, 0.2, 0.3);
+    GlowingRoom before(box, glm::translate(glm::dmat4(1.0), glm::dvec3(0.2, 0.3, 0)));
+    GlowingRoom after(box, standing(-0.4, -0.3, 0.7));
     EXPECT_EQ(differing(before, after), 0u);
 }
 

@@ -60,6 +60,32 @@ TEST(LitPatches, AreLitAndTouchedWhereTheWorkersAre) {
     }
 }
 
+TEST(LitPatches, AMeshThatShinesDoesSoFromTheWorkersEmitters) {
+    LitRoom room;
+    const auto glow = paint(Rgb(), Rgb(40));
+    const auto panels = movable("panels", {std::make_shared<Mesh>("mesh", twoPanels(glow, glow))});
+    panels->setMatrix(glm::rotate(moved(0.1, 0.2, 0.1), 0.3, glm::dvec3(0, 0, 1)));
+    room.node->add(panels);
+    ASSERT_TRUE(updateUntilSettled(*room.node));
+    const LitScene scene(room.node->placed(), room.options.meshing, room.options.solving);
+
+    std::vector<Emitter> emitters, expected;
+    for (const LitObject& object : room.node->objects())
+        for (const ShiningMesh& mesh : object.shining) {
+            EXPECT_EQ(mesh.path, "/panels/mesh");
+            const Pose pose = placementOf(object.toNode * object.toObject).pose;
+            for (const Emitter& own : mesh.emitters) emitters.push_back(placedEmitter(own, pose));
+        }
+    for (const Emitter& emitter : scene.patches().emitters)
+        if (emitter.path == "/panels/mesh") expected.push_back(emitter);
+    ASSERT_EQ(emitters.size(), 2u);
+    ASSERT_EQ(expected.size(), 2u);
+    for (std::size_t e = 0; e < 2; ++e) {
+        EXPECT_EQ(emitters[e].polygons, expected[e].polygons);
+        EXPECT_EQ(emitters[e].area, expected[e].area);
+    }
+}
+
 TEST(LitPatches, WhatIsNoMeshIsNotRead) {
     EXPECT_FALSE(readPatches({}, 10).has_value());
     const std::vector<std::byte> noise(4096, std::byte{0x5a});
