@@ -57,8 +57,8 @@ class LightBlend {
 public:
     explicit LightBlend(const BlendOptions& options = {}) : options_(options) {}
 
-    /// Which lamps are to be drawn live; their paths, at most kMostLampsDrawnLive. Takes effect
-    /// when nothing is on its way.
+    /// Which lamps are to be drawn live; their paths, see lampsThatMatter(), at most
+    /// kMostLampsDrawnLive. Takes effect when nothing is on its way.
     void want(std::vector<std::string> lamps);
 
     /// To be called after each update() of the node. \param time that only grows [s]
