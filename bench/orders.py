@@ -2,15 +2,18 @@
 """Compares orders of work by a fixed script of moves and cameras.
 
 Usage: bench/orders.py PROGRAM [--element-size M] [--orders A,B]
-                       [--all-light] [--cameras NAMES] [--cut] [--out FOLDER]
+                       [--all-light] [--cameras NAMES] [--cut | --pan DEGREES]
+                       [--dirty perfect] [--out FOLDER]
 
 For each camera, `penumbra compare` plays three moves of the office's seat or a sculpture of the
-gallery (20 cm, 1.2 m, 3.3 m); figures are means over moves and cameras. The dirty set is that of
-bounding shafts: blocks whose shaft to the lamp meets the moved object's box, those in which it was
-a blocker, and its own.
+gallery (20 cm, 1.2 m, 3.3 m); figures are means over moves and cameras, of edits that are seen. The
+dirty set is that of bounding shafts: blocks whose shaft to the lamp meets the moved object's box,
+those in which it was a blocker, and its own. With --dirty perfect it is what comes out otherwise: work
+that changes nothing is not done, and times leave out finding it.
 The settled solution of the same mesh is the truth. Several seeds of a random order (random,random2,
 ...) also make a row of their mean. With --cut the viewer looks through another camera until a tenth
-of the work is done. Writes a report (HTML, JSON) for each camera to FOLDER and a table to standard
+of the work is done; with --pan they turn by so many degrees while it is done, and the error is that
+in the view of the moment. Writes a report (HTML, JSON) for each camera to FOLDER and a table to standard
 output."""
 import argparse
 import json
@@ -129,10 +132,11 @@ def mean(values):
 def figures(reports):
     """One row an order: means over all edits that are seen at all."""
     names = [o["order"] for o in reports[0]["orders"]]
-    rows = {name: [] for name in names}
+    rows, edits = {name: [] for name in names}, 0
     for report in reports:
         orders = {o["order"]: o["edits"] for o in report["orders"]}
         for i in range(len(orders[names[0]])):
+            edits += 1
             runs = {n: orders[n][i]["samples"] for n in names}
             if runs[names[0]][0]["mean_jnd"] < 1e-3:
                 continue
@@ -148,6 +152,7 @@ def figures(reports):
                     "total": run[-1]["seconds"] / slowest[-1]["seconds"],
                     "work": run[-1]["work"] / slowest[-1]["work"],
                 })
+    print(f"{len(rows[names[0]])} of {edits} edits are seen\n")
     return rows
 
 
@@ -170,7 +175,10 @@ def main():
     parser.add_argument("--cameras", default="")
     parser.add_argument("--orders", default="plain,random,bound,geometry,importance,oracle")
     parser.add_argument("--all-light", action="store_true", help="indirect light as well")
-    parser.add_argument("--cut", action="store_true", help="look elsewhere at first")
+    viewer = parser.add_mutually_exclusive_group()
+    viewer.add_argument("--cut", action="store_true", help="look elsewhere at first")
+    viewer.add_argument("--pan", default="0", metavar="DEGREES", help="turn meanwhile")
+    parser.add_argument("--dirty", default="shafts", choices=["shafts", "perfect"])
     parser.add_argument("--looks", default="1.15")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("orders"))
     args = parser.parse_args()
@@ -183,9 +191,9 @@ def main():
         command = [args.program, "compare", scene, "--frames", f"1:{len(MOVES[args.scene][1])}",
                    "--camera", "/World/Judge", "--element-size", args.element_size,
                    "--orders", args.orders, "--looks", args.looks, "--width", "320", "-o", report,
-                   "--quiet"]
+                   "--dirty", args.dirty, "--quiet"]
         command += [] if args.all_light else ["--direct-only"]
-        command += ["--cut-from", "/World/Before"] if args.cut else []
+        command += ["--cut-from", "/World/Before"] if args.cut else ["--pan", args.pan]
         subprocess.run(command, check=True)
         reports.append(json.loads(report.with_suffix(".json").read_text()))
     print("| order | area | work to -90 % | time to -90 % of plain's total | of plain's to -90 % |"

@@ -20,12 +20,38 @@ double now() {
     return duration<double>(steady_clock::now().time_since_epoch()).count();
 }
 
-/// What is to come out of an edit.
+constexpr int kPanSteps = 20; ///< in which a viewer turns
+
+/// What is to come out of an edit, by vertex.
 struct Truth {
-    Plane luminances;
+    std::vector<Element> elements; ///< whose corners the vertices are
+    Lighting light;
     VertexFactors factors;
 };
-using Truths = std::vector<Truth>;
+
+/// The same by the vertices of a patch set as it is now, after the same edit: which of the private
+/// vertices stands for which corner depends on what was done before (Coverage.h).
+Truth truthBy(const PatchSet& now, const Truth& truth) {
+    const std::size_t vertices = now.vertices.size();
+    Truth result{now.elements, {}, {}};
+    result.light.direct.resize(vertices), result.light.indirect.resize(vertices);
+    result.factors.assign(truth.factors.size(), std::vector<float>(vertices));
+    for (std::size_t e = 0; e < now.elements.size(); ++e)
+        for (std::size_t k = 0; k < now.elements[e].vertices.size(); ++k) {
+            const std::uint32_t to = now.elements[e].vertices[k];
+            const std::uint32_t from = truth.elements[e].vertices[k];
+            result.light.direct[to] = truth.light.direct[from];
+            result.light.indirect[to] = truth.light.indirect[from];
+            for (std::size_t row = 0; row < truth.factors.size(); ++row)
+                result.factors[row][to] = truth.factors[row][from];
+        }
+    return result;
+}
+
+bool knowsTheView(const OrderUnderTest& order) {
+    return order.kind == OrderUnderTest::Kind::importance ||
+           order.kind == OrderUnderTest::Kind::oracle;
+}
 
 /// A scene that is played.
 class Player {
@@ -41,9 +67,28 @@ public:
     void edit(double frame) {
         placed_ = playback_.show(frame);
         const LitScene::Followed followed = lit_.follow(placed_);
-        moved_.clear();
-        if (!followed.rebuilt) moved_ = followed.change.objects;
+        change_ = followed.rebuilt ? SceneChange() : followed.change;
         look();
+    }
+    /// Leaves only that work which changes something.
+    void knowWhatChanges(const Truth& truth) {
+        Solver& solver = lit_.solver();
+        while (!solver.direct().openKnown() && solver.work(65536)) {
+        }
+        const VertexFactors now = factorsOf(solver.emitterRows(), lit_.patches().vertices.size());
+        solver.narrowDirect([&](std::uint32_t emitter, std::uint32_t block) {
+            const std::vector<float>&before = now[emitter], &after = truth.factors[emitter];
+            std::uint64_t changes = 0;
+            const std::size_t first = std::size_t(block) * PatchSet::kBlock;
+            for (std::size_t r = 0; r < PatchSet::kBlock && first + r < before.size(); ++r)
+                changes |= std::uint64_t(before[first + r] != after[first + r]) << r;
+            return changes;
+        });
+    }
+    /// Does what was left out because nothing changes: who blocks an entry may be someone else.
+    void catchUp() {
+        lit_.solver().apply(change_);
+        settle();
     }
     /// In no order that is watched.
     void settle() {
@@ -77,21 +122,24 @@ public:
     Picture picture() const {
         return {options_.width, options_.height, drawn_->colours(lit_.solver().lighting())};
     }
-    Plane luminances() const { return drawn_->luminances(lit_.solver().lighting()); }
+    Plane luminances(const Lighting& light) const { return drawn_->luminances(light); }
 
-private:
-    void look() {
+    /// \param turn of the viewer to the left [degrees]
+    void look(double turn = 0) {
         view_ = playback_.view(placed_);
+        if (turn != 0) view_ = turned(view_, playback_.up, turn);
         drawn_ =
             std::make_unique<DrawnView>(lit_.patches(), view_, options_.width, options_.height);
-        adaptation_ = meanAdaptation(luminances().values);
+        adaptation_ = meanAdaptation(luminances(lit_.solver().lighting()).values);
     }
+
+private:
     Viewpoint viewpoint(const View& view) const {
         return Viewpoint(view, options_.width, options_.height);
     }
     Attention attention(const OrderUnderTest& order, bool before) const {
         std::optional<Bounds> moved;
-        for (ObjectId object : moved_) {
+        for (ObjectId object : change_.objects) {
             if (!moved) moved.emplace();
             moved->add(boundsOf(lit_.patches(), object));
         }
@@ -105,24 +153,31 @@ private:
     const ComparisonOptions& options_;
     PlacedScene placed_;
     LitScene lit_;
-    std::vector<ObjectId> moved_;
+    SceneChange change_; ///< the last edit
     View view_;
     std::unique_ptr<DrawnView> drawn_;
     double adaptation_ = 100; ///< [nit]
 };
 
+/// How the viewer moves while an edit is worked off, by the work that is done.
+struct ViewerMotion {
+    double cut = 0;              ///< after so much work they look elsewhere [rays]; 0: never
+    double pan = 0, panWork = 1; ///< turn so far in all [degrees], while so much is done [rays]
+};
+
 /// One edit, worked off and looked at every now and then.
 class Watch {
 public:
-    /// \param cut after so much work the viewer looks elsewhere [rays]; 0: never
     Watch(Player& player, const OrderUnderTest& order, const Truth& truth,
-          const ComparisonOptions& options, OrderResult& result, bool film, double cut)
+          const ComparisonOptions& options, OrderResult& result, bool film,
+          const ViewerMotion& motion)
         : player_(player), order_(order), truth_(truth), options_(options), result_(result),
-          film_(film), cut_(cut), before_(player.lit().solver().done()) {
+          film_(film), cut_(motion.cut), motion_(motion), before_(player.lit().solver().done()) {
         result_.frames.emplace_back();
     }
 
     void run() {
+        turn();
         look();
         Solver& solver = player_.lit().solver();
         tellOrder(cut_ > 0);
@@ -134,6 +189,7 @@ public:
                 more = solver.work(std::size_t(std::clamp((next - work()) / 8, 512.0, 65536.0)));
                 seconds_ += now() - start;
                 if (cut_ > 0 && work() >= cut_) cut_ = 0, tellOrder(false);
+                if (turn() && knowsTheView(order_)) tellOrder(false);
             }
             const double start = now();
             solver.sumUp();
@@ -152,12 +208,21 @@ private:
         player_.order(order_, truth_, beforeCut);
         seconds_ += now() - start;
     }
+    /// Turns the viewer as far as the work has come; whether that is any further.
+    bool turn() {
+        if (motion_.pan == 0) return false;
+        const int step = int(kPanSteps * std::min(1.0, work() / motion_.panWork));
+        if (step == std::exchange(panStep_, step)) return false;
+        player_.look(motion_.pan * (double(step) / kPanSteps - 0.5));
+        return true;
+    }
     /// Since the edit.
     double work() const { return player_.lit().solver().done().inRays() - before_.inRays(); }
 
     void look() {
         const Plane jnd =
-            visibleDifference(player_.luminances(), truth_.luminances, player_.pixelsPerDegree());
+            visibleDifference(player_.luminances(player_.lit().solver().lighting()),
+                              player_.luminances(truth_.light), player_.pixelsPerDegree());
         const WorkDone done = player_.lit().solver().done();
         const ErrorSample sample{work(), seconds_, done.rays - before_.rays,
                                  done.shots - before_.shots, summarise(jnd)};
@@ -177,20 +242,44 @@ private:
     OrderResult& result_;
     bool film_;
     double cut_;
+    ViewerMotion motion_;
+    int panStep_ = -1;
     WorkDone before_;
     double seconds_ = 0;
     std::size_t filmed_ = 0;
 };
 
 /// Settles a frame, to know what is to come out.
-Truth findTruth(Player& player, double frame, double& work) {
-    Solver& solver = player.lit().solver();
-    const double before = solver.done().inRays();
+Truth findTruth(Player& player, double frame) {
     player.edit(frame);
     player.settle();
-    work = player.lit().solver().done().inRays() - before;
-    return {player.luminances(),
-            factorsOf(player.lit().solver().emitterRows(), player.lit().patches().vertices.size())};
+    const Solver& solver = player.lit().solver();
+    return {player.lit().patches().elements, solver.lighting(),
+            factorsOf(solver.emitterRows(), player.lit().patches().vertices.size())};
+}
+
+/// Goes from the settled light of one frame to the next, on which nothing has been done.
+/// \return the truth by the vertices as they are now
+Truth startEdit(Player& player, double from, double to, const Truth& truth, DirtySet dirty) {
+    player.edit(from);
+    player.settle();
+    player.edit(to);
+    Truth now = truthBy(player.lit().patches(), truth);
+    if (dirty == DirtySet::perfect) player.knowWhatChanges(now);
+    return now;
+}
+
+void endEdit(Player& player, DirtySet dirty) {
+    if (dirty == DirtySet::perfect) player.catchUp();
+}
+
+/// The work of an edit that nobody watches. \pre startEdit()
+double unwatchedWork(Player& player, DirtySet dirty) {
+    const double before = player.lit().solver().done().inRays();
+    player.settle();
+    const double work = player.lit().solver().done().inRays() - before;
+    endEdit(player, dirty);
+    return work;
 }
 
 void describe(Player& player, ComparisonResult& result) {
@@ -243,25 +332,31 @@ ComparisonResult compareOrders(const Playback& playback, const std::vector<Order
                                const ComparisonOptions& options, const Progress& progress) {
     ComparisonResult result;
     result.filmFrame = options.filmFrame;
+    result.dirty = options.dirty;
     for (const OrderUnderTest& order : orders) result.orders.emplace_back().name = order.name;
     if (progress) progress("the light at first", 0);
     Player player(playback, options);
     const double steps = double(playback.frames.size() - 1) * double(orders.size());
     for (std::size_t i = 1; i < playback.frames.size(); ++i) {
         const bool film = int(i) - 1 == options.filmFrame;
-        double work = 0;
-        const Truth truth = findTruth(player, playback.frames[i], work);
-        result.frames.push_back(playback.frames[i]);
+        const double from = playback.frames[i - 1], to = playback.frames[i];
+        const Truth truth = findTruth(player, to);
+        result.frames.push_back(to);
         if (film) describe(player, result);
+        ViewerMotion motion;
+        if (playback.viewBefore || playback.pan != 0) {
+            startEdit(player, from, to, truth, options.dirty);
+            const double work = unwatchedWork(player, options.dirty);
+            if (playback.viewBefore) motion.cut = options.cutAt * work;
+            motion.pan = playback.pan, motion.panWork = work;
+        }
         for (std::size_t o = 0; o < orders.size(); ++o) {
             if (progress)
                 progress(orders[o].name.c_str(),
                          (double(i - 1) * double(orders.size()) + double(o)) / steps);
-            player.edit(playback.frames[i - 1]);
-            player.settle();
-            player.edit(playback.frames[i]);
-            const double cut = playback.viewBefore ? options.cutAt * work : 0;
-            Watch(player, orders[o], truth, options, result.orders[o], film, cut).run();
+            const Truth known = startEdit(player, from, to, truth, options.dirty);
+            Watch(player, orders[o], known, options, result.orders[o], film, motion).run();
+            endEdit(player, options.dirty);
         }
     }
     return result;

@@ -10,6 +10,8 @@
 #include "scenegraph/Objects.h"
 #include "scenegraph/Rgb.h"
 
+#include <glm/glm.hpp>
+
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -36,6 +38,12 @@ std::vector<OrderUnderTest> usualOrders();
 /// All there are names for: the usual ones, and importance without each of its factors.
 std::vector<OrderUnderTest> allOrders();
 
+/// What is worked on after an edit.
+enum class DirtySet : std::uint8_t {
+    shafts, ///< what bounding shafts find, as in the program: much of it turns out not to change
+    perfect ///< of direct light only the entries that come out otherwise, as if that were known
+};
+
 struct ComparisonOptions {
     MeshingOptions meshing;
     SolverOptions solving;           ///< but for the order
@@ -44,7 +52,8 @@ struct ComparisonOptions {
     double growth = 1.25;            ///< of the work until the next look; > 1
     std::vector<double> filmSeconds; ///< the film strip's moments, ascending [s]
     int filmFrame = 0;               ///< which of the edits the film strip shows: index of a frame
-    double cutAt = 0.1;              ///< share of the work before a cut, see Playback::viewBefore
+    DirtySet dirty = DirtySet::shafts;
+    double cutAt = 0.1; ///< share of the work before a cut, see Playback::viewBefore
 };
 
 /// What plays: the scene at a frame, and the view of it.
@@ -54,6 +63,12 @@ struct Playback {
     std::function<View(const PlacedScene&)> view; ///< in which the error is measured
     /// If there is one, what the viewer looks at first, until a share of the work is done: a cut.
     std::function<View(const PlacedScene&)> viewBefore{};
+    /// How far the viewer turns to the left while the light is brought up to date, evenly with the
+    /// work that this takes unwatched, half of it before and half after the middle of `view`
+    /// [degrees]. The error is measured in the view of the moment, and orders that look at the view
+    /// are told of it.
+    double pan = 0;
+    glm::dvec3 up{0, 0, 1}; ///< unit vector: about which the viewer turns [world]
 };
 
 /// One picture of the film strip: the first that was there at or after its moment.
@@ -80,6 +95,7 @@ struct ComparisonResult {
     int filmFrame = 0; ///< which of the edits that is: an index
     std::size_t elements = 0, patches = 0, lamps = 0;
     double pixelsPerDegree = 0; ///< of the film strip's view
+    DirtySet dirty = DirtySet::shafts;
 };
 
 /// Plays under each order. The truth of each frame is the settled solution of the same mesh, found

@@ -22,36 +22,47 @@ th { font-weight: 600 } th:first-child, td:first-child, .facts td { text-align: 
 figure { display: inline-block; margin: 0 8px 12px 0; vertical-align: top } figcaption { font-size: 12px; color: #444 }
 img { display: block; image-rendering: auto; border: 1px solid #bbb } .strip { white-space: nowrap; overflow-x: auto }
 .note { color: #555; font-size: 13px; max-width: 60em } .swatch { display: inline-block; width: 1.6em; height: .5em; margin-right: .5em }
-svg { max-width: 100%; height: auto }
+.warning { border-left: 4px solid #d55e00; padding-left: .8em } svg { max-width: 100%; height: auto }
 )";
 
 using Curves = std::vector<std::vector<CurvePoint>>;
 
+/// Indices of edits.
+using Edits = std::vector<std::size_t>;
+
+/// Those that figures and curves are means of.
+Edits countedEdits(const ComparisonResult& result) {
+    Edits edits = seenEdits(result);
+    if (edits.empty())
+        for (std::size_t i = 0; i < result.frames.size(); ++i) edits.push_back(i);
+    return edits;
+}
+
 template <class Over>
-Curves curvesOf(const OrderResult& order, Over over) {
+Curves curvesOf(const OrderResult& order, const Edits& edits, Over over) {
     Curves curves;
-    for (const auto& samples : order.frames) curves.push_back(over(samples));
+    for (std::size_t i : edits) curves.push_back(over(order.frames[i]));
     return curves;
 }
 
-std::vector<CurvePoint> meanOverWork(const OrderResult& order) {
-    return meanOf(curvesOf(order, errorOverWork));
+std::vector<CurvePoint> meanOverWork(const OrderResult& order, const Edits& edits) {
+    return meanOf(curvesOf(order, edits, errorOverWork));
 }
-std::vector<CurvePoint> meanOverTime(const OrderResult& order) {
-    return meanOf(curvesOf(order, errorOverTime));
+std::vector<CurvePoint> meanOverTime(const OrderResult& order, const Edits& edits) {
+    return meanOf(curvesOf(order, edits, errorOverTime));
 }
 
-double mean(const std::vector<double>& values) {
+double mean(const std::vector<double>& values, const Edits& edits) {
     double sum = 0;
-    for (double value : values) sum += value;
-    return values.empty() ? 0 : sum / double(values.size());
+    for (std::size_t i : edits) sum += values[i];
+    return edits.empty() ? 0 : sum / double(edits.size());
 }
 
 /// Until where areas are taken: all orders are settled there.
-double lastWork(const ComparisonResult& result) {
+double lastWork(const ComparisonResult& result, const Edits& edits) {
     double last = 0;
     for (const OrderResult& order : result.orders)
-        for (double work : order.work) last = std::max(last, work);
+        for (std::size_t i : edits) last = std::max(last, order.work[i]);
     return last;
 }
 
@@ -68,19 +79,21 @@ void writeFigures(std::string& page, const ComparisonResult& result) {
     for (const OrderFigures& f : figuresOf(result))
         fmt::format_to(std::back_inserter(page),
                        "<tr><td><span class='swatch' style='background:{}'></span>{}</td>"
-                       "<td>{:.4f}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
+                       "<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
                        "<td>{}</td><td>{:.3f}</td></tr>\n",
-                       seriesColour(index++), escaped(f.name), f.area, orNever(f.work10),
+                       seriesColour(index++), escaped(f.name),
+                       f.area < 0 ? "–" : fmt::format("{:.4f}", f.area), orNever(f.work10),
                        orNever(f.work1), figure(f.work), orNever(f.seconds10, 1e3),
                        orNever(f.seconds1, 1e3), figure(1e3 * f.seconds), f.differsFromTruth);
     page += "</tbody></table>\n";
 }
 
 void writeCharts(std::string& page, const ComparisonResult& result) {
+    const Edits edits = countedEdits(result);
     std::vector<ChartSeries> work, time;
     for (const OrderResult& order : result.orders) {
-        work.push_back({order.name, meanOverWork(order)});
-        time.push_back({order.name, meanOverTime(order)});
+        work.push_back({order.name, meanOverWork(order, edits)});
+        time.push_back({order.name, meanOverTime(order, edits)});
         for (CurvePoint& point : time.back().points) point.x *= 1e3;
     }
     page += "<div class='charts'>" +
@@ -149,20 +162,51 @@ the work, ordering it, rays and sums; looking at the picture is not counted.</p>
 
 } // namespace
 
+std::vector<std::size_t> seenEdits(const ComparisonResult& result) {
+    constexpr double kSeen = 1e-3; // [JND]
+    std::vector<std::size_t> edits;
+    for (std::size_t i = 0; i < result.frames.size(); ++i) {
+        const bool seen =
+            std::any_of(result.orders.begin(), result.orders.end(), [&](const OrderResult& order) {
+                return order.frames[i].front().error.mean >= kSeen;
+            });
+        if (seen) edits.push_back(i);
+    }
+    return edits;
+}
+
+std::string whatIsNotSeen(const ComparisonResult& result) {
+    const std::vector<std::size_t> seen = seenEdits(result);
+    if (seen.empty() && !result.frames.empty())
+        return "nothing of what changes is seen through this camera: orders can't be ranked";
+    std::string frames;
+    for (std::size_t i = 0; i < result.frames.size(); ++i)
+        if (!std::binary_search(seen.begin(), seen.end(), i))
+            frames += fmt::format("{}{}", frames.empty() ? "" : ", ", result.frames[i]);
+    return frames.empty()
+               ? frames
+               : "nothing is seen of what changes in frame " + frames + ": left out of the figures";
+}
+
 std::vector<OrderFigures> figuresOf(const ComparisonResult& result) {
-    const double last = lastWork(result);
+    const bool seen = !seenEdits(result).empty();
+    const Edits edits = countedEdits(result);
+    const double last = lastWork(result, edits);
     std::vector<OrderFigures> figures;
     for (const OrderResult& order : result.orders) {
-        const std::vector<CurvePoint> work = meanOverWork(order), time = meanOverTime(order);
         OrderFigures f;
         f.name = order.name;
-        f.area = normalisedArea(work, last);
-        f.work10 = whenBelow(work, 0.1).value_or(-1);
-        f.work1 = whenBelow(work, 0.01).value_or(-1);
-        f.seconds10 = whenBelow(time, 0.1).value_or(-1);
-        f.seconds1 = whenBelow(time, 0.01).value_or(-1);
-        f.work = mean(order.work);
-        f.seconds = mean(order.seconds);
+        if (seen) {
+            const std::vector<CurvePoint> work = meanOverWork(order, edits);
+            const std::vector<CurvePoint> time = meanOverTime(order, edits);
+            f.area = normalisedArea(work, last);
+            f.work10 = whenBelow(work, 0.1).value_or(-1);
+            f.work1 = whenBelow(work, 0.01).value_or(-1);
+            f.seconds10 = whenBelow(time, 0.1).value_or(-1);
+            f.seconds1 = whenBelow(time, 0.01).value_or(-1);
+        }
+        f.work = mean(order.work, edits);
+        f.seconds = mean(order.seconds, edits);
         f.differsFromTruth = order.differsFromTruth;
         figures.push_back(f);
     }
@@ -174,6 +218,8 @@ std::string htmlReport(const ComparisonResult& result, const ReportOptions& opti
                        "<meta name='viewport' content='width=device-width'><title>" +
                        escaped(options.title) + "</title><style>" + kStyle +
                        "</style></head><body>\n<h1>" + escaped(options.title) + "</h1>\n";
+    const std::string unseen = whatIsNotSeen(result);
+    if (!unseen.empty()) page += "<p class='warning'>Note: " + escaped(unseen) + ".</p>\n";
     writeFigures(page, result);
     writeCharts(page, result);
     writeFilms(page, result, result.filmFrame);

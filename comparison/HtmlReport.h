@@ -17,13 +17,21 @@ struct ReportOptions {
     Facts settings, machine;
 };
 
-/// Figures of one order over all edits, each a mean of the curves (see ErrorCurve.h).
+/// Edits (indices) of which something is seen, so that orders can be told apart by it: where
+/// the error is visible at first, 1e-3 JND in the mean.
+std::vector<std::size_t> seenEdits(const ComparisonResult& result);
+/// Of which edits nothing is seen, for people; empty if something is of each.
+std::string whatIsNotSeen(const ComparisonResult& result);
+
+/// Figures of one order over all edits that are seen, each a mean of the curves (see ErrorCurve.h).
+/// If none is there are no figures but those of work and time, over all edits.
 struct OrderFigures {
     std::string name;
-    double area = 0; ///< under error over work, up to where the slowest order is settled
+    /// Under error over work, up to where the slowest order is settled; -1: nothing is seen.
+    double area = -1;
     double work10 = -1, work1 = -1;       ///< until 10 % and 1 % of the error are left; -1: never
     double seconds10 = -1, seconds1 = -1; ///< likewise [s]
-    double work = 0, seconds = 0;         ///< to the settled light, mean of the edits
+    double work = 0, seconds = 0;         ///< to the settled light, mean of these edits
     double differsFromTruth = 0;          ///< [JND]
 };
 std::vector<OrderFigures> figuresOf(const ComparisonResult& result);

@@ -156,6 +156,12 @@ void DirectLight::sumUp(std::size_t effort) {
     for (; effort > 0 && sumBlocks(std::min(effort, kPiece));) effort -= std::min(effort, kPiece);
 }
 
+void DirectLight::narrow(const std::function<std::uint64_t(std::uint32_t, std::uint32_t)>& which) {
+    for (std::uint32_t e = 0; e < set_.emitters.size(); ++e)
+        for (std::uint32_t b = 0; b < set_.vertexBlockObject.size(); ++b)
+            updates_.open().narrow(e, b, which(e, b));
+}
+
 bool DirectLight::updateRows(std::size_t effort, double enough) {
     if (!described_) describeReceivers();
     if (updates_.done(enough)) return false;

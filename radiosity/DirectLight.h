@@ -13,6 +13,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,8 @@ public:
     void rekey() { updates_.open().rekey(); }
     void setPatience(double rays) { updates_.open().setPatience(rays); } ///< see OpenWork
     void setWhole(bool whole) { updates_.open().setWhole(whole); }
+    /// See Solver::narrowDirect().
+    void narrow(const std::function<std::uint64_t(std::uint32_t, std::uint32_t)>& which);
     /// Sums what the rows, as they are now, give to the vertices: all of it, or about `effort`
     /// rays' worth.
     void sumUp(std::size_t effort = ~std::size_t(0));

@@ -352,14 +352,26 @@ void OpenWork::finish(std::uint32_t row, Entry& entry) {
     if (--list.open == 0) list.entries.clear();
 }
 
+/// Whether any of it is still open.
+bool OpenWork::narrow(std::uint32_t row, Entry& entry, std::uint64_t receivers) {
+    entry.left &= receivers;
+    if (entry.left != 0) return true;
+    putOff(entry);
+    finish(row, entry);
+    return false;
+}
+
+void OpenWork::narrow(std::uint32_t row, std::uint32_t block, std::uint64_t receivers) {
+    Entry* const entry = find(row, block);
+    if (!entry || !narrow(row, *entry, receivers)) return;
+    forget(*entry);
+    entry->anew &= receivers;
+    if (entry->handle != kPutOff) queue_.rank(entry->handle, task(row, *entry).worth);
+}
+
 void OpenWork::expect(std::uint32_t row, std::uint32_t block, const ExpectedFactors& expected) {
     Entry* const entry = find(row, block);
-    if (!entry) return;
-    entry->left &= expected.open;
-    if (entry->left == 0) {
-        putOff(*entry);
-        return finish(row, *entry);
-    }
+    if (!entry || !narrow(row, *entry, expected.open)) return;
     entry->prospect = std::make_unique<Prospect>();
     entry->prospect->expected = expected;
     if (entry->handle != kPutOff) queue_.rank(entry->handle, choosePart(row, *entry));

@@ -94,6 +94,9 @@ public:
     /// What is expected of an open block, which is closed if nothing is; one that is not open is
     /// left alone.
     void expect(std::uint32_t row, std::uint32_t block, const ExpectedFactors& expected);
+    /// Of an open block only these receivers (bits) are still to be worked on; if none is, it is
+    /// closed. One that is not open is left alone.
+    void narrow(std::uint32_t row, std::uint32_t block, std::uint64_t receivers);
     void putBack(const OpenBlock& block); ///< from next(): not now
     /// next() and close().
     std::optional<OpenBlock> take(double enough, std::size_t& steps);
@@ -103,6 +106,10 @@ public:
         return count_ > 0 && (enough <= 0 || !queue_.empty() || !unsorted_.empty());
     }
     std::size_t count() const { return count_; } ///< blocks that are open
+    /// Cost of all work so far: the clock by which work waits [rays].
+    double taken() const { return taken_; }
+    /// When, by that clock, the open block was queued that has waited longest; now, if none waits.
+    double oldest() const { return queue_.oldest(taken_); }
     /// Blocks of a row that are open and of receivers for which more than `enough` is, in order.
     std::vector<std::uint32_t> urgent(std::uint32_t row, double enough) const;
     /// What is open of one block of receivers, over all rows.
@@ -164,6 +171,7 @@ private:
     WorkQueue::Worth choosePart(std::uint32_t row, Entry& entry);
     WorkQueue::Worth worthOf(std::uint32_t row, Entry& entry);
     void forget(Entry& entry);
+    bool narrow(std::uint32_t row, Entry& entry, std::uint64_t receivers);
     void finish(std::uint32_t row, Entry& entry);
     void enqueue(std::uint32_t row, Entry& entry);
     void openAnew(std::uint32_t row, Entry& entry);

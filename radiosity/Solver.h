@@ -123,6 +123,15 @@ public:
     /// Another order for the work on direct light alone, as for measurements.
     void setDirectOrder(std::shared_ptr<const OrderOfWork> order);
 
+    /// Of the open work on direct light only these receivers are done, as if others were not
+    /// concerned: for measurements, by someone who knows that these do not change. Who blocks an
+    /// entry that was left out may not be who is said to, until the last edit is applied again.
+    /// \param which bits: receivers of a block, by emitter and block
+    /// \pre direct().openKnown()
+    void narrowDirect(const std::function<std::uint64_t(std::uint32_t, std::uint32_t)>& which) {
+        direct_.narrow(which);
+    }
+
     /// Works for `budget` seconds, or until everything is settled, and returns whether it is. What
     /// it leaves undone it goes on with at the next call.
     bool step(double budget, const Progress& progress = {});

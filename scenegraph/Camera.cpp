@@ -47,6 +47,16 @@ View makeView(const Lens& lens, const glm::dmat4& cameraToWorld, int width, int 
     return view;
 }
 
+View turned(const View& view, const glm::dvec3& up, double degrees) {
+    // All turns the other way about the eye.
+    glm::dmat4 world = glm::translate(glm::dmat4(1.0), view.eye);
+    world = glm::rotate(world, -glm::radians(degrees), up);
+    world = glm::translate(world, -view.eye);
+    View result = view;
+    result.worldToCamera = view.worldToCamera * world;
+    return result;
+}
+
 View frameBox(glm::vec3 lower, glm::vec3 upper, int up, int width, int height) {
     const glm::dvec3 centre = 0.5 * glm::dvec3(lower + upper);
     const double radius = std::max(1e-3, 0.5 * glm::length(glm::dvec3(upper - lower)));

@@ -52,6 +52,10 @@ struct View {
 /// positive.
 View makeView(const Lens& lens, const glm::dmat4& cameraToWorld, int width, int height);
 
+/// What is seen by a head that is turned to the left about an axis through the eye, whatever the
+/// view was. \param up unit vector [world]
+View turned(const View& view, const glm::dvec3& up, double degrees);
+
 /// A view that shows the whole of a box from a corner above it: for scenes without a camera.
 /// \param up 1 for a Y-up scene, 2 for a Z-up scene
 View frameBox(glm::vec3 lower, glm::vec3 upper, int up, int width, int height);

@@ -26,7 +26,8 @@ namespace {
 
 struct CompareCommand {
     SolveSettings solve;
-    std::string output, json, camera, cutFrom, orders;
+    std::string output, json, camera, cutFrom, orders, dirty = "shafts";
+    double pan = 0;
     int width = 480, height = 0;
     double looks = 1.25;
     int filmFrame = 0;
@@ -53,6 +54,9 @@ Playback playbackOf(const CompareCommand& command, LoadedScene& loaded) {
             return viewOf(placed, loaded.scene->upAxis, command.cutFrom, command.solve.scene,
                           command.width, command.height);
         };
+    playback.pan = command.pan;
+    playback.up = glm::dvec3(0);
+    playback.up[int(loaded.scene->upAxis)] = 1;
     return playback;
 }
 
@@ -65,6 +69,7 @@ ComparisonOptions optionsOf(const CompareCommand& command, const LoadedScene& lo
     options.width = command.width;
     options.height = command.height;
     options.growth = command.looks;
+    if (command.dirty == "perfect") options.dirty = DirtySet::perfect;
     const FrameRange range = frameRange(command.solve.frames);
     options.filmFrame = command.filmFrame == 0 ? 0 : command.filmFrame - range.first - 1;
     if (options.filmFrame < 0 || options.filmFrame >= range.last - range.first)
@@ -96,6 +101,16 @@ std::vector<OrderUnderTest> chosenOrders(const std::string& names) {
     return chosen;
 }
 
+std::string viewerMotion(const CompareCommand& command) {
+    if (!command.cutFrom.empty())
+        return "looks through " + command.cutFrom + " until 10 % of the work is done";
+    if (command.pan != 0)
+        return fmt::format("turns by {} degrees while the work is done; the error is that in the "
+                           "view of the moment",
+                           command.pan);
+    return "stays";
+}
+
 ReportOptions reportOptions(const CompareCommand& command, const ComparisonResult& result) {
     const SolverOptions& solver = command.solve.solver;
     ReportOptions report;
@@ -105,8 +120,10 @@ ReportOptions reportOptions(const CompareCommand& command, const ComparisonResul
         {"scene", name},
         {"frames", command.solve.frames},
         {"camera", command.camera.empty() ? "the first one" : command.camera},
-        {"cut",
-         command.cutFrom.empty() ? "none" : "from " + command.cutFrom + " after 10 % of the work"},
+        {"the viewer", viewerMotion(command)},
+        {"dirty set", command.dirty == "perfect"
+                          ? "perfect: of direct light only entries that come out otherwise"
+                          : "bounding shafts: what may change"},
         {"pictures", fmt::format("{} x {} pixels, {:.1f} pixels per degree", command.width,
                                  command.height, result.pixelsPerDegree)},
         {"elements", std::to_string(result.elements)},
@@ -152,6 +169,9 @@ void run(CompareCommand command) {
     writeFileAtomically(command.json, comparisonJson(result, report));
     writeFileAtomically(command.output, htmlReport(result, report));
     if (command.solve.quiet) return;
+    const std::string unseen = whatIsNotSeen(result);
+    if (!unseen.empty()) fmt::print(stderr, "{}: {}\n", command.solve.scene, unseen);
+    if (seenEdits(result).empty()) return;
     for (const OrderFigures& f : figuresOf(result))
         fmt::print(stderr, "{:<12} area {:.4f}, {} rays' worth to 10 % of the error, {} in all\n",
                    f.name, f.area, f.work10 < 0 ? "never" : fmt::format("{:.0f}", f.work10),
@@ -174,6 +194,20 @@ void addCompareCommand(CLI::App& app) {
     compare->add_option("--cut-from", command->cutFrom,
                         "Camera the viewer looks through first: after a tenth of the work, they\n"
                         "look through --camera, in which the error is measured all the time");
+    compare
+        ->add_option("--pan", command->pan,
+                     "The viewer turns to the left by so much while the work is done, half of it\n"
+                     "before and half after the middle of --camera; the error is that in the view\n"
+                     "of the moment [degrees]")
+        ->check(CLI::Range(-180.0, 180.0))
+        ->excludes("--cut-from");
+    compare
+        ->add_option(
+            "--dirty", command->dirty,
+            "What is worked on: what bounding shafts find, of which much turns out not to\n"
+            "change, or as if it were known what does (perfect; direct light only)")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"shafts", "perfect"}));
     compare->add_option("--width", command->width, "Of the pictures that are compared [pixels]")
         ->capture_default_str()
         ->check(CLI::Range(16, 4096));

@@ -20,7 +20,7 @@ Json sampleJson(const ErrorSample& sample) {
             {"visible_share", sample.error.visible}};
 }
 
-/// Null for what never came.
+/// Null for what never came, or can't be said.
 Json orNull(double value) {
     return value < 0 ? Json() : Json(value);
 }
@@ -37,7 +37,7 @@ Json orderJson(const OrderResult& order, const OrderFigures& figures,
                          {"samples", std::move(samples)}});
     }
     return {{"order", order.name},
-            {"area", figures.area},
+            {"area", orNull(figures.area)},
             {"work_to_10_percent", orNull(figures.work10)},
             {"work_to_1_percent", orNull(figures.work1)},
             {"seconds_to_10_percent", orNull(figures.seconds10)},

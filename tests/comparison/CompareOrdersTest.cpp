@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -141,6 +142,56 @@ TEST(CompareOrders, KnowingWhatComesOutIsBetterThanChance) {
     EXPECT_LT(figures[2].area, 0.8 * figures[1].area);
 }
 
+ComparisonOptions directOnly() {
+    ComparisonOptions options = coarse();
+    options.solving.directOnly = true;
+    options.filmFrame = 0;
+    return options;
+}
+
+TEST(CompareOrders, WhoKnowsWhatChangesDoesLessWorkForTheSamePicture) {
+    PushedBox box;
+    ComparisonOptions options = directOnly();
+    const std::vector<OrderUnderTest> orders = usualOrders();
+    const ComparisonResult all = compareOrders(box.playback(4), orders, options);
+    options.dirty = DirtySet::perfect;
+    const ComparisonResult known = compareOrders(box.playback(4), orders, options);
+    for (std::size_t o = 0; o < orders.size(); ++o) {
+        EXPECT_EQ(known.orders[o].differsFromTruth, 0) << orders[o].name;
+        for (std::size_t i = 0; i < all.frames.size(); ++i) {
+            EXPECT_LT(known.orders[o].work[i], all.orders[o].work[i]) << orders[o].name;
+            EXPECT_GT(known.orders[o].work[i], 0) << orders[o].name;
+            EXPECT_EQ(known.orders[o].frames[i][0].error.mean,
+                      all.orders[o].frames[i][0].error.mean)
+                << orders[o].name;
+        }
+    }
+}
+
+TEST(CompareOrders, AViewerWhoTurnsJudgesByWhatIsSeenAtTheMoment) {
+    PushedBox box;
+    Playback pan = box.playback(2), still = pan;
+    pan.pan = 40;
+    const std::vector<OrderUnderTest> orders = usualOrders();
+    const ComparisonResult panned = compareOrders(pan, orders, directOnly());
+    still.view = [view = pan.view](const PlacedScene& placed) {
+        return turned(view(placed), {0, 0, 1}, -20); // where the viewer begins
+    };
+    const ComparisonResult before = compareOrders(still, orders, directOnly());
+    for (std::size_t o = 0; o < orders.size(); ++o) {
+        EXPECT_EQ(panned.orders[o].frames[0].front().error.mean,
+                  before.orders[o].frames[0].front().error.mean);
+        EXPECT_EQ(panned.orders[o].differsFromTruth, 0) << orders[o].name;
+    }
+    // Plain order knows nothing of the view: the same light, seen from elsewhere.
+    const auto &ahead = panned.orders[0].frames[0], &aside = before.orders[0].frames[0];
+    ASSERT_EQ(ahead.size(), aside.size());
+    bool differ = false;
+    for (std::size_t i = 0; i < ahead.size(); ++i)
+        differ |= std::abs(ahead[i].error.mean - aside[i].error.mean) > 0.05 * aside[i].error.mean;
+    EXPECT_TRUE(differ);
+}
+
 TEST(CompareOrders, FilmsTheFrameThatIsAskedFor) {
     const ComparisonResult result = compared();
     EXPECT_EQ(result.filmFrame, 1);
@@ -166,6 +217,27 @@ TEST(HtmlReport, SaysAllThatWasFoundInOneFile) {
     EXPECT_THAT(page, Not(HasSubstr("src='http")));
     EXPECT_THAT(page, Not(HasSubstr("url(http")));
     EXPECT_THAT(page, Not(HasSubstr("nan")));
+}
+
+TEST(HtmlReport, RanksNoOrderByWhatCantBeSeen) {
+    PushedBox box;
+    Playback away = box.playback(3);
+    away.view = [view = away.view](const PlacedScene& placed) {
+        return turned(view(placed), {0, 0, 1}, 180);
+    };
+    ComparisonResult result = compareOrders(away, {{.name = "plain"}}, directOnly());
+    EXPECT_TRUE(seenEdits(result).empty());
+    const OrderFigures figures = figuresOf(result).front();
+    EXPECT_EQ(figures.area, -1);
+    EXPECT_EQ(figures.work10, -1);
+    EXPECT_GT(figures.work, 0);
+    EXPECT_THAT(htmlReport(result, {}), HasSubstr("orders can&#39;t be ranked"));
+    // One that is seen counts alone.
+    result.orders[0].frames[1][0].error.mean = 1;
+    EXPECT_EQ(seenEdits(result), std::vector<std::size_t>{1});
+    EXPECT_THAT(htmlReport(result, {}), HasSubstr("nothing is seen of what changes in frame 1"));
+    EXPECT_EQ(figuresOf(result).front().work, result.orders[0].work[1]);
+    EXPECT_GE(figuresOf(result).front().area, 0);
 }
 
 TEST(HtmlReport, FiguresAreThoseOfTheCurves) {

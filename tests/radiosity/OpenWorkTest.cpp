@@ -130,6 +130,35 @@ TEST_F(OpenWorkOfTwoRows, SaysOfEachBlockWhatIsOpenAndWhatItIsWorth) {
     EXPECT_GT(work.atBlocks(0.1)[1].worth, 0);
 }
 
+TEST_F(OpenWorkOfTwoRows, IsNarrowedToSomeReceivers) {
+    open(0, {block(0, 0.4f, 0b111), block(1, 1e-4f)});
+    open(1, {block(0, 0.01f)});
+    work.narrow(0, 0, 0b110);
+    work.narrow(1, 0, 0);
+    work.narrow(1, 3, 0); // is not open
+    EXPECT_EQ(work.count(), 2u);
+    EXPECT_FLOAT_EQ(float(work.light(0)), 0.4f) << "of the other row there is nothing left";
+    std::size_t steps = 100;
+    const auto taken = work.take(0, steps);
+    ASSERT_TRUE(taken);
+    EXPECT_EQ(taken->anew, 0b110u);
+    EXPECT_EQ(taken->receivers, 0b110u);
+    EXPECT_THAT(takeAll(0), ElementsAre(1));
+    open(0, {block(0, 0.4f)});
+    EXPECT_EQ(work.take(0, steps)->receivers, ~std::uint64_t(0)) << "opened again it is whole";
+}
+
+TEST_F(OpenWorkOfTwoRows, SaysSinceWhenTheOldestWaits) {
+    EXPECT_EQ(work.oldest(), work.taken());
+    open(0, {block(0, 0.1f), block(1, 0.4f)});
+    std::size_t steps = 100;
+    work.take(0, steps); // the one of 0.4: the clock goes on by what it costs
+    EXPECT_GT(work.taken(), 0);
+    EXPECT_EQ(work.oldest(), 0);
+    work.take(0, steps);
+    EXPECT_EQ(work.oldest(), work.taken());
+}
+
 TEST_F(OpenWorkOfTwoRows, ForgetsARowThatIsDropped) {
     open(0, {block(0, 0.1f), block(1, 0.4f)});
     open(1, {block(0, 0.1f)});

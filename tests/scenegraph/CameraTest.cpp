@@ -91,6 +91,19 @@ TEST(Camera, AnOrthographicViewIsATenthOfItsApertureWideInLocalUnits) {
     EXPECT_NEAR(onScreen(centimetres, {0.02, 0, -0.5}).x, 1, 1e-9);
 }
 
+TEST(Camera, AHeadThatTurnsToTheLeftSeesThereWhatWasAtItsLeft) {
+    glm::dmat4 place(1.0); // looks along +y, z is up
+    place[1] = {0, 0, 1, 0}, place[2] = {0, -1, 0, 0}, place[3] = {2, 3, 1, 1};
+    const View ahead = makeView(wideLens(), place, 300, 200);
+    const View left = turned(ahead, {0, 0, 1}, 90);
+    for (double height : {1.0, 1.5}) {
+        const glm::dvec3 before = onScreen(ahead, {2, 8, height});
+        const glm::dvec3 after = onScreen(left, {-3, 3, height}); // as far away, at the left
+        EXPECT_NEAR(glm::length(after - before), 0, 1e-9);
+    }
+    EXPECT_EQ(left.eye, ahead.eye);
+}
+
 RC_GTEST_PROP(FrameBox, ShowsTheWholeBox, ()) {
     const Bounds shown = box();
     const int up = *rc::gen::element(1, 2);
