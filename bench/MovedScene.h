@@ -41,6 +41,12 @@ public:
 
     enum class Place { home, there };
     void put(Place place) { object_->setMatrix(poses_[std::size_t(place)]); }
+    /// On the way from home (0) to there (1), turned as at home.
+    void putBetween(double share) {
+        glm::dmat4 pose = poses_[0];
+        pose[3] = glm::mix(pose[3], poses_[1][3], share);
+        object_->setMatrix(pose);
+    }
 
     const Scene& scene() const { return *scene_; }
     PlacedScene placed() const { return placeScene(*scene_); }

@@ -16,9 +16,11 @@ constexpr const char* kStyle = R"(
 body { font: 15px/1.5 sans-serif; color: #222; background: #fff; margin: 2em auto; max-width: 1180px; padding: 0 1em }
 h1 { font-size: 1.5em } h2 { font-size: 1.2em; margin-top: 2em; border-bottom: 1px solid #ccc }
 table { border-collapse: collapse; margin: 1em 0 }
-th, td { padding: 3px 10px; border-bottom: 1px solid #ddd; text-align: right }
+.wide { overflow-x: auto } th, td { padding: 3px 10px; border-bottom: 1px solid #ddd; text-align: right }
+tbody td { white-space: nowrap }
 th { font-weight: 600 } th:first-child, td:first-child, .facts td { text-align: left; white-space: nowrap }
-.facts td { white-space: normal } .charts svg { width: 49% } thead th { border-bottom: 2px solid #888 }
+.facts td { white-space: normal } .charts { display: flex; flex-wrap: wrap; gap: 8px } .chart { flex: 1 1 520px; min-width: 0; overflow-x: auto }
+.chart svg { width: 100%; min-width: 500px } thead th { border-bottom: 2px solid #888 }
 figure { display: inline-block; margin: 0 8px 12px 0; vertical-align: top } figcaption { font-size: 12px; color: #444 }
 img { display: block; image-rendering: auto; border: 1px solid #bbb } .strip { white-space: nowrap; overflow-x: auto }
 .note { color: #555; font-size: 13px; max-width: 60em } .swatch { display: inline-block; width: 1.6em; height: .5em; margin-right: .5em }
@@ -71,8 +73,9 @@ std::string orNever(double value, double scale = 1) {
 }
 
 void writeFigures(std::string& page, const ComparisonResult& result) {
-    page += "<table><thead><tr><th>order</th><th>area under the curve</th><th>work to 10 %</th>"
-            "<th>work to 1 %</th><th>work in all</th><th>time to 10 % [ms]</th>"
+    page += "<div class='wide'><table><thead><tr><th>order</th><th>area under the curve</th>"
+            "<th>work to 10 % [rays]</th><th>work to 1 % [rays]</th><th>work in all "
+            "[rays]</th><th>time to 10 % [ms]</th>"
             "<th>time to 1 % [ms]</th><th>time in all [ms]</th><th>settled, off by [JND]</th>"
             "</tr></thead><tbody>\n";
     std::size_t index = 0;
@@ -85,7 +88,14 @@ void writeFigures(std::string& page, const ComparisonResult& result) {
                        f.area < 0 ? "–" : fmt::format("{:.4f}", f.area), orNever(f.work10),
                        orNever(f.work1), figure(f.work), orNever(f.seconds10, 1e3),
                        orNever(f.seconds1, 1e3), figure(1e3 * f.seconds), f.differsFromTruth);
-    page += "</tbody></table>\n";
+    page += "</tbody></table></div>\n";
+    fmt::format_to(std::back_inserter(page),
+                   "<p class='note'>To 10 % and 1 % of the initial visible error; means over {} of "
+                   "{} edits. What is worked on: {}.</p>\n",
+                   countedEdits(result).size(), result.frames.size(),
+                   result.dirty == DirtySet::perfect
+                       ? "of direct light only what comes out otherwise, as if that were known"
+                       : "what bounding shafts find, of which some turns out not to change");
 }
 
 void writeCharts(std::string& page, const ComparisonResult& result) {
@@ -96,13 +106,18 @@ void writeCharts(std::string& page, const ComparisonResult& result) {
         time.push_back({order.name, meanOverTime(order, edits)});
         for (CurvePoint& point : time.back().points) point.x *= 1e3;
     }
-    page += "<div class='charts'>" +
+    constexpr int kWidth = 600; // two beside one another, or one on a narrow page
+    page += "<div class='charts'><div class='chart'>" +
             lineChart(work, {.title = "Visible error over work",
-                             .xLabel = "work since the edit [rays' worth], logarithmic",
-                             .yLabel = "mean visible error [JND]"});
-    page += lineChart(time, {.title = "Visible error over time",
+                             .xLabel = "work since the edit [rays], logarithmic",
+                             .yLabel = "mean visible error [JND]",
+                             .width = kWidth});
+    page += "</div><div class='chart'>" +
+            lineChart(time, {.title = "Visible error over time",
                              .xLabel = "time since the edit [ms], logarithmic",
-                             .yLabel = "mean visible error [JND]"});
+                             .yLabel = "mean visible error [JND]",
+                             .width = kWidth}) +
+            "</div></div>\n";
 }
 
 /// One moment of the film: the picture, and below it what is wrong with it.

@@ -74,8 +74,9 @@ std::string differenceUri(const Plane& jnd) {
 }
 
 std::string differenceLegend() {
-    std::string svg = "<svg xmlns='http://www.w3.org/2000/svg' width='380' height='40' "
-                      "font-family='sans-serif' font-size='12'><defs><linearGradient id='jnd'>";
+    std::string svg =
+        "<svg xmlns='http://www.w3.org/2000/svg' width='380' height='40' viewBox='0 0 380 40' "
+        "font-family='sans-serif' font-size='12'><defs><linearGradient id='jnd'>";
     const auto out = std::back_inserter(svg);
     for (std::size_t i = 0; i < kScale.size(); ++i)
         fmt::format_to(out, "<stop offset='{:.3f}' stop-color='#{:02x}{:02x}{:02x}'/>",

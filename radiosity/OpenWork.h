@@ -108,8 +108,10 @@ public:
     std::size_t count() const { return count_; } ///< blocks that are open
     /// Cost of all work so far: the clock by which work waits [rays].
     double taken() const { return taken_; }
-    /// When, by that clock, the open block was queued that has waited longest; now, if none waits.
-    double oldest() const { return queue_.oldest(taken_); }
+    /// When, by that clock, the open block was queued that has waited longest; nothing: none waits.
+    std::optional<double> oldest() const {
+        return queue_.empty() ? std::nullopt : std::optional(queue_.oldest(taken_));
+    }
     /// Blocks of a row that are open and of receivers for which more than `enough` is, in order.
     std::vector<std::uint32_t> urgent(std::uint32_t row, double enough) const;
     /// What is open of one block of receivers, over all rows.

@@ -62,6 +62,20 @@ TEST(Compare, TellsWhatIsWrongWithTheCommandLine) {
     EXPECT_EQ(still.exitCode, 1);
     EXPECT_THAT(still.err, HasSubstr("room.usda: error: nothing moves"));
     EXPECT_THAT(work.files(), ElementsAre("room.usda"));
+    EXPECT_EQ(compare(work, {"--dirty", "spotless"}).exitCode, 2);
+    const Outcome both = compare(work, {"--pan", "20", "--cut-from", "/World/Camera"});
+    EXPECT_EQ(both.exitCode, 2);
+    EXPECT_THAT(both.err, HasSubstr("--cut-from"));
+}
+
+TEST(Compare, SaysHowTheViewerMovedAndWhatWasWorkedOn) {
+    const Workplace work;
+    const Outcome outcome =
+        compare(work, {"--pan", "20", "--dirty", "perfect", "--orders", "plain,importance"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto settings = nlohmann::json::parse(readFile(work.path("report.json")))["settings"];
+    EXPECT_THAT(settings["the viewer"].get<std::string>(), HasSubstr("20 degrees"));
+    EXPECT_THAT(settings["dirty set"].get<std::string>(), HasSubstr("perfect"));
 }
 
 /// What Chromium prints; it finds no network and keeps its own files in `work`.
@@ -98,15 +112,17 @@ TEST(Compare, ReportIsShownByABrowserWithoutANetwork) {
             from elsewhere ${performance.getEntriesByType('resource')
                 .filter(e => !e.name.startsWith('data:')).length}, too wide ${wide}`;
         </script>)");
-    const std::string dom = chromium(work, "--window-size=1200,900 --dump-dom", asked);
-    const std::size_t at = dom.find("data-found=\"");
-    ASSERT_NE(at, std::string::npos) << "chromium did not show the page";
-    const std::string found = dom.substr(at, 300);
-    EXPECT_THAT(found, ContainsRegex("images [1-9]"));
-    EXPECT_THAT(found, HasSubstr("missing 0"));
-    EXPECT_THAT(found, ContainsRegex("curves [1-9]"));
-    EXPECT_THAT(found, HasSubstr("from elsewhere 0"));
-    EXPECT_THAT(found, HasSubstr("too wide false"));
+    for (const std::string size : {"1200,900", "500,900"}) {
+        const std::string dom = chromium(work, "--window-size=" + size + " --dump-dom", asked);
+        const std::size_t at = dom.find("data-found=\"");
+        ASSERT_NE(at, std::string::npos) << size << ": chromium did not show the page";
+        const std::string found = dom.substr(at, 300);
+        EXPECT_THAT(found, ContainsRegex("images [1-9]"));
+        EXPECT_THAT(found, HasSubstr("missing 0"));
+        EXPECT_THAT(found, ContainsRegex("curves [1-9]"));
+        EXPECT_THAT(found, HasSubstr("from elsewhere 0"));
+        EXPECT_THAT(found, HasSubstr("too wide false"));
+    }
     chromium(work, "--window-size=1200,900 --screenshot='" + work.path("shot.png") + "'",
              work.path("report.html"));
     EXPECT_GT(std::filesystem::file_size(work.path("shot.png")), 20'000u);
