@@ -21,8 +21,9 @@ EmitterSender sender(const Emitter& emitter, int samples) {
 
 DirectLight::DirectLight(const PatchSet& set, const RayScene& rays, int samples)
     : set_(set), samples_(samples), walls_(set), table_(set.emitters.size()),
-      updates_(set, rays, table_, set.vertexBlockObject, 256), patchTouched_(set.patches.size()),
-      patches_(set.patches.size()), patchLit_(set.patches.size()) {
+      updates_(set, rays, table_, set.vertexBlockObject, {.visit = 256, .entry = 20}),
+      patchTouched_(set.patches.size()), patches_(set.patches.size()),
+      patchLit_(set.patches.size()) {
     for (const Emitter& emitter : set.emitters) emitters_.push_back(sender(emitter, samples));
     blockPatches_.resize(set.firstPrivate / kBlock);
     for (std::uint32_t e = 0; e < set.uncoveredElements.size(); ++e) {

@@ -26,7 +26,8 @@ glm::dvec3 toDouble(Rgb c) {
 IndirectLight::IndirectLight(const PatchSet& set, const RayScene& rays, const DirectLight& direct,
                              std::size_t rowMemory, std::size_t flatPatches)
     : set_(set), rays_(rays), direct_(direct), rowMemory_(rowMemory), senders_(set, flatPatches),
-      table_(senders_.count()), updates_(set, rays, table_, set.nodeBlockObject, 48), reach_(set),
+      table_(senders_.count()),
+      updates_(set, rays, table_, set.nodeBlockObject, {.visit = 48, .entry = 1}), reach_(set),
       reached_(set.nodes.size() / kBlock), nodes_(set.nodes.size()), rowSums_(set.nodes.size()),
       sent_(senders_.count()), residuals_(senders_.count()), colours_(senders_.count()),
       known_(senders_.count()), kept_(senders_.count()) {

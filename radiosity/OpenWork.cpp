@@ -23,14 +23,13 @@ float entryCost(const ExpectedFactors& expected, std::size_t receiver) {
 
 } // namespace
 
-OpenWork::OpenWork(std::size_t rows, std::size_t visitCost)
-    : rows_(rows), visitCost_(visitCost), queue_(kFairness) {
+OpenWork::OpenWork(std::size_t rows, const Costs& costs)
+    : rows_(rows), costs_(costs), queue_(kFairness) {
     setOrder(std::make_shared<const BoundOrder>());
 }
 
 std::size_t OpenWork::cost(const OpenBlock& block) const {
-    constexpr std::size_t kSamples = 20; // of an entry that is evaluated anew
-    return visitCost_ + kSamples * std::size_t(std::popcount(block.anew));
+    return costs_.visit + costs_.entry * std::size_t(std::popcount(block.anew));
 }
 
 void OpenWork::setOrder(std::shared_ptr<const OrderOfWork> order) {

@@ -54,9 +54,14 @@ struct ExpectedFactors {
 /// come first, and the rest is worth what the next such part is.
 class OpenWork {
 public:
-    /// In the order of bound / cost, until another is set. \param visitCost of a block of which
-    /// nothing is evaluated anew
-    OpenWork(std::size_t rows, std::size_t visitCost);
+    /// What working on a block takes, about [rays].
+    struct Costs {
+        std::size_t visit; ///< of a block of which nothing is evaluated anew
+        std::size_t entry; ///< more, for each entry that is
+    };
+
+    /// In the order of bound / cost, until another is set.
+    OpenWork(std::size_t rows, const Costs& costs);
     /// Another order for all that is open, and for what comes.
     void setOrder(std::shared_ptr<const OrderOfWork> order);
     /// The viewer has moved: what work is worth is asked for again.
@@ -186,7 +191,7 @@ private:
     std::vector<RowList> rows_;
     std::vector<Sum> sums_;            ///< a block of receivers each
     std::vector<Receivers> receivers_; ///< likewise
-    std::size_t visitCost_;
+    Costs costs_;
     std::shared_ptr<const OrderOfWork> order_;
     bool whole_ = false;
     double patience_ = 4e6;              ///< [rays]

@@ -42,10 +42,10 @@ float factorBound(const RowUpdates::RowFacts& sender, const Bounds& receivers) {
 } // namespace
 
 RowUpdates::RowUpdates(const PatchSet& set, const RayScene& rays, RowTable& table,
-                       const std::vector<ObjectId>& blockObjects, std::size_t visitCost)
-    : set_(set), rayScene_(rays), table_(table), blockObjects_(blockObjects), visitCost_(visitCost),
-      grain_(std::max<std::size_t>(1, 256 / visitCost)), row_(table.size()),
-      open_(table.size(), visitCost) {}
+                       const std::vector<ObjectId>& blockObjects, const OpenWork::Costs& costs)
+    : set_(set), rayScene_(rays), table_(table), blockObjects_(blockObjects), costs_(costs),
+      grain_(std::max<std::size_t>(1, 256 / costs.visit)), row_(table.size()),
+      open_(table.size(), costs) {}
 
 void RowUpdates::add(std::vector<ObjectId> objects, std::vector<BlockMask> receivers,
                      std::vector<Bounds> regions) {

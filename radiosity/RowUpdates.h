@@ -25,9 +25,9 @@ class RowUpdates {
 public:
     /// Nothing is open at first. All must outlive this.
     /// \param blockObjects whose receivers are in each block of the table
-    /// \param visitCost what looking at a block and retesting some of it costs, about [rays]
+    /// \param costs a visit's is that of looking at a block and retesting some of it
     RowUpdates(const PatchSet& set, const RayScene& rays, RowTable& table,
-               const std::vector<ObjectId>& blockObjects, std::size_t visitCost);
+               const std::vector<ObjectId>& blockObjects, const OpenWork::Costs& costs);
     RowUpdates(const RowUpdates&) = delete;
     RowUpdates& operator=(const RowUpdates&) = delete;
 
@@ -68,7 +68,7 @@ public:
     /// had no entries there is nothing to be done.
     std::vector<std::uint32_t> takeHidden() { return std::exchange(hidden_, {}); }
     /// Most items that work() returns for an effort.
-    std::size_t mostItems(std::size_t effort) const { return effort / visitCost_ + 1; }
+    std::size_t mostItems(std::size_t effort) const { return effort / costs_.visit + 1; }
 
     /// Whether all that edits concern is known, and so among the open work.
     bool found() const { return row_ == table_.size(); }
@@ -117,11 +117,12 @@ private:
     const RayScene& rayScene_;
     RowTable& table_;
     const std::vector<ObjectId>& blockObjects_;
-    std::size_t visitCost_, grain_; ///< [rays]; items a task
-    std::uint32_t edits_ = 0;       ///< so far
-    std::vector<Edit> untold_;      ///< the last of them: not all rows have been told
-    std::size_t row_ = 0;           ///< rows before it have been told of all edits
-    std::uint32_t block_ = 0;       ///< of row_, if it is told run by run
+    OpenWork::Costs costs_;
+    std::size_t grain_;        ///< items a task
+    std::uint32_t edits_ = 0;  ///< so far
+    std::vector<Edit> untold_; ///< the last of them: not all rows have been told
+    std::size_t row_ = 0;      ///< rows before it have been told of all edits
+    std::uint32_t block_ = 0;  ///< of row_, if it is told run by run
     std::map<std::uint32_t, PendingChange> changes_; ///< for rows that know of so many edits
     std::vector<MovedObject> moved_;       ///< since open work was opened; the last moved last
     std::vector<std::uint32_t> movedWhen_; ///< the last edit that moved each of them

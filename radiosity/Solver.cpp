@@ -15,10 +15,13 @@ namespace penumbra {
 namespace {
 
 constexpr std::size_t kMostEffort = std::size_t(1) << 20; ///< [rays]
-constexpr std::size_t kMostPromptEffort = 1536; ///< of a piece within a short budget [rays]
+constexpr std::size_t kMostPromptEffort = 1536; ///< of a piece within a prompt budget [rays]
+constexpr double kPrompt = 2e-3;                ///< a budget below is one [s]
 /// What work that is put off may change, of what the certificate allows.
 constexpr double kDirectMayStayOpen = 0.15, kIndirectMayStayOpen = 0.35;
-constexpr double kPause = 3e-4; ///< a piece of work within a budget takes about this long [s]
+/// A piece of work takes about this share of the budget, but not less or more than so long [s]: if
+/// it is too small, threads wait for each other more than they work.
+constexpr double kPiece = 0.25, kPause = 3e-4, kLongest = 0.05;
 
 double seconds() {
     using namespace std::chrono;
@@ -114,11 +117,12 @@ constexpr double kPatience = 0.5;
 /// \return whether there is nothing left to do
 bool Solver::run(double budget, const bool* until, const Progress& progress) {
     const double start = seconds();
-    const std::size_t most = budget > 1 ? kMostEffort : kMostPromptEffort;
+    const std::size_t most = budget >= kPrompt ? kMostEffort : kMostPromptEffort;
+    const double piece = std::clamp(kPiece * budget, kPause, kLongest);
     for (double left = budget; left > 0 && !(until && *until);
          left = budget - (seconds() - start)) {
         direct_.setPatience(kPatience / pace_.secondsPerRay(Pace::direct));
-        pace_.aim(std::min(budget > 1 ? 0.05 : kPause, std::max(left, 0.5 * kPause)), most);
+        pace_.aim(std::min(piece, std::max(left, 0.5 * kPause)), most);
         if (!work(pace_, progress)) return true;
     }
     return false;

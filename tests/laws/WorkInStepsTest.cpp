@@ -61,6 +61,32 @@ TEST(WorkInSteps, EditsThatComeBeforeTheLastIsWorkedOffAreThoseInOneGo) {
     }
 }
 
+TEST(WorkInSteps, APieceOfIndirectLightIsAsLargeAsItIsAskedFor) {
+    // A visit counts for 48 rays. Pieces that were said to be larger than they are kept one thread
+    // busy, and the others waiting.
+    constexpr std::size_t kEffort = 4096; // [rays]
+    double asked = 0, done = 0;
+    for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+        EditableRoom room(seed);
+        LitScene lit(placeScene(room.scene()), {.patchSize = 0.45f, .elementSize = 0.3f}, kTight);
+        lit.solver().settle();
+        for (int i = 0; i < 3; ++i) {
+            room.edit();
+            if (lit.follow(placeScene(room.scene())).rebuilt) continue;
+            const WorkCount before = lit.solver().statistics().indirect;
+            const auto progress = [&](const std::string& phase, double) {
+                if (phase == "shadows of indirect light") asked += double(kEffort);
+            };
+            while (!lit.solver().converged() && lit.solver().work(kEffort, progress)) {
+            }
+            const WorkCount worked = lit.solver().statistics().indirect - before;
+            done += double(worked.rays.total()) + 48 * double(worked.blocksVisited);
+        }
+    }
+    EXPECT_GT(done, 1e5);
+    EXPECT_LT(asked, 4 * done);
+}
+
 TEST(WorkInSteps, LookingAtLightThatIsHalfDoneChangesNothing) {
     EditableRoom room(2);
     LitScene whole(placeScene(room.scene()), EditableRoom::meshing(), kTight);

@@ -34,7 +34,7 @@ protected:
                            std::uint32_t since = 0) {
         return {0, index, anew, since, factor};
     }
-    OpenWork work{2, 1};
+    OpenWork work{2, {.visit = 1, .entry = 20}};
 };
 
 TEST_F(OpenWorkOfTwoRows, ComesWithTheLargestBoundFirst) {
