@@ -224,12 +224,17 @@ void GpuGeometry::requireFactors(const ShownLight& shown) {
     glBindVertexArray(0);
 }
 
-std::size_t GpuGeometry::copyBlocks(const ShownLight* shown, const LitGeometry& geometry,
+std::size_t GpuGeometry::copyIndirect(const ShownLight* shown, const LitGeometry& geometry,
+                                      std::size_t first, std::size_t count) {
+    return replaceValues(indirect_, shown ? shown->indirect : geometry.data().indirect, first,
+                         count);
+}
+
+/// All but the indirect light.
+std::size_t GpuGeometry::copyOthers(const ShownLight* shown, const LitGeometry& geometry,
                                     std::size_t first, std::size_t count) {
-    const LitMeshData& own = geometry.data();
     std::size_t bytes =
-        replaceValues(direct_, shown ? shown->direct : own.direct, first, count) +
-        replaceValues(indirect_, shown ? shown->indirect : own.indirect, first, count);
+        replaceValues(direct_, shown ? shown->direct : geometry.data().direct, first, count);
     if (shown && !shown->factors.empty())
         bytes +=
             writeValues(factors_, forMaps(std::span(shown->factors).subspan(first, count)), first) +
@@ -253,14 +258,23 @@ std::size_t GpuGeometry::refresh(const LitGeometry& geometry, const ShownLight* 
     }
     if (shown) requireFactors(*shown);
     bytes += redraw(geometry, shown);
-    for (std::size_t block = 0; block < latest.size(); ++block) {
-        const std::size_t begin = block;
-        while (block < latest.size() && blockRevisions_[block] != latest[block]) ++block;
-        if (block == begin) continue;
-        const std::size_t first = begin * LitGeometry::kBlock;
-        const std::size_t count = std::min(block * LitGeometry::kBlock, vertices) - first;
-        bytes += copyBlocks(shown, geometry, first, count);
-    }
+    const auto copyRuns = [&](auto changed, auto copy) {
+        for (std::size_t block = 0; block < latest.size(); ++block) {
+            const std::size_t begin = block;
+            while (block < latest.size() && changed(block)) ++block;
+            if (block == begin) continue;
+            const std::size_t first = begin * LitGeometry::kBlock;
+            const std::size_t count = std::min(block * LitGeometry::kBlock, vertices) - first;
+            bytes += (this->*copy)(shown, geometry, first, count);
+        }
+    };
+    const auto changed = [&](std::size_t b) { return blockRevisions_[b] != latest[b]; };
+    copyRuns(changed, &GpuGeometry::copyIndirect);
+    copyRuns(
+        [&](std::size_t b) {
+            return changed(b) && !(shown && shown->onlyIndirectSince(b, blockRevisions_[b]));
+        },
+        &GpuGeometry::copyOthers);
     blockRevisions_ = latest;
     return bytes;
 }

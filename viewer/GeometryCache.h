@@ -53,7 +53,9 @@ public:
 
 private:
     void makeBuffers(const LitGeometry& geometry, const ShownLight* shown);
-    std::size_t copyBlocks(const ShownLight* shown, const LitGeometry& geometry, std::size_t first,
+    std::size_t copyIndirect(const ShownLight* shown, const LitGeometry& geometry,
+                             std::size_t first, std::size_t count);
+    std::size_t copyOthers(const ShownLight* shown, const LitGeometry& geometry, std::size_t first,
                            std::size_t count);
     std::size_t redraw(const LitGeometry& geometry, const ShownLight* shown);
     void placeEntries(const LitMeshData& mesh);

@@ -108,7 +108,7 @@ void LightBlend::comeToRest(double time) {
 /// sender after another, and what they change is sent on last. So it is taken when it has settled;
 /// if that is not soon, now and then.
 bool LightBlend::indirectSetsOut(const RadiosityState& state, double time) {
-    constexpr double kLongest = 1; // [s]
+    constexpr double kLongest = 2; // [s]
     const bool settled = state.phase == RadiosityState::Phase::settled && state.queued == 0;
     if (!lamps_.empty() && !settled && time - indirectSince_ < kLongest) return false;
     indirectSince_ = time;

@@ -49,7 +49,7 @@ struct BlendOptions {
 /// waits until all are ready.
 ///
 /// Indirect light is not exchanged. It fades to what was published when that has settled; if that
-/// takes long, each second.
+/// takes long, every two seconds.
 ///
 /// It makes no difference who moves things: a hand, arrow keys, undo, an animation. If nobody has
 /// asked for live lamps, light fades as it is published.

@@ -28,6 +28,12 @@ bool alike(Rgb a, Rgb b) {
            std::abs(a.b - b.b) <= most;
 }
 
+/// Whether nobody sees one value take the place of another at once, even on all of the screen: a
+/// quarter of the step that is just seen there.
+bool unseen(Rgb a, Rgb b) {
+    return maxChannel(absolute(a - b)) <= 1e-3f * std::min(maxChannel(a), maxChannel(b));
+}
+
 } // namespace
 
 LightFade::LightFade(const LitGeometry& geometry) {
@@ -203,7 +209,7 @@ LightFade::Direct LightFade::shownDirect(std::size_t vertex, const Frame& frame)
 }
 
 void LightFade::setShown(std::size_t vertex, const Direct& direct, const Frame& frame) {
-    changed_ = true;
+    directChanged_ = true;
     shown_.direct[vertex] = direct.light;
     if (shown_.factors.empty()) return;
     shown_.factors[vertex] = direct.factors;
@@ -275,7 +281,7 @@ bool LightFade::advanceIndirect(const LitMeshData& data, std::size_t vertex, Way
     const Rgb wanted = data.indirect[vertex];
     const auto step = [&] {
         const float w = smoothstep(frame.time, way.start, frame.seconds);
-        changed_ = true;
+        indirectChanged_ = true;
         now = w >= 1 ? way.target : mix(way.from, way.target, w);
         if (w >= 1) way.start = kNever;
     };
@@ -285,21 +291,36 @@ bool LightFade::advanceIndirect(const LitMeshData& data, std::size_t vertex, Way
     }
     if (wanted == (way.start != kNever ? way.target : now)) return way.start == kNever;
     if (!frame.indirect) return false;
+    if (way.start == kNever && unseen(now, wanted)) { // copied once, not in each frame of a fade
+        now = wanted;
+        indirectChanged_ = true;
+        return true;
+    }
     way = {now, wanted, frame.time};
     step();
     return way.start == kNever;
 }
 
+/// The next revision of a block differs from this one in indirect light alone.
+void LightFade::noteIndirectChange(std::size_t block) {
+    if (shown_.indirectRuns.size() <= block) shown_.indirectRuns.resize(block + 1);
+    ShownLight::IndirectRun& run = shown_.indirectRuns[block];
+    const std::uint64_t now = shown_.blockRevisions[block];
+    if (run.to != now) run.from = now;
+    run.to = now + 1;
+}
+
 /// \return whether all of the block has come to rest at what the geometry carries
 bool LightFade::advanceBlock(const LitMeshData& data, std::size_t block, Flight& flight,
                              const Frame& frame) {
-    changed_ = false;
+    directChanged_ = indirectChanged_ = false;
     bool done = true;
     for (std::size_t i = 0; i < flight.direct.size(); ++i) {
         done &= advanceDirect(data, block * kBlock + i, flight.direct[i], frame);
         done &= advanceIndirect(data, block * kBlock + i, flight.indirect[i], frame);
     }
-    if (changed_) {
+    if (directChanged_ || indirectChanged_) {
+        if (!directChanged_) noteIndirectChange(block);
         ++shown_.blockRevisions[block];
         ++shown_.revision;
     }

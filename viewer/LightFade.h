@@ -107,6 +107,7 @@ private:
     CornerFade::Over beyond(const LitMeshData& data, std::uint32_t vertex,
                             const Light& light) const;
     Flight& flightOf(std::size_t block);
+    void noteIndirectChange(std::size_t block);
     bool advanceBlock(const LitMeshData& data, std::size_t block, Flight& flight,
                       const Frame& frame);
     void advanceCorners(const LitMeshData& data, const Frame& frame);
@@ -128,7 +129,8 @@ private:
     std::vector<std::uint32_t> borderFirst_, borders_;
     std::size_t behind_ = 0; ///< vertices that are, in part
     bool fading_ = false, waiting_ = false;
-    bool changed_ = false; ///< the block that is being worked on
+    /// Of the block that is being worked on.
+    bool directChanged_ = false, indirectChanged_ = false;
 };
 
 } // namespace penumbra

@@ -50,7 +50,17 @@ struct ShownLight {
     std::uint64_t redrawnRevision = 0; ///< rises when copies or redrawn change
 
     std::vector<std::uint64_t> blockRevisions; ///< one a block, rises when any of this changes
-    std::uint64_t revision = 1;                ///< rises when any of these does
+    /// From the revision `from` of a block to `to` nothing of it changed but its indirect light.
+    struct IndirectRun {
+        std::uint64_t from = 0, to = 0;
+    };
+    std::vector<IndirectRun> indirectRuns; ///< one a block; may be fewer
+    /// Whether a copy as of a revision of a block differs from it in indirect light alone.
+    bool onlyIndirectSince(std::size_t block, std::uint64_t revision) const {
+        return block < indirectRuns.size() && indirectRuns[block].to == blockRevisions[block] &&
+               indirectRuns[block].from <= revision;
+    }
+    std::uint64_t revision = 1; ///< rises when any of these does
 };
 
 } // namespace penumbra

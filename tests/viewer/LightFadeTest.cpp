@@ -155,6 +155,38 @@ TEST(LightFade, IndirectLightThatMayNotSetOutYetFinishesItsWayAndWaits) {
     EXPECT_FALSE(surface.fade.changing());
 }
 
+TEST(LightFade, IndirectLightThatChangesByLessThanCanBeSeenIsUploadedOnce) {
+    Surface surface;
+    const std::vector<std::uint64_t> before = surface.fade.shown().blockRevisions;
+    surface.publish(0, 100, Known::exact, 20.01f); // 20 lux before
+    for (double t = 1; t < 2; t += 0.05) surface.show(t);
+    EXPECT_EQ(surface.fade.shown().indirect[5].r, 20.01f);
+    EXPECT_EQ(surface.fade.shown().blockRevisions[0], before[0] + 1);
+}
+
+TEST(LightFade, IndirectLightOnItsWayHasNothingElseUploaded) {
+    Surface surface;
+    surface.show(0);
+    const ShownLight& shown = surface.fade.shown();
+    const std::uint64_t before = shown.blockRevisions[0];
+    surface.publish(0, 100, Known::exact, 40);
+    for (double t = 1; t < 1.2; t += 0.05) surface.show(t);
+    const std::uint64_t between = shown.blockRevisions[0];
+    EXPECT_GT(between, before + 1);
+    EXPECT_TRUE(shown.onlyIndirectSince(0, before));
+    surface.publish(0, 110, Known::exact, 40); // direct light as well
+    surface.show(1.2);
+    surface.show(1.22);
+    EXPECT_FALSE(shown.onlyIndirectSince(0, before));
+    EXPECT_FALSE(shown.onlyIndirectSince(0, between));
+    for (double t = 1.25; t < 1.6; t += 0.05) surface.show(t);
+    const std::uint64_t direct = shown.blockRevisions[0];
+    surface.publish(0, 110, Known::exact, 60);
+    for (double t = 2; t < 2.2; t += 0.05) surface.show(t);
+    EXPECT_FALSE(shown.onlyIndirectSince(0, before)) << "the direct light came in between";
+    EXPECT_TRUE(shown.onlyIndirectSince(0, direct));
+}
+
 TEST(LightFade, LampsThatBecomeKnownChangeNothingOfWhatIsSeen) {
     Surface surface;
     surface.fade.setLamps(1);
