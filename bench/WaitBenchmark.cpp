@@ -4,6 +4,7 @@
 #include "bench/BenchScene.h"
 #include "bench/MovedScene.h"
 #include "radiosity/LitScene.h"
+#include "radiosity/process/EditPace.h"
 #include "radiosity/process/ViewerAttention.h"
 
 #include <algorithm>
@@ -64,7 +65,7 @@ public:
         watch_ = Stopwatch(); // meshing and the first light are not counted
         const double before = lit_.solver().direct().updates().open().taken();
         for (int frame = 0; watch_.wall() < kDrag; ++frame) {
-            edit();
+            if (done_ || pace_.mayTake(watch_.wall())) edit();
             const double end = kFrame * std::ceil((watch_.wall() + 1e-3) / kFrame);
             work(end);
         }
@@ -79,6 +80,8 @@ public:
 private:
     /// There and back again, once in two seconds.
     void edit() {
+        pace_.taken(watch_.wall());
+        done_ = false;
         scene_.putBetween(0.5 - 0.5 * std::cos(std::numbers::pi * watch_.wall()));
         const LitScene::Followed followed = lit_.follow(scene_.placed());
         Bounds moved;
@@ -91,9 +94,10 @@ private:
     void work(double end) {
         Solver& solver = lit_.solver();
         for (double left = end - watch_.wall(); left > 0; left = end - watch_.wall()) {
-            const bool done = solver.stepUntilReady(std::min(kTurn, left));
+            done_ = solver.stepUntilReady(std::min(kTurn, left));
+            pace_.worked(watch_.wall(), solver.direct().openKnown());
             look();
-            if (!done) continue;
+            if (!done_) continue;
             idle += std::max(0.0, end - watch_.wall()) / kDrag;
             std::this_thread::sleep_for(std::chrono::duration<double>(end - watch_.wall()));
         }
@@ -111,6 +115,8 @@ private:
     LitScene lit_;
     ViewerAttention viewer_;
     WorkClock clock_;
+    EditPace pace_;
+    bool done_ = true; ///< nothing is left to be done but what is put off
     Stopwatch watch_;
 };
 

@@ -10,8 +10,8 @@
 namespace penumbra {
 
 /// How many of the receivers around one said yes, when each of some of a block was asked once: a
-/// kernel-weighted mean [Nadaraya1964]. An answer counts the
-/// more the nearer it is and the more its receiver faces the same way:
+/// kernel-weighted mean [Nadaraya1964]. An answer counts the more the nearer it is and the more its
+/// receiver faces the same way:
 ///
 ///     w = max(0, 1 - d^2 / (3 s^2))^2 * max(0, n . n')^2
 ///

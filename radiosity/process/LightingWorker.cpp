@@ -65,7 +65,7 @@ LightingWorker::Turn LightingWorker::turn(double budget) {
     if (stopped_ || control_.stop.load(std::memory_order_relaxed) != 0) return Turn::stopped;
     bool worked = false;
     try {
-        if (edited_) followScene(), worked = true;
+        if (edited_ && mayFollow()) followScene(), worked = true;
         if (lit_) worked |= work(budget);
         if (question_ != 0 && publisher_) showWork();
     } catch (const Error& error) {
@@ -158,8 +158,20 @@ void LightingWorker::takeLamps(ByteReader& message) {
     marked_ = false;
 }
 
+/// Whether edits may be followed now, or are to wait for the light of those before.
+bool LightingWorker::mayFollow() const {
+    return !lit_ || complete_ || pace_.mayTake(seconds());
+}
+
+/// The last message that what is worked on takes in.
+std::uint64_t LightingWorker::followed() const {
+    return edited_ ? followed_ : status_.taken;
+}
+
 void LightingWorker::followScene() {
     edited_ = false;
+    followed_ = status_.taken;
+    pace_.taken(seconds());
     settled_ = complete_ = marked_ = shown_ = false;
     nextLook_ = seconds() + kTurn; // its direct light comes first
     nextWork_ = 0;
@@ -236,12 +248,12 @@ bool LightingWorker::work(double budget) {
         worked |= published;
         shown_ |= published;
     }
-    if (marked_ && publisher_->staleShown()) status_.marked = status_.taken;
+    if (marked_ && publisher_->staleShown()) status_.marked = followed();
     if (publisher_->hasStore() && mesh_.empty() && publisher_->open() == 0) {
-        if (complete_) status_.complete = status_.taken;
+        if (complete_) status_.complete = followed();
         if (settled_) {
             status_.phase = WorkerStatus::settled;
-            status_.lit = status_.taken;
+            status_.lit = followed();
         }
     }
     return worked;
@@ -268,6 +280,7 @@ void LightingWorker::solve(double budget) {
         done = settled_ = solver.stepUntilReady(budget, progress);
     else
         done = complete_ = solver.step(budget);
+    pace_.worked(seconds(), solver.direct().openKnown());
     directDone_ |= settled_;
     if (!settled_) status_.phase = WorkerStatus::solving;
     if (directDone_) solver.sumUp(kMostSums); // the first light comes all at once

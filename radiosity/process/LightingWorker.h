@@ -3,6 +3,7 @@
 
 #include "radiosity/LitScene.h"
 #include "radiosity/process/ControlBlock.h"
+#include "radiosity/process/EditPace.h"
 #include "radiosity/process/GraphCopy.h"
 #include "radiosity/process/LightPublisher.h"
 #include "radiosity/process/LightingTask.h"
@@ -47,6 +48,8 @@ private:
     void build();
     void requestStore();
     void openStore();
+    bool mayFollow() const;
+    std::uint64_t followed() const;
     bool work(double budget);
     void solve(double budget);
     void showWork();
@@ -74,6 +77,8 @@ private:
     bool marked_ = false; ///< stale blocks of live lamps are known, if not yet published
     bool shown_ = false;  ///< something was published since the last edit
     bool edited_ = false, stopped_ = false;
+    EditPace pace_;
+    std::uint64_t followed_ = 0;              ///< the last message before the scene was followed
     bool settled_ = false, complete_ = false; ///< within the certificate; altogether
     bool directDone_ = false;                 ///< of the mesh as it is, once
     double nextLook_ = 0;                     ///< at the indirect light, steady clock [s]
