@@ -19,9 +19,9 @@ constexpr std::size_t kMostPromptEffort = 1536; ///< of a piece within a prompt 
 constexpr double kPrompt = 2e-3;                ///< a budget below is one [s]
 /// What work that is put off may change, of what the certificate allows.
 constexpr double kDirectMayStayOpen = 0.15, kIndirectMayStayOpen = 0.35;
-/// A piece of work takes about this share of the budget, but not less or more than so long [s]: if
-/// it is too small, threads wait for each other more than they work.
-constexpr double kPiece = 0.25, kPause = 3e-4, kLongest = 0.05;
+/// A piece of work within a prompt budget takes about so long; within others it takes the budget,
+/// up to so long [s]: small pieces have threads wait for each other, and work take longer in all.
+constexpr double kPause = 3e-4, kLongest = 0.05;
 
 double seconds() {
     using namespace std::chrono;
@@ -118,7 +118,7 @@ constexpr double kPatience = 0.5;
 bool Solver::run(double budget, const bool* until, const Progress& progress) {
     const double start = seconds();
     const std::size_t most = budget >= kPrompt ? kMostEffort : kMostPromptEffort;
-    const double piece = std::clamp(kPiece * budget, kPause, kLongest);
+    const double piece = budget >= kPrompt ? std::min(budget, kLongest) : kPause;
     for (double left = budget; left > 0 && !(until && *until);
          left = budget - (seconds() - start)) {
         direct_.setPatience(kPatience / pace_.secondsPerRay(Pace::direct));
