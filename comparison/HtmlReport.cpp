@@ -89,13 +89,15 @@ void writeFigures(std::string& page, const ComparisonResult& result) {
                        orNever(f.work1), figure(f.work), orNever(f.seconds10, 1e3),
                        orNever(f.seconds1, 1e3), figure(1e3 * f.seconds), f.differsFromTruth);
     page += "</tbody></table></div>\n";
-    fmt::format_to(std::back_inserter(page),
-                   "<p class='note'>To 10 % and 1 % of the initial visible error; means over {} of "
-                   "{} edits. What is worked on: {}.</p>\n",
-                   countedEdits(result).size(), result.frames.size(),
-                   result.dirty == DirtySet::perfect
-                       ? "of direct light only what comes out otherwise, as if that were known"
-                       : "what bounding shafts find, of which some turns out not to change");
+    fmt::format_to(
+        std::back_inserter(page),
+        "<p class='note'>To 10 % and 1 % of the initial visible error, on the mean curve "
+        "of all edits, so that long ones may come late; in all: a mean edit. {} of "
+        "{} edits are seen. What is worked on: {}.</p>\n",
+        countedEdits(result).size(), result.frames.size(),
+        result.dirty == DirtySet::perfect
+            ? "of direct light only what comes out otherwise, as if that were known"
+            : "what bounding shafts find, of which some turns out not to change");
 }
 
 void writeCharts(std::string& page, const ComparisonResult& result) {
