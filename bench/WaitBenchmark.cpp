@@ -64,7 +64,7 @@ public:
     void run() {
         watch_ = Stopwatch(); // meshing and the first light are not counted
         const double before = lit_.solver().direct().updates().open().taken();
-        for (int frame = 0; watch_.wall() < kDrag; ++frame) {
+        while (watch_.wall() < kDrag) {
             if (done_ || pace_.mayTake(watch_.wall())) edit();
             const double end = kFrame * std::ceil((watch_.wall() + 1e-3) / kFrame);
             work(end);

@@ -196,11 +196,12 @@ def main():
         command += ["--cut-from", "/World/Before"] if args.cut else ["--pan", args.pan]
         subprocess.run(command, check=True)
         reports.append(json.loads(report.with_suffix(".json").read_text()))
+    rows = with_mean_of_seeds(figures(reports))
     print("| order | area | work to -90 % | time to -90 % of plain's total | of plain's to -90 % |"
           " total time / plain | total work / plain |")
     print("| --- | ---: | ---: | ---: | ---: | ---: | ---: |")
-    for name, rows in with_mean_of_seeds(figures(reports)).items():
-        columns = [mean(r[k] for r in rows)
+    for name, edits in rows.items():
+        columns = [mean(e[k] for e in edits)
                    for k in ("area", "work90", "time90", "against", "total", "work")]
         print(f"| {name} | " + " | ".join(f"{c:.3f}" for c in columns) + " |")
 

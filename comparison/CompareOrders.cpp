@@ -1,10 +1,6 @@
 #include "comparison/CompareOrders.h"
 
-#include "comparison/OracleOrder.h"
-#include "importance/Adaptation.h"
-#include "importance/Viewpoint.h"
-#include "radiosity/DrawnView.h"
-#include "radiosity/LitScene.h"
+#include "comparison/EditPlayer.h"
 
 #include <algorithm>
 #include <chrono>
@@ -22,142 +18,10 @@ double now() {
 
 constexpr int kPanSteps = 20; ///< in which a viewer turns
 
-/// What is to come out of an edit, by vertex.
-struct Truth {
-    std::vector<Element> elements; ///< whose corners the vertices are
-    Lighting light;
-    VertexFactors factors;
-};
-
-/// The same by the vertices of a patch set as it is now, after the same edit: which of the private
-/// vertices stands for which corner depends on what was done before (Coverage.h).
-Truth truthBy(const PatchSet& now, const Truth& truth) {
-    const std::size_t vertices = now.vertices.size();
-    Truth result{now.elements, {}, {}};
-    result.light.direct.resize(vertices), result.light.indirect.resize(vertices);
-    result.factors.assign(truth.factors.size(), std::vector<float>(vertices));
-    for (std::size_t e = 0; e < now.elements.size(); ++e)
-        for (std::size_t k = 0; k < now.elements[e].vertices.size(); ++k) {
-            const std::uint32_t to = now.elements[e].vertices[k];
-            const std::uint32_t from = truth.elements[e].vertices[k];
-            result.light.direct[to] = truth.light.direct[from];
-            result.light.indirect[to] = truth.light.indirect[from];
-            for (std::size_t row = 0; row < truth.factors.size(); ++row)
-                result.factors[row][to] = truth.factors[row][from];
-        }
-    return result;
-}
-
 bool knowsTheView(const OrderUnderTest& order) {
     return order.kind == OrderUnderTest::Kind::importance ||
            order.kind == OrderUnderTest::Kind::oracle;
 }
-
-/// A scene that is played.
-class Player {
-public:
-    Player(const Playback& playback, const ComparisonOptions& options)
-        : playback_(playback), options_(options), placed_(playback.show(playback.frames.front())),
-          lit_(placed_, options.meshing, options.solving) {
-        settle();
-        look();
-    }
-
-    /// Goes to a frame, without any work on its light.
-    void edit(double frame) {
-        placed_ = playback_.show(frame);
-        const LitScene::Followed followed = lit_.follow(placed_);
-        change_ = followed.rebuilt ? SceneChange() : followed.change;
-        look();
-    }
-    /// Leaves only that work which changes something.
-    void knowWhatChanges(const Truth& truth) {
-        Solver& solver = lit_.solver();
-        while (!solver.direct().openKnown() && solver.work(65536)) {
-        }
-        const VertexFactors now = factorsOf(solver.emitterRows(), lit_.patches().vertices.size());
-        solver.narrowDirect([&](std::uint32_t emitter, std::uint32_t block) {
-            const std::vector<float>&before = now[emitter], &after = truth.factors[emitter];
-            std::uint64_t changes = 0;
-            const std::size_t first = std::size_t(block) * PatchSet::kBlock;
-            for (std::size_t r = 0; r < PatchSet::kBlock && first + r < before.size(); ++r)
-                changes |= std::uint64_t(before[first + r] != after[first + r]) << r;
-            return changes;
-        });
-    }
-    /// Does what was left out because nothing changes: who blocks an entry may be someone else.
-    void catchUp() {
-        lit_.solver().apply(change_);
-        settle();
-    }
-    /// In no order that is watched.
-    void settle() {
-        lit_.solver().setOrder(UpdateOrder::importance);
-        lit_.solver().settle();
-    }
-
-    /// Tells the solver in which order to go about it, as a viewer would at each frame.
-    /// \param truth for the order that knows it
-    /// \param before the cut, if there is one
-    void order(const OrderUnderTest& order, const Truth& truth, bool before) {
-        using Kind = OrderUnderTest::Kind;
-        Solver& solver = lit_.solver();
-        switch (order.kind) {
-        case Kind::plain:
-            return solver.setOrder(UpdateOrder::plain);
-        case Kind::bound:
-            return solver.setDirectOrder(std::make_shared<BoundOrder>());
-        case Kind::random:
-            return solver.setDirectOrder(std::make_shared<RandomOrder>(order.seed));
-        case Kind::importance:
-            return solver.attend(attention(order, before));
-        case Kind::oracle:
-            return solver.setDirectOrder(std::make_shared<OracleOrder>(
-                lit_.patches(), solver.emitterRows(), truth.factors, *drawn_, adaptation_));
-        }
-    }
-
-    LitScene& lit() { return lit_; }
-    double pixelsPerDegree() const { return viewpoint(view_).pixelsPerDegree(); }
-    Picture picture() const {
-        return {options_.width, options_.height, drawn_->colours(lit_.solver().lighting())};
-    }
-    Plane luminances(const Lighting& light) const { return drawn_->luminances(light); }
-
-    /// \param turn of the viewer to the left [degrees]
-    void look(double turn = 0) {
-        view_ = playback_.view(placed_);
-        if (turn != 0) view_ = turned(view_, playback_.up, turn);
-        drawn_ =
-            std::make_unique<DrawnView>(lit_.patches(), view_, options_.width, options_.height);
-        adaptation_ = meanAdaptation(luminances(lit_.solver().lighting()).values);
-    }
-
-private:
-    Viewpoint viewpoint(const View& view) const {
-        return Viewpoint(view, options_.width, options_.height);
-    }
-    Attention attention(const OrderUnderTest& order, bool before) const {
-        std::optional<Bounds> moved;
-        for (ObjectId object : change_.objects) {
-            if (!moved) moved.emplace();
-            moved->add(boundsOf(lit_.patches(), object));
-        }
-        GazeHints hints;
-        if (moved) hints.dragged = glm::dvec3(moved->centre());
-        const Viewpoint from = viewpoint(before ? playback_.viewBefore(placed_) : view_);
-        return {from, Gaze(from, hints), adaptation_, moved, order.factors};
-    }
-
-    const Playback& playback_;
-    const ComparisonOptions& options_;
-    PlacedScene placed_;
-    LitScene lit_;
-    SceneChange change_; ///< the last edit
-    View view_;
-    std::unique_ptr<DrawnView> drawn_;
-    double adaptation_ = 100; ///< [nit]
-};
 
 /// How the viewer moves while an edit is worked off, by the work that is done.
 struct ViewerMotion {
@@ -168,7 +32,7 @@ struct ViewerMotion {
 /// One edit, worked off and looked at every now and then.
 class Watch {
 public:
-    Watch(Player& player, const OrderUnderTest& order, const Truth& truth,
+    Watch(EditPlayer& player, const OrderUnderTest& order, const Truth& truth,
           const ComparisonOptions& options, OrderResult& result, bool film,
           const ViewerMotion& motion)
         : player_(player), order_(order), truth_(truth), options_(options), result_(result),
@@ -235,7 +99,7 @@ private:
             result_.film.push_back({seconds_, work(), player_.picture(), jnd, sample.error});
     }
 
-    Player& player_;
+    EditPlayer& player_;
     const OrderUnderTest& order_;
     const Truth& truth_;
     const ComparisonOptions& options_;
@@ -250,7 +114,7 @@ private:
 };
 
 /// Settles a frame, to know what is to come out.
-Truth findTruth(Player& player, double frame) {
+Truth findTruth(EditPlayer& player, double frame) {
     player.edit(frame);
     player.settle();
     const Solver& solver = player.lit().solver();
@@ -260,7 +124,7 @@ Truth findTruth(Player& player, double frame) {
 
 /// Goes from the settled light of one frame to the next, on which nothing has been done.
 /// \return the truth by the vertices as they are now
-Truth startEdit(Player& player, double from, double to, const Truth& truth, DirtySet dirty) {
+Truth startEdit(EditPlayer& player, double from, double to, const Truth& truth, DirtySet dirty) {
     player.edit(from);
     player.settle();
     player.edit(to);
@@ -269,12 +133,12 @@ Truth startEdit(Player& player, double from, double to, const Truth& truth, Dirt
     return now;
 }
 
-void endEdit(Player& player, DirtySet dirty) {
+void endEdit(EditPlayer& player, DirtySet dirty) {
     if (dirty == DirtySet::perfect) player.catchUp();
 }
 
 /// The work of an edit that nobody watches. \pre startEdit()
-double unwatchedWork(Player& player, DirtySet dirty) {
+double unwatchedWork(EditPlayer& player, DirtySet dirty) {
     const double before = player.lit().solver().done().inRays();
     player.settle();
     const double work = player.lit().solver().done().inRays() - before;
@@ -282,7 +146,7 @@ double unwatchedWork(Player& player, DirtySet dirty) {
     return work;
 }
 
-void describe(Player& player, ComparisonResult& result) {
+void describe(EditPlayer& player, ComparisonResult& result) {
     const PatchSet& patches = player.lit().patches();
     result.elements = patches.elements.size();
     result.patches = patches.patches.size();
@@ -335,7 +199,7 @@ ComparisonResult compareOrders(const Playback& playback, const std::vector<Order
     result.dirty = options.dirty;
     for (const OrderUnderTest& order : orders) result.orders.emplace_back().name = order.name;
     if (progress) progress("the light at first", 0);
-    Player player(playback, options);
+    EditPlayer player(playback, options);
     const double steps = double(playback.frames.size() - 1) * double(orders.size());
     for (std::size_t i = 1; i < playback.frames.size(); ++i) {
         const bool film = int(i) - 1 == options.filmFrame;

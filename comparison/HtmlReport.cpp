@@ -94,7 +94,7 @@ void writeFigures(std::string& page, const ComparisonResult& result) {
         "<p class='note'>To 10 % and 1 % of the initial visible error, on the mean curve "
         "of all edits, so that long ones may come late; in all: a mean edit. {} of "
         "{} edits are seen. What is worked on: {}.</p>\n",
-        countedEdits(result).size(), result.frames.size(),
+        seenEdits(result).size(), result.frames.size(),
         result.dirty == DirtySet::perfect
             ? "of direct light only what comes out otherwise, as if that were known"
             : "what bounding shafts find, of which some turns out not to change");

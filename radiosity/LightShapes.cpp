@@ -121,12 +121,16 @@ Emitter lightEmitter(const Light& light, const glm::dmat4& toWorld) {
     return emitter;
 }
 
-double polygonArea(std::span<const glm::vec3> polygon) {
+glm::dvec3 areaVector(std::span<const glm::vec3> polygon) {
     glm::dvec3 sum(0);
     for (std::size_t i = 2; i < polygon.size(); ++i)
         sum += glm::cross(glm::dvec3(polygon[i - 1]) - glm::dvec3(polygon[0]),
                           glm::dvec3(polygon[i]) - glm::dvec3(polygon[0]));
-    return 0.5 * glm::length(sum);
+    return 0.5 * sum;
+}
+
+double polygonArea(std::span<const glm::vec3> polygon) {
+    return glm::length(areaVector(polygon));
 }
 
 } // namespace penumbra

@@ -21,6 +21,8 @@ MeshData lightShapeMesh(const Light& light);
 /// becomes polygons.
 Emitter lightEmitter(const Light& light, const glm::dmat4& toWorld);
 
+/// Along a polygon's normal, to where its corners go counter-clockwise; as long as its area [m^2].
+glm::dvec3 areaVector(std::span<const glm::vec3> polygon);
 /// Area of a polygon, exact if it is planar [m^2].
 double polygonArea(std::span<const glm::vec3> polygon);
 

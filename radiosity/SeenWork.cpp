@@ -47,7 +47,7 @@ void SeenWork::forgetSights(std::span<const ObjectId> objects, const Bounds& bef
 
 void SeenWork::attend(const Attention& attention, double ambient) {
     ambient_ = ambient;
-    if (!from_ || !(*from_ == attention.viewpoint)) {
+    if (from_ != attention.viewpoint) {
         close_.clear();
         sights_.clear();
         from_ = attention.viewpoint;
@@ -81,18 +81,27 @@ void SeenWork::lookClosely(std::uint32_t block, std::uint64_t which, std::span<P
     CloseSight& close = close_[block];
     if (close.view != order_->view()) close.valued = 0, close.view = order_->view();
     const Attention& attention = order_->attention();
-    const bool looks = attention.factors.occlusion && attention.viewpoint.eye();
-    if (const std::uint64_t unasked = which & ~close.asked; looks && unasked != 0) {
+    const std::uint64_t unasked = which & ~close.asked;
+    if (attention.factors.occlusion && attention.viewpoint.eye() && unasked != 0) {
         close.seen |= seenOf(block, unasked, glm::vec3(*attention.viewpoint.eye()));
         close.asked |= unasked;
     }
+    if (const std::uint64_t open = which & ~close.valued; open != 0) evaluate(block, open, close);
+    std::copy(close.values.begin(), close.values.end(), values.begin());
+}
+
+/// What some vertices of a block are worth now, of which it is known whether they are seen.
+void SeenWork::evaluate(std::uint32_t block, std::uint64_t which, CloseSight& close) const {
+    const Attention& attention = order_->attention();
+    const bool looks = attention.factors.occlusion && attention.viewpoint.eye();
     const std::size_t first = std::size_t(block) * PatchSet::kBlock;
     std::array<Receiver, PatchSet::kBlock> receivers;
     for (std::size_t r = 0; r < receivers.size(); ++r)
         receivers[r] = patches_.vertices[first + r].receiver;
     const LocalShare share(receivers);
-    for (std::uint64_t open = which & ~close.valued; open != 0; open &= open - 1) {
-        const auto r = std::size_t(std::countr_zero(open));
+    close.valued |= which;
+    for (; which != 0; which &= which - 1) {
+        const auto r = std::size_t(std::countr_zero(which));
         WorkPlace place = places_.atVertex(first + r, light_.vertices()[first + r]);
         close.box.add(place.box);
         place.luminance += place.reflectance * float(ambient_ * std::numbers::inv_pi);
@@ -102,8 +111,6 @@ void SeenWork::lookClosely(std::uint32_t block, std::uint64_t which, std::span<P
                      float(attention.viewpoint.pixelsOf(place.box, place.normal, place.area));
         close.values[r] = place.box.empty() ? PlaceValue() : placeValue(place, attention, pixels);
     }
-    close.valued |= which;
-    std::copy(close.values.begin(), close.values.end(), values.begin());
 }
 
 /// Which of some vertices of a block face the eye, are in the picture, and not hidden by anything.

@@ -36,8 +36,17 @@ public:
     std::uint64_t rays() const { return rayCount_; } ///< to the eye, so far
 
 private:
+    /// What was found of the vertices of a block: bits, and what they come to in one view.
+    struct CloseSight {
+        Bounds box;                        ///< around them [m, world]
+        std::uint64_t asked = 0, seen = 0; ///< by a ray
+        std::uint64_t valued = 0;          ///< in the order's view
+        std::uint32_t view = 0;
+        std::array<PlaceValue, 64> values;
+    };
     ImportanceOrder::Sight look(std::uint32_t place);
     void lookClosely(std::uint32_t block, std::uint64_t which, std::span<PlaceValue> values);
+    void evaluate(std::uint32_t block, std::uint64_t which, CloseSight& close) const;
     std::uint64_t seenOf(std::uint32_t block, std::uint64_t which, const glm::vec3& eye);
     void forgetSights(std::span<const ObjectId> objects, const Bounds& before, const Bounds& now);
     WorkPlace placeNow(std::uint32_t place) const;
@@ -48,15 +57,7 @@ private:
     const DirectLight& light_;
     VertexPlaces places_;
     std::shared_ptr<ImportanceOrder> order_;
-    double ambient_ = 0; ///< [lux]
-    /// What was found of the vertices of a block: bits, and what they come to in one view.
-    struct CloseSight {
-        Bounds box;                        ///< around them [m, world]
-        std::uint64_t asked = 0, seen = 0; ///< by a ray
-        std::uint64_t valued = 0;          ///< in the order's view
-        std::uint32_t view = 0;
-        std::array<PlaceValue, 64> values;
-    };
+    double ambient_ = 0;                                  ///< [lux]
     std::unordered_map<std::uint32_t, CloseSight> close_; ///< by block
     std::unordered_map<std::uint32_t, float> sights_;     ///< by place: pixels seen
     std::optional<Viewpoint> from_;                       ///< where all of that was found

@@ -117,8 +117,9 @@ constexpr double kPatience = 0.5;
 /// \return whether there is nothing left to do
 bool Solver::run(double budget, const bool* until, const Progress& progress) {
     const double start = seconds();
-    const std::size_t most = budget >= kPrompt ? kMostEffort : kMostPromptEffort;
-    const double piece = budget >= kPrompt ? std::min(budget, kLongest) : kPause;
+    const bool prompt = budget < kPrompt;
+    const std::size_t most = prompt ? kMostPromptEffort : kMostEffort;
+    const double piece = prompt ? kPause : std::min(budget, kLongest);
     for (double left = budget; left > 0 && !(until && *until);
          left = budget - (seconds() - start)) {
         direct_.setPatience(kPatience / pace_.secondsPerRay(Pace::direct));

@@ -36,15 +36,6 @@ glm::dvec3 middle(const std::vector<glm::vec3>& polygon) {
     return sum / double(polygon.size());
 }
 
-/// Along the normal, as long as the area [m^2].
-glm::dvec3 areaVector(const std::vector<glm::vec3>& polygon) {
-    glm::dvec3 sum(0);
-    for (std::size_t i = 2; i < polygon.size(); ++i)
-        sum += 0.5 * glm::cross(glm::dvec3(polygon[i - 1] - polygon[0]),
-                                glm::dvec3(polygon[i] - polygon[0]));
-    return sum;
-}
-
 /// Illuminance of a small thing that faces an emitter, without obstacles, in far approximation
 /// [lux].
 double lightAt(const Emitter& emitter, glm::dvec3 thing) {
@@ -73,7 +64,7 @@ glm::dvec3 centreOf(const Emitter& emitter) {
     glm::dvec3 sum(0);
     double area = 0;
     for (const auto& polygon : emitter.polygons) {
-        const double part = glm::length(areaVector(polygon));
+        const double part = polygonArea(polygon);
         sum += part * middle(polygon);
         area += part;
     }

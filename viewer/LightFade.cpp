@@ -268,8 +268,8 @@ bool LightFade::advanceDirect(const LitMeshData& data, std::size_t vertex, Way<D
         return true;
     }
     way = {now, wanted, frame.time};
-    for (std::size_t l = 0; l < kMostLampsDrawnLive;
-         ++l) // what was not known is taken to be as it is now
+    // What was not known is taken to be as it is now.
+    for (std::size_t l = 0; l < kMostLampsDrawnLive; ++l)
         if (way.from.factors[l] < 0) way.from.factors[l] = wanted.factors[l];
     goOn(vertex, way, frame);
     return way.start == kNever;
