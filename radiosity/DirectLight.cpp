@@ -148,10 +148,6 @@ void DirectLight::touchPatch(std::uint32_t patch) {
     touchedPatches_.push_back(patch);
 }
 
-bool DirectLight::work(std::size_t effort, double enough) {
-    return updateRows(effort, enough) || sumBlocks(effort) || averagePatches(effort);
-}
-
 void DirectLight::sumUp(std::size_t effort) {
     constexpr std::size_t kPiece = std::size_t(1) << 20;
     for (; effort > 0 && sumBlocks(std::min(effort, kPiece));) effort -= std::min(effort, kPiece);
@@ -163,7 +159,7 @@ void DirectLight::narrow(const std::function<std::uint64_t(std::uint32_t, std::u
             updates_.open().narrow(e, b, which(e, b));
 }
 
-bool DirectLight::updateRows(std::size_t effort, double enough) {
+bool DirectLight::update(std::size_t effort, double enough) {
     if (!described_) describeReceivers();
     if (updates_.done(enough)) return false;
     const auto facts = [&](std::uint32_t row) {
@@ -231,7 +227,7 @@ bool DirectLight::sumBlocks(std::size_t effort) {
         std::min(touchedBlocks_.size(), std::max<std::size_t>(4, effort / cost));
     const auto some = std::span(touchedBlocks_).last(count);
     parallelFor(count, 16, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) sum(some[i]);
+        for (std::size_t i = first; i < last; ++i) sumBlock(some[i]);
     });
     for (std::uint32_t block : some) {
         blockTouched_[block] = 0;
@@ -247,7 +243,7 @@ std::vector<std::uint32_t> DirectLight::takeSummedBlocks() {
     return std::exchange(summedBlocks_, {});
 }
 
-void DirectLight::sum(std::uint32_t block) {
+void DirectLight::sumBlock(std::uint32_t block) {
     Rgb* const light = vertices_.data() + block * kBlock;
     float* const seen = vertexSeen_.data() + block * kBlock;
     std::fill_n(light, kBlock, Rgb());

@@ -28,9 +28,11 @@ public:
 
     void apply(const SceneChange& change);
     void invalidate(const Bounds& region); ///< see LitScene
-    /// Does a piece of work of about `effort` rays; false: there is none left.
+    /// Brings rows up to date: a piece of work of about `effort` rays; false: there is none left.
     /// \param enough what may stay open [lm/m^2], see OpenWork::take()
-    bool work(std::size_t effort, double enough);
+    bool update(std::size_t effort, double enough);
+    /// Sums what rows give that were brought up to date, likewise.
+    bool sum(std::size_t effort) { return sumBlocks(effort) || averagePatches(effort); }
     /// Bound of what is still open in the mean light of patches [lux].
     std::vector<double> openLight() const;
     /// See OpenWork.
@@ -82,11 +84,10 @@ private:
     template <class Visit>
     void forEachPatch(std::uint32_t block, Visit visit) const;
     void describeReceivers();
-    bool updateRows(std::size_t effort, double enough);
     std::uint64_t hidden(std::uint32_t emitter, std::uint32_t block, std::uint64_t which) const;
     bool sumBlocks(std::size_t effort);
     bool averagePatches(std::size_t effort);
-    void sum(std::uint32_t block);
+    void sumBlock(std::uint32_t block);
     void average(std::uint32_t patch);
 
     const PatchSet& set_;

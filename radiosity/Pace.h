@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <utility>
 
 namespace penumbra {
 
@@ -13,12 +14,13 @@ namespace penumbra {
 /// that of another, and on another day.
 class Pace {
 public:
-    enum Kind { direct, rows, completion, relaxation, detail, sweeps, kKinds };
+    enum Kind { direct, sums, rows, completion, relaxation, detail, sweeps, kKinds };
 
     /// Pieces of one size. \param effort [rays]
     explicit Pace(std::size_t effort) : most_(effort), least_(effort) {}
-    /// Pieces that follow the time. \param most effort at most [rays]
-    Pace() { perRay_.fill(kFirstGuess); }
+    using Clock = double (*)(); ///< [s]
+    /// Pieces that follow the time.
+    explicit Pace(Clock clock = &steadyTime) : clock_(clock) { perRay_.fill(kFirstGuess); }
 
     /// How long pieces should take from now on [s], and how large they may be at most [rays].
     void aim(double seconds, std::size_t most) {
@@ -31,11 +33,10 @@ public:
     template <class Piece>
     bool work(Kind kind, const Piece& piece) {
         const std::size_t effort = effortOf(kind);
-        const auto start = std::chrono::steady_clock::now();
-        if (!piece(effort)) return false;
-        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-        learn(kind, took.count() / double(effort));
-        return true;
+        const double start = clock_();
+        const bool any = piece(effort);
+        learn(kind, any ? (clock_() - start) / double(effort) : 0);
+        return any;
     }
 
     /// How long a ray's worth of a kind of work takes [s].
@@ -44,17 +45,31 @@ public:
 private:
     static constexpr double kFirstGuess = 1e-6; ///< [s/ray]
 
+    static double steadyTime() {
+        using namespace std::chrono;
+        return duration<double>(steady_clock::now().time_since_epoch()).count();
+    }
+
     std::size_t effortOf(Kind kind) const {
         const double wanted = perRay_[kind] > 0 ? aim_ / perRay_[kind] : 0;
         return std::size_t(std::clamp(wanted, double(least_), double(most_)));
     }
-    /// Slower pieces count at once, unless one was held up for once; faster ones little by little.
+    /// Slower pieces count at once, unless one was held up for once; faster ones little by little,
+    /// and when another has come after them: the last of its kind is fast for it had little to do.
+    /// \param perRay 0: there was nothing to do
     void learn(Kind kind, double perRay) {
         double& known = perRay_[kind];
-        known = perRay > known ? std::min(perRay, 2 * known) : 0.75 * known + 0.25 * perRay;
+        const double before = std::exchange(faster_[kind], 0);
+        if (perRay > 0 && before > 0) known = 0.75 * known + 0.25 * before;
+        if (perRay > known)
+            known = std::min(perRay, 2 * known);
+        else
+            faster_[kind] = perRay;
     }
 
     std::array<double, kKinds> perRay_{}; ///< [s]
+    std::array<double, kKinds> faster_{}; ///< than known: the piece before, if it was
+    Clock clock_ = &steadyTime;
     double aim_ = 0;
     std::size_t most_ = 0, least_ = 128;
 };

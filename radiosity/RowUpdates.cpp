@@ -15,6 +15,7 @@ namespace {
 constexpr std::size_t kLook = 16, kOpen = 2;
 constexpr std::size_t kStep = 4;       ///< of OpenWork::next() [rays]
 constexpr std::size_t kMostLooks = 64; ///< at blocks, at a time
+constexpr double kTask = 256;          ///< is as much at least, for one thread [rays]
 
 /// Bound of the form factor, F <= cos A / (pi d^2), of a sender onto any receiver in a box.
 float factorBound(const RowUpdates::RowFacts& sender, const Bounds& receivers) {
@@ -44,8 +45,7 @@ float factorBound(const RowUpdates::RowFacts& sender, const Bounds& receivers) {
 RowUpdates::RowUpdates(const PatchSet& set, const RayScene& rays, RowTable& table,
                        const std::vector<ObjectId>& blockObjects, const OpenWork::Costs& costs)
     : set_(set), rayScene_(rays), table_(table), blockObjects_(blockObjects), costs_(costs),
-      grain_(std::max<std::size_t>(1, 256 / costs.visit)), row_(table.size()),
-      open_(table.size(), costs) {}
+      row_(table.size()), open_(table.size(), costs) {}
 
 void RowUpdates::add(std::vector<ObjectId> objects, std::vector<BlockMask> receivers,
                      std::vector<Bounds> regions) {
@@ -251,6 +251,18 @@ void RowUpdates::choose(std::size_t effort, double enough, const Expect& expect)
     uniteParts();
 }
 
+/// Items one after the other, for one thread each.
+std::vector<Range> RowUpdates::tasks() const {
+    std::vector<Range> tasks;
+    double cost = kTask;
+    for (std::uint32_t i = 0; i < items_.size(); ++i) {
+        if (cost >= kTask) tasks.push_back({i, 0}), cost = 0;
+        ++tasks.back().count;
+        cost += items_[i].cost;
+    }
+    return tasks;
+}
+
 std::span<const OpenBlock> RowUpdates::work(std::size_t effort, double enough, const Facts& facts,
                                             const Update& update, const Expect& expect) {
     if (!found()) {
@@ -260,23 +272,23 @@ std::span<const OpenBlock> RowUpdates::work(std::size_t effort, double enough, c
     }
     choose(effort, enough, expect);
     const auto items = std::span<const OpenBlock>(items_);
-    const std::size_t tasks = (items.size() + grain_ - 1) / grain_;
-    while (builders_.size() < std::min<std::size_t>(tasks, 64)) builders_.emplace_back(rayScene_);
+    const std::vector<Range> tasks = this->tasks();
+    while (builders_.size() < std::min<std::size_t>(tasks.size(), 64))
+        builders_.emplace_back(rayScene_);
     // A builder a task of a round: results do not depend on which thread does what.
-    for (std::size_t round = 0; round < tasks; round += builders_.size()) {
-        const std::size_t first = round * grain_;
-        const std::size_t count = std::min(items.size() - first, builders_.size() * grain_);
+    for (std::size_t round = 0; round < tasks.size(); round += builders_.size()) {
+        const std::size_t count = std::min(tasks.size() - round, builders_.size());
         std::vector<std::uint64_t> changed(builders_.size());
         std::vector<std::vector<RowTable::BlockerNote>> notes(builders_.size());
-        parallelFor(count, grain_, [&](std::size_t begin, std::size_t end) {
-            RowBuilder& builder = builders_[begin / grain_];
-            for (std::size_t i = begin; i < end; ++i) {
-                const OpenBlock& item = items[first + i];
-                const int entries = update(builder, item, movedSince(item.since), first + i);
+        parallelFor(count, 1, [&](std::size_t task, std::size_t) {
+            RowBuilder& builder = builders_[task];
+            for (std::size_t i = tasks[round + task].first; i < tasks[round + task].end(); ++i) {
+                const OpenBlock& item = items[i];
+                const int entries = update(builder, item, movedSince(item.since), i);
                 if (entries == 0) continue;
-                changed[begin / grain_] += std::uint64_t(entries);
+                changed[task] += std::uint64_t(entries);
                 RowTable::listBlockers(set_, item.row, item.block, table_[item.row][item.block],
-                                       notes[begin / grain_]);
+                                       notes[task]);
             }
         });
         for (std::uint64_t n : changed) entriesChanged_ += n;

@@ -94,6 +94,7 @@ private:
     void choose(std::size_t effort, double enough, const Expect& expect);
     std::size_t lookAt(const Expect& expect);
     void uniteParts();
+    std::vector<Range> tasks() const;
     /// What is looked through at a time: all of a row, or some blocks of one with very many.
     struct Look {
         std::uint32_t row = 0;
@@ -118,7 +119,6 @@ private:
     RowTable& table_;
     const std::vector<ObjectId>& blockObjects_;
     OpenWork::Costs costs_;
-    std::size_t grain_;        ///< items a task
     std::uint32_t edits_ = 0;  ///< so far
     std::vector<Edit> untold_; ///< the last of them: not all rows have been told
     std::size_t row_ = 0;      ///< rows before it have been told of all edits

@@ -161,9 +161,11 @@ bool Solver::work(Pace& pace, const Progress& progress) {
 /// The same, but for what may be put off.
 bool Solver::workOnce(Pace& pace, const Progress& progress) {
     const double start = seconds();
-    if (pace.work(Pace::direct, [&](std::size_t effort) {
-            return direct_.work(effort, mayStayOpen(kDirectMayStayOpen));
-        })) {
+    if (pace.work(Pace::direct,
+                  [&](std::size_t effort) {
+                      return direct_.update(effort, mayStayOpen(kDirectMayStayOpen));
+                  }) ||
+        pace.work(Pace::sums, [&](std::size_t effort) { return direct_.sum(effort); })) {
         handedOver_ = false;
         directSeconds_ += seconds() - start;
         if (progress) progress("direct light", direct_.updates().share());
