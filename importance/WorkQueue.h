@@ -72,7 +72,8 @@ public:
     struct Choice {
         Handle handle = 0;
         Task task;
-        bool overdue = false; ///< comes for its age, not for its worth
+        bool overdue = false;  ///< comes for its age, not for its worth
+        bool inPicture = true; ///< see PlaceValue
     };
     /// The most valuable task, or the oldest if that is overdue and has its share. It stays open
     /// and grows older, but is not chosen again before rank(); or it is done, see finish().

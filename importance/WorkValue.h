@@ -47,6 +47,7 @@ struct PlaceValue {
     double weight = 0; ///< pixels, those that are hidden or far from the gaze counted for less
     double perThreshold = 1; ///< reciprocal of the luminance step that is just seen here [1/nit]
     bool anyChange = false;  ///< changes of any size count alike
+    bool inPicture = true;   ///< or may be; else all of it is seen only when the viewer turns
 };
 
 /// \param seen what an item buffer says of the place [pixels], see SeenItems.h; without one, what

@@ -306,7 +306,8 @@ std::optional<OpenBlock> OpenWork::next(double enough, std::size_t& steps) {
             putOff(entry);
             continue;
         }
-        const bool looks = !choice->overdue && order_->looks();
+        const bool looks =
+            !choice->overdue && order_->looks() && (choice->inPicture || entry.prospect);
         if (looks && entry.prospect &&
             entry.prospect->view != order_->view()) { // the viewer has moved
             queue_.rank(entry.handle, choosePart(row, entry));
