@@ -21,7 +21,7 @@ LampFactors mix(LampFactors a, const LampFactors& b, float w) {
     return a;
 }
 
-/// Whether two values differ by no more than 16-bit floats do.
+/// Whether two values differ by so little that a fade on its way to one may end at the other.
 bool alike(Rgb a, Rgb b) {
     const float most = 2e-3f * std::max(maxChannel(a), maxChannel(b));
     return std::abs(a.r - b.r) <= most && std::abs(a.g - b.g) <= most &&

@@ -27,7 +27,7 @@ namespace penumbra {
 
 namespace {
 
-constexpr float kSeen = 0.998f; ///< of a lamp: nothing is in the way, but for 16-bit floats
+constexpr float kSeen = 0.99999f; ///< of a lamp: nothing is in the way, up to rounding
 
 class Comparison {
 public:

@@ -14,8 +14,7 @@ namespace {
 
 constexpr std::uint32_t kBlock = PatchSet::kBlock;
 
-/// Light that differs by less is not published while it is still being worked on: half the
-/// precision of 16-bit floats.
+/// Light that differs by less is not published while it is still being worked on: nobody sees it.
 constexpr double kSmall = 0x1p-12;
 
 bool differs(const glm::dvec3& a, const glm::dvec3& b, bool exact) {
@@ -207,18 +206,12 @@ LightBlock LightPublisher::blockOf(std::uint32_t block) const {
     const PatchSet& set = scene_.patches();
     LightBlock light;
     light.object = set.vertexBlockObject[block].value;
-    std::array<float, 3 * kBlock> direct, indirect;
     const std::span<const Rgb> lit = scene_.solver().direct().vertices();
     for (std::uint32_t k = 0; k < kBlock; ++k) {
         const std::uint32_t v = block * kBlock + k;
-        const Rgb from = v < lit.size() ? lit[v] : Rgb();
-        const Rgb between = indirectAt(v);
-        direct[3 * k] = from.r, direct[3 * k + 1] = from.g, direct[3 * k + 2] = from.b;
-        indirect[3 * k] = between.r, indirect[3 * k + 1] = between.g,
-                     indirect[3 * k + 2] = between.b;
+        if (v < lit.size()) light.direct[k] = lit[v];
+        light.indirect[k] = indirectAt(v);
     }
-    light.directScale = packHalves(direct, light.direct.data());
-    light.indirectScale = packHalves(indirect, light.indirect.data());
     if (block * kBlock >= set.firstPrivate) writeCorners(block, light);
     if (!lamps_.empty()) writeLamps(block, light);
     return light;
@@ -242,14 +235,13 @@ void LightPublisher::writeLamps(std::uint32_t block, LightBlock& light) const {
     light.lampSet = lampSet_;
     light.lamps = std::uint32_t(lamps_.size());
     for (std::size_t l = 0; l < lamps_.size(); ++l) {
-        std::array<float, kBlock> factors{};
         for (std::uint32_t emitter : lamps_[l].emitters) {
             const Row& row = scene_.solver().emitterRows()[emitter];
             if (block >= row.size()) continue;
-            row[block].forEach(
-                [&](int receiver, float factor) { factors[std::size_t(receiver)] += factor; });
+            row[block].forEach([&](int receiver, float factor) {
+                light.factor[l][std::size_t(receiver)] += factor;
+            });
         }
-        light.factorScale[l] = packHalves(factors, light.factor[l].data());
         if (!lamps_[l].emitters.empty())
             light.exitance[l] = scene_.patches().emitters[lamps_[l].emitters.front()].exitance;
         if (std::binary_search(lamps_[l].stale.begin(), lamps_[l].stale.end(), block))

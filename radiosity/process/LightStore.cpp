@@ -1,11 +1,9 @@
 #include "radiosity/process/LightStore.h"
 
-#include "radiosity/process/Half.h"
 #include "scenegraph/Error.h"
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -13,15 +11,16 @@ namespace penumbra {
 
 namespace {
 
-constexpr std::uint64_t kMagic = 0x3145524f54535550; // "PUSTORE1"
+constexpr std::uint64_t kMagic = 0x3245524f54535550; // "PUSTORE2"
 constexpr std::size_t kBlockWords = sizeof(LightBlock) / 8;
 constexpr std::size_t kBaseWords = offsetof(LightBlock, corners) / 8;
 constexpr std::size_t kCornerWords = offsetof(LightBlock, lamps) / 8 - kBaseWords;
+constexpr std::size_t kLampsAt = kBaseWords + kCornerWords;
 constexpr std::size_t kLampHead = (offsetof(LightBlock, factor) - offsetof(LightBlock, lamps)) / 8;
-constexpr std::size_t kLampWords = LightBlock::kSize * 2 / 8; ///< of each lamp
+constexpr std::size_t kLampWords = LightBlock::kSize * sizeof(float) / 8; ///< of each lamp
 static_assert(sizeof(LightBlock) % 8 == 0 && offsetof(LightBlock, corners) % 8 == 0 &&
               offsetof(LightBlock, lamps) % 8 == 0 && offsetof(LightBlock, factor) % 8 == 0);
-static_assert(kBaseWords + kCornerWords + kLampHead + kMostLiveLamps * kLampWords == kBlockWords);
+static_assert(kLampsAt + kLampHead + kMostLiveLamps * kLampWords == kBlockWords);
 
 std::size_t aligned(std::size_t size) {
     return (size + 63) / 64 * 64;
@@ -51,8 +50,27 @@ void forEachRun(bool isPrivate, std::uint32_t lamps, Visit visit) {
     visit(std::size_t(0), kBaseWords);
     if (isPrivate) visit(kBaseWords, kCornerWords);
     if (lamps > 0)
-        visit(kBaseWords + kCornerWords,
-              kLampHead + std::min<std::size_t>(lamps, kMostLiveLamps) * kLampWords);
+        visit(kLampsAt, kLampHead + std::min<std::size_t>(lamps, kMostLiveLamps) * kLampWords);
+}
+
+/// What is not finite or negative becomes 0.
+void mend(float& x) {
+    x = x >= 0 && x <= std::numeric_limits<float>::max() ? x : 0;
+}
+void mend(Rgb& colour) {
+    mend(colour.r), mend(colour.g), mend(colour.b);
+}
+template <class Range>
+void mendAll(Range& values) {
+    for (auto& value : values) mend(value);
+}
+
+void mend(LightBlock& light) {
+    mendAll(light.direct);
+    mendAll(light.indirect);
+    if (light.lampSet == 0) return;
+    mendAll(light.exitance);
+    for (auto& factors : light.factor) mendAll(factors);
 }
 
 } // namespace
@@ -150,9 +168,13 @@ bool StoreReader::readBlock(std::uint32_t block, LightBlock& light, std::uint32_
     };
     take(0, kBaseWords);
     if (block >= shape_.firstPrivate) take(kBaseWords, kCornerWords);
-    if (light.lampSet != 0)
-        take(kBaseWords + kCornerWords, kBlockWords - kBaseWords - kCornerWords);
-    return sequences_[block].load(std::memory_order_relaxed) == sequence;
+    if (light.lampSet != 0) {
+        take(kLampsAt, kLampHead);
+        take(kLampsAt + kLampHead, std::min<std::size_t>(light.lamps, kMostLiveLamps) * kLampWords);
+    }
+    if (sequences_[block].load(std::memory_order_relaxed) != sequence) return false;
+    mend(light);
+    return true;
 }
 
 void StoreReader::read(std::size_t most, std::vector<Got>& got) {
@@ -168,12 +190,12 @@ void StoreReader::read(std::size_t most, std::vector<Got>& got) {
         const std::uint32_t sequence = sequences_[block].load(std::memory_order_relaxed);
         if (sequence != known_[block]) {
             if (got.size() >= most) return; // publishedKnown_ stays: there is more
-            Got one{block, {}};
+            got.push_back({block, {}});
             std::uint32_t version = 0;
-            if (readBlock(block, one.light, version)) {
+            if (readBlock(block, got.back().light, version)) {
                 known_[block] = version;
-                got.push_back(one);
             } else {
+                got.pop_back();
                 missed = true;
             }
         }
@@ -188,26 +210,6 @@ void StoreReader::readWork(std::uint32_t question, std::vector<BlockWork>& work)
     if (header_.workFor.load(std::memory_order_acquire) != question) return;
     for (std::uint32_t b = 0; b < shape_.blocks; ++b)
         work.push_back(BlockWork::unpacked(work_[b].load(std::memory_order_relaxed)));
-}
-
-float packHalves(std::span<const float> values, std::uint16_t* halves) {
-    float most = 0;
-    for (float value : values) most = std::max(most, value);
-    int exponent = 0;
-    std::frexp(most, &exponent); // most < 2^exponent, and is to be < 2^15
-    const float scale = most > 0 ? std::ldexp(1.0f, std::clamp(exponent - 15, -100, 100)) : 1.0f;
-    for (std::size_t i = 0; i < values.size(); ++i)
-        halves[i] = toHalf(std::max(values[i], 0.0f) / scale);
-    return scale;
-}
-
-void unpackHalves(const std::uint16_t* halves, float scale, std::span<float> values) {
-    fromHalves(halves, values.data(), values.size());
-    const bool sane = scale > 0 && scale <= std::ldexp(1.0f, 100);
-    for (float& value : values) {
-        value *= scale;
-        if (!sane || !(value >= 0) || value > std::numeric_limits<float>::max()) value = 0;
-    }
 }
 
 } // namespace penumbra

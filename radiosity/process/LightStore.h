@@ -18,23 +18,21 @@
 
 namespace penumbra {
 
-/// The light of one block of receivers, as it lies in shared memory: 16-bit floats with scales
-/// (powers of two), so that a block in full sun and one lit through a crack are equally exact.
+/// The light of one block of receivers, as it lies in shared memory. As exact as it is worked out:
+/// what a viewer takes away of it again, because a shadow falls there, leaves nothing.
 struct alignas(8) LightBlock {
     static constexpr std::size_t kSize = PatchSet::kBlock;
 
     std::uint32_t object = 0;  ///< whose block it is
     std::uint32_t lampSet = 0; ///< serial of the live lamps that `lamps` is about; 0: none
-    float directScale = 1, indirectScale = 1;
-    std::array<std::uint16_t, 3 * kSize> direct{}, indirect{}; ///< r, g, b of each vertex [lux]
+    std::array<Rgb, kSize> direct{}, indirect{}; ///< of each vertex [lux]
     /// Of private blocks only, see PatchSet: what each vertex stands for, see kNoCorner.
     std::array<std::uint32_t, kSize> corners{};
     /// If there are live lamps only.
     std::uint32_t lamps = 0;
     std::uint32_t stale = 0;                    ///< bit l: open work on the row of lamp l
     std::array<Rgb, kMostLiveLamps> exitance{}; ///< that `direct` was summed with [lm/m^2]
-    std::array<float, kMostLiveLamps> factorScale{};
-    std::array<std::array<std::uint16_t, kSize>, kMostLiveLamps> factor{}; ///< see LampShare
+    std::array<std::array<float, kSize>, kMostLiveLamps> factor{}; ///< see LampShare
 };
 
 /// How large things are in a store.
@@ -81,7 +79,8 @@ private:
     SharedWord* work_; ///< one a block, see BlockWork::packed()
 };
 
-/// The node's end. Nothing that is read can make it read or write elsewhere.
+/// The node's end. Nothing that is read can make it read or write elsewhere, and light that can't
+/// be is none.
 class StoreReader {
 public:
     /// \throws Error if this is not a store of this number and of a size that fits the region
@@ -120,10 +119,5 @@ private:
 
 /// Whether a region holds a store of this number that is ready to be read.
 bool storeReady(Region& region, std::uint64_t number);
-
-/// Packs 3 * kSize or kSize values, finite; returns the scale.
-float packHalves(std::span<const float> values, std::uint16_t* halves);
-/// What is not finite, negative or has no scale becomes 0.
-void unpackHalves(const std::uint16_t* halves, float scale, std::span<float> values);
 
 } // namespace penumbra

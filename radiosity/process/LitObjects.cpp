@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <utility>
 
 namespace penumbra {
@@ -166,13 +165,9 @@ void LitObjects::takeBlock(const StoreReader::Got& got) {
     Part& part = parts_[place.object];
     const std::size_t first = place.block * kBlock;
     const auto write = [&](LitMeshData& data) {
-        static_assert(sizeof(Rgb) == 3 * sizeof(float));
-        const auto unpack = [&](const auto& halves, float scale, std::vector<Rgb>& to) {
-            unpackHalves(halves.data(), scale, {&to[first].r, 3 * kBlock});
-        };
-        unpack(got.light.direct, got.light.directScale, data.direct);
-        unpack(got.light.indirect, got.light.indirectScale, data.indirect);
-        unpackLamps(got.light, place.block, data);
+        std::ranges::copy(got.light.direct, &data.direct[first]);
+        std::ranges::copy(got.light.indirect, &data.indirect[first]);
+        takeLamps(got.light, place.block, data);
     };
     if (const auto& geometry = entries_[place.object].geometry)
         geometry->setBlock(place.block, write);
@@ -187,16 +182,12 @@ void LitObjects::takeBlock(const StoreReader::Got& got) {
     }
 }
 
-void LitObjects::unpackLamps(const LightBlock& light, std::size_t block, LitMeshData& data) const {
+void LitObjects::takeLamps(const LightBlock& light, std::size_t block, LitMeshData& data) const {
     if (light.lampSet != lamps_.set || light.lamps != lamps_.count) return; // of other lamps
     for (std::size_t l = 0; l < lamps_.count; ++l) {
         LampShare& lamp = data.lamps[l];
-        unpackHalves(light.factor[l].data(), light.factorScale[l],
-                     {&lamp.factor[block * kBlock], kBlock});
-        const Rgb exitance = light.exitance[l];
-        const auto sane = [](float x) { return x >= 0 && std::isfinite(x); };
-        if (sane(exitance.r) && sane(exitance.g) && sane(exitance.b))
-            lamp.exitance[block] = exitance;
+        std::ranges::copy(light.factor[l], &lamp.factor[block * kBlock]);
+        lamp.exitance[block] = light.exitance[l];
         lamp.known[block] =
             light.stale >> l & 1 ? LampShare::Known::stale : LampShare::Known::exact;
     }

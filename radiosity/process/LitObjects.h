@@ -80,7 +80,7 @@ private:
     void standFor(Part& part, std::uint32_t vertex, std::uint32_t corner);
     void writeTriangles();
     void finish(std::uint32_t object);
-    void unpackLamps(const LightBlock& light, std::size_t block, LitMeshData& data) const;
+    void takeLamps(const LightBlock& light, std::size_t block, LitMeshData& data) const;
     void edit(std::uint32_t object, const std::function<void(LitMeshData&)>& change);
 
     std::shared_ptr<StoreReader> store_;

@@ -123,7 +123,7 @@ void expectLampsAreAllDirectLight(const LampRoom& lamps, const RadiosityNode& no
             }
             if (!known) continue;
             ++lit;
-            wrong += std::abs(data.direct[v].g - sum.g) > 2e-3f * sum.g + 1e-4f;
+            wrong += std::abs(data.direct[v].g - sum.g) > 1e-6f * sum.g;
         }
     }
     EXPECT_EQ(wrong, 0u) << "of " << lit << " corners";

@@ -103,7 +103,7 @@ std::string differenceFromScratch(const RadiosityNode& node, const RadiosityOpti
             const DrawnCorner& b = corners[i];
             const auto far = [&](Rgb x, Rgb y, double most) {
                 const float largest = std::max(maxChannel(x), maxChannel(y));
-                return maxChannel(absolute(x - y)) > most + 2e-3 * largest;
+                return maxChannel(absolute(x - y)) > most + 1e-5 * largest;
             };
             // reflectances are above 0.02 in tests, so |H - H'| < certificate / 0.02
             if (glm::length(a.position - b.position) < 1e-4f && !far(a.direct, b.direct, 1e-3) &&

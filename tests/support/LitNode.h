@@ -20,7 +20,7 @@ bool updateUntilSettled(RadiosityNode& node, double seconds = 20);
 std::string describe(RadiosityNode& node);
 
 /// What differs between the light below a node and that of a solution from scratch of the graph as
-/// it is now, for people; empty: nothing, within the certificates of both and 16-bit floats.
+/// it is now, for people; empty: nothing, within the certificates of both and rounding.
 std::string differenceFromScratch(const RadiosityNode& node, const RadiosityOptions& options);
 
 /// A room with a lamp and a box that can be moved, as an application would build it.

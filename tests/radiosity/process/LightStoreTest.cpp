@@ -35,16 +35,16 @@ struct Store {
 };
 
 /// A block of which everything says `value`.
-LightBlock blockOf(std::uint16_t value, bool lamps = false) {
+LightBlock blockOf(std::uint32_t value, bool lamps = false) {
     LightBlock block;
     block.object = value;
-    block.direct.fill(value);
-    block.indirect.fill(value);
+    block.direct.fill(Rgb(float(value)));
+    block.indirect.fill(Rgb(float(value)));
     block.corners.fill(value);
     if (!lamps) return block;
     block.lampSet = 1;
     block.lamps = kMostLiveLamps;
-    for (auto& factors : block.factor) factors.fill(value);
+    for (auto& factors : block.factor) factors.fill(float(value));
     return block;
 }
 
@@ -86,7 +86,7 @@ TEST(LightStore, PrivateBlocksAndLampsAreReadWithAllThatTheySay) {
     const auto got = store.read();
     ASSERT_EQ(got.size(), 1u);
     EXPECT_EQ(got[0].light.corners[63], 6u);
-    EXPECT_EQ(got[0].light.factor[kMostLiveLamps - 1][63], 6u);
+    EXPECT_EQ(got[0].light.factor[kMostLiveLamps - 1][63], 6);
 }
 
 TEST(LightStore, OpenWorkIsTheAnswerToOneQuestionOnly) {
@@ -143,10 +143,10 @@ TEST(LightStore, NoBlockIsEverReadTorn) {
     while (last < 20 * kRounds) {
         last = 0;
         for (const auto& got : store.read()) {
-            const auto value = std::uint16_t(got.light.object);
-            for (std::uint16_t half : got.light.direct) torn += half != value;
-            for (std::uint16_t half : got.light.factor[0]) torn += half != value;
-            if (value == kRounds) last = 20 * kRounds;
+            const auto value = float(got.light.object);
+            for (const Rgb& colour : got.light.direct) torn += colour != Rgb(value);
+            for (const float factor : got.light.factor[0]) torn += factor != value;
+            if (got.light.object == kRounds) last = 20 * kRounds;
         }
     }
     thread.join();
@@ -177,11 +177,12 @@ TEST(LightStore, NoBlockIsReadTornThatAnotherProcessWrites) {
         std::vector<StoreReader::Got> got;
         reader.read(100, got);
         for (const auto& [block, light] : got) {
-            const auto value = std::uint16_t(light.object);
-            const auto differs = [&](std::uint16_t half) { return half != value; };
+            const auto value = float(light.object);
+            const auto differs = [&](float factor) { return factor != value; };
+            const auto isOther = [&](const Rgb& colour) { return colour != Rgb(value); };
             ++whole;
-            torn += std::ranges::any_of(light.direct, differs) ||
-                    std::ranges::any_of(light.indirect, differs) ||
+            torn += std::ranges::any_of(light.direct, isOther) ||
+                    std::ranges::any_of(light.indirect, isOther) ||
                     std::ranges::any_of(light.factor[kMostLiveLamps - 1], differs);
         }
     };
@@ -192,28 +193,39 @@ TEST(LightStore, NoBlockIsReadTornThatAnotherProcessWrites) {
     EXPECT_EQ(torn, 0u) << "of " << whole;
 }
 
-TEST(LightStore, HalvesKeepLightOfAnyStrengthToATwoThousandth) {
+TEST(LightStore, LightOfAnyStrengthIsReadAsItWasWritten) {
+    Store store;
+    LightBlock block;
     std::mt19937 random(1);
-    for (double magnitude : {1e-6, 1.0, 1e3, 2e5, 1e9}) { // starlight on snow, lux ... a welder
-        std::array<float, 64> values{}, back{};
-        for (float& value : values)
-            value = float(magnitude * std::uniform_real_distribution<>(0.01, 1)(random));
-        std::array<std::uint16_t, 64> halves{};
-        const float scale = packHalves(values, halves.data());
-        unpackHalves(halves.data(), scale, back);
-        for (std::size_t i = 0; i < values.size(); ++i)
-            EXPECT_NEAR(back[i], values[i], values[i] / 2000) << magnitude;
+    for (std::size_t v = 0; v < LightBlock::kSize; ++v) {
+        const float magnitude =
+            std::pow(10.0f, float(v % 16) - 6); // starlight on snow ... a welder
+        block.direct[v] = Rgb(std::uniform_real_distribution<float>(magnitude)(random));
+        block.indirect[v] = block.direct[v] * 0.3f;
     }
+    store.writer.write(3, block);
+    const auto got = store.read();
+    ASSERT_EQ(got.size(), 1u);
+    EXPECT_EQ(got[0].light.direct, block.direct);
+    EXPECT_EQ(got[0].light.indirect, block.indirect);
 }
 
-TEST(LightStore, NonsenseIsUnpackedAsDarkness) {
-    std::array<std::uint16_t, 8> halves{0x7c00, 0x7e00, 0xfc00, 0xbc00, 0x3c00, 0, 1, 0x7bff};
-    std::array<float, 8> values{};
-    unpackHalves(halves.data(), 1, values);
-    EXPECT_EQ(values, (std::array<float, 8>{0, 0, 0, 0, 1, 0, 0x1p-24f, 65504}));
-    for (float scale : {std::nanf(""), -1.0f, 0.0f, INFINITY}) {
-        unpackHalves(halves.data(), scale, values);
-        EXPECT_EQ(values, (std::array<float, 8>{}));
+TEST(LightStore, NonsenseIsReadAsDarkness) {
+    Store store;
+    LightBlock block = blockOf(1, true);
+    block.exitance.fill(Rgb(2));
+    for (const float nonsense : {std::nanf(""), -1.0f, INFINITY, -INFINITY}) {
+        block.direct[5].g = block.indirect[63].b = block.factor[7][9] = nonsense;
+        block.exitance[1].r = nonsense;
+        store.writer.write(3, block);
+        const auto got = store.read();
+        ASSERT_EQ(got.size(), 1u);
+        const LightBlock& light = got[0].light;
+        EXPECT_EQ(light.direct[5], Rgb(1, 0, 1)) << nonsense;
+        EXPECT_EQ(light.indirect[63], Rgb(1, 1, 0));
+        EXPECT_EQ(light.factor[7][9], 0);
+        EXPECT_EQ(light.factor[7][10], 1);
+        EXPECT_EQ(light.exitance[1], Rgb(0, 2, 2));
     }
 }
 
