@@ -15,19 +15,19 @@ namespace penumbra {
 
 namespace {
 
-/// Share of an object's corners and middle that sees a point.
+/// Share of an object's corners and middle that sees a point; half of one, if none does.
 double seenShare(const SceneRays& rays, const Bounds& box, ObjectId object, glm::dvec3 lamp,
                  ObjectId lampObject) {
-    int seen = 0;
+    double seen = 0;
     for (int i = 0; i < 9; ++i) {
         const glm::vec3 way(i & 1 ? 0.45f : -0.45f, i & 2 ? 0.45f : -0.45f, i & 4 ? 0.45f : -0.45f);
         const glm::dvec3 from = box.centre() + (i < 8 ? way * box.size() : glm::vec3(0));
         const double reach = glm::distance(from, lamp);
         if (reach == 0) continue;
         const auto touch = rays.touch(from, (lamp - from) / reach, reach, object);
-        seen += !touch || touch->object == lampObject;
+        if (!touch || touch->object == lampObject) ++seen;
     }
-    return seen / 9.0;
+    return std::max(seen, 0.5) / 9;
 }
 
 glm::dvec3 middle(const std::vector<glm::vec3>& polygon) {
@@ -96,7 +96,7 @@ std::vector<Lamp> lampsDrawable(const RadiosityNode& node, LiveBy by) {
 
 LampLimits lampLimits(LiveBy by) {
     if (by == LiveBy::maps) return {.most = kMostLampsByMaps, .least = 0.05};
-    return {.most = kMostLampsDrawnLive, .least = 0.01};
+    return {.most = kMostLampsDrawnLive, .least = 0.0005}; // a thousandth can be seen in the dark
 }
 
 std::vector<std::string> lampsThatMatter(const std::vector<Lamp>& lamps, const SceneRays& rays,

@@ -32,7 +32,8 @@ LampLimits lampLimits(LiveBy by);
 /// The lamps to be drawn live while an object moves, the most important ones first: those in it,
 /// then those that give it the most light, of which it may take the most away from what lies
 /// behind it. Of an emitter that gives E without obstacles and is seen from a share v of the object
-/// (its corners and its middle), E v counts.
+/// (its corners and its middle), E v counts; of one that is not seen, as if half a corner saw it:
+/// the object may be moved into its light.
 ///
 /// \param object in `rays`, as Lamp::object \return paths
 std::vector<std::string> lampsThatMatter(const std::vector<Lamp>& lamps, const SceneRays& rays,

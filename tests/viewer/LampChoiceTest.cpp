@@ -66,6 +66,14 @@ TEST(LampChoice, WhatGivesLessThanItsShareIsLeftOut) {
     EXPECT_EQ(room.thatMatter("/box", {.least = 0.01}).size(), 2u);
 }
 
+TEST(LampChoice, ALampThatIsHiddenComesLastAsTheThingMayBeMovedIntoItsLight) {
+    const PanelRoom room(Rgb(40), Rgb(40));
+    room.node->add(object("shade", boxData({-0.5f, -0.5f, 2.2f}, {0.5f, 0.5f, 2.3f}, false)));
+    ASSERT_TRUE(updateUntilSettled(*room.node));
+    EXPECT_EQ(room.thatMatter("/box", {}), Paths({"/panels/mesh", "/lamp/light"}));
+    EXPECT_EQ(room.thatMatter("/box", {.least = 0.25}), Paths({"/panels/mesh"}));
+}
+
 TEST(LampChoice, EachEmitterOfAMeshCountsAsALamp) {
     const PanelRoom room(Rgb(40), Rgb(40));
     EXPECT_EQ(room.thatMatter("/box", {.most = 2}), Paths({"/lamp/light"}));
