@@ -31,25 +31,39 @@ void SeenWork::follow(std::span<const ObjectId> objects) {
 void SeenWork::forgetSights(std::span<const ObjectId> objects, const Bounds& before,
                             const Bounds& now) {
     const Bounds eye{glm::vec3(*from_->eye()), glm::vec3(*from_->eye())};
-    const auto stale = [&](ObjectId object, const Bounds& box) {
-        return std::find(objects.begin(), objects.end(), object) != objects.end() ||
-               shaftMeets(box, eye, before) || shaftMeets(box, eye, now);
+    // Beside a thing that stands on them, vertices are lit an element farther out: see Contact.h.
+    const Bounds from = grown(before, patches_.elementSize), to = grown(now, patches_.elementSize);
+    const auto moved = [&](ObjectId object) {
+        return std::find(objects.begin(), objects.end(), object) != objects.end();
     };
-    std::erase_if(close_, [&](const auto& item) {
-        const auto& [block, sight] = item;
-        return block >= patches_.firstPrivate / PatchSet::kBlock || // are handed out anew
-               stale(patches_.vertexBlockObject[block], sight.box);
-    });
+    const auto stale = [&](const Bounds& box) {
+        return shaftMeets(box, eye, from) || shaftMeets(box, eye, to);
+    };
+    const std::uint32_t firstPrivate = patches_.firstPrivate / PatchSet::kBlock;
     std::erase_if(sights_, [&](const auto& item) {
-        return stale(places_.objectOf(item.first), places_.known(item.first).box);
+        return item.first >= firstPrivate || // are handed out anew
+               moved(patches_.vertexBlockObject[item.first]);
+    });
+    for (auto& [block, sight] : sights_) {
+        if (!stale(sight.box)) continue;
+        for (std::uint64_t left = sight.asked; left != 0; left &= left - 1) {
+            const auto r = std::size_t(std::countr_zero(left));
+            const glm::vec3 p = patches_.vertices[block * PatchSet::kBlock + r].receiver.position;
+            if (stale({p, p})) sight.asked &= ~(std::uint64_t(1) << r);
+        }
+        sight.seen &= sight.asked;
+    }
+    std::erase_if(placePixels_, [&](const auto& item) {
+        return moved(places_.objectOf(item.first)) || stale(places_.known(item.first).box);
     });
 }
 
 void SeenWork::attend(const Attention& attention, double ambient) {
     ambient_ = ambient;
     if (from_ != attention.viewpoint) {
-        close_.clear();
         sights_.clear();
+        values_.clear();
+        placePixels_.clear();
         from_ = attention.viewpoint;
     }
     Attention now = attention;
@@ -78,39 +92,46 @@ double SeenWork::adaptationTo(const Viewpoint& viewpoint) const {
 }
 
 void SeenWork::lookClosely(std::uint32_t block, std::uint64_t which, std::span<PlaceValue> values) {
-    CloseSight& close = close_[block];
-    if (close.view != order_->view()) close.valued = 0, close.view = order_->view();
-    const Attention& attention = order_->attention();
-    const std::uint64_t unasked = which & ~close.asked;
-    if (attention.factors.occlusion && attention.viewpoint.eye() && unasked != 0) {
-        close.seen |= seenOf(block, unasked, glm::vec3(*attention.viewpoint.eye()));
-        close.asked |= unasked;
-    }
-    if (const std::uint64_t open = which & ~close.valued; open != 0) evaluate(block, open, close);
-    std::copy(close.values.begin(), close.values.end(), values.begin());
+    Values& known = values_[block];
+    if (known.view != order_->view()) known.known = 0, known.view = order_->view();
+    if (const std::uint64_t open = which & ~known.known; open != 0) evaluate(block, open, known);
+    std::copy(known.of.begin(), known.of.end(), values.begin());
 }
 
-/// What some vertices of a block are worth now, of which it is known whether they are seen.
-void SeenWork::evaluate(std::uint32_t block, std::uint64_t which, CloseSight& close) const {
+void SeenWork::evaluate(std::uint32_t block, std::uint64_t which, Values& values) {
     const Attention& attention = order_->attention();
     const bool looks = attention.factors.occlusion && attention.viewpoint.eye();
+    const Sight sight = looks ? sightOf(block, which) : Sight();
     const std::size_t first = std::size_t(block) * PatchSet::kBlock;
     std::array<Receiver, PatchSet::kBlock> receivers;
     for (std::size_t r = 0; r < receivers.size(); ++r)
         receivers[r] = patches_.vertices[first + r].receiver;
     const LocalShare share(receivers);
-    close.valued |= which;
+    values.known |= which;
     for (; which != 0; which &= which - 1) {
         const auto r = std::size_t(std::countr_zero(which));
         WorkPlace place = places_.atVertex(first + r, light_.vertices()[first + r]);
-        close.box.add(place.box);
         place.luminance += place.reflectance * float(ambient_ * std::numbers::inv_pi);
         std::optional<float> pixels;
         if (looks) // what is drawn around a hidden vertex may be seen
-            pixels = share.at(r, close.asked, close.seen) *
+            pixels = share.at(r, sight.asked, sight.seen) *
                      float(attention.viewpoint.pixelsOf(place.box, place.normal, place.area));
-        close.values[r] = place.box.empty() ? PlaceValue() : placeValue(place, attention, pixels);
+        values.of[r] = place.box.empty() ? PlaceValue() : placeValue(place, attention, pixels);
     }
+}
+
+/// What is known of a block once some of its vertices were asked for.
+const SeenWork::Sight& SeenWork::sightOf(std::uint32_t block, std::uint64_t which) {
+    Sight& sight = sights_[block];
+    which &= ~sight.asked;
+    sight.asked |= which;
+    sight.seen |= seenOf(block, which, glm::vec3(*order_->attention().viewpoint.eye()));
+    for (; which != 0; which &= which - 1) {
+        const auto r = std::size_t(std::countr_zero(which));
+        sight.box.add(
+            patches_.vertices[std::size_t(block) * PatchSet::kBlock + r].receiver.position);
+    }
+    return sight;
 }
 
 /// Which of some vertices of a block face the eye, are in the picture, and not hidden by anything.
@@ -151,14 +172,25 @@ ImportanceOrder::Sight SeenWork::look(std::uint32_t index) {
     if (!attention.factors.occlusion || !viewpoint.eye() ||
         viewpoint.regionOf(place.box) != Viewpoint::Region::picture)
         return sight;
-    const auto [known, fresh] = sights_.try_emplace(index, 0.0f);
-    if (fresh) {
-        const VertexPlaces::Sight seen = places_.sight(index, rays_, viewpoint);
-        rayCount_ += std::uint64_t(seen.rays);
-        known->second = seen.pixels;
-    }
+    const auto [known, fresh] = placePixels_.try_emplace(index, 0.0f);
+    if (fresh) known->second = pixelsSeen(index);
     sight.seen = known->second;
     return sight;
+}
+
+/// How many pixels an average block of a place covers, by vertices spread over it.
+float SeenWork::pixelsSeen(std::uint32_t place) {
+    const Viewpoint& viewpoint = order_->attention().viewpoint;
+    const std::vector<std::size_t> vertices = places_.spread(place);
+    float pixels = 0;
+    for (const std::size_t v : vertices) {
+        const std::uint64_t bit = std::uint64_t(1) << v % PatchSet::kBlock;
+        if (!(sightOf(std::uint32_t(v / PatchSet::kBlock), bit).seen & bit)) continue;
+        const Receiver& receiver = patches_.vertices[v].receiver;
+        pixels += float(viewpoint.pixelsOf({receiver.position, receiver.position}, receiver.normal,
+                                           places_.known(place).area));
+    }
+    return vertices.empty() ? 0 : pixels / float(vertices.size());
 }
 
 } // namespace penumbra

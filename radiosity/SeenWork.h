@@ -17,9 +17,9 @@
 namespace penumbra {
 
 /// Orders blocks of vertices by what a viewer gains from them. What hides them from the eye is
-/// found by a few rays to each place when it is asked for, and by one to each vertex of which the
-/// light may change; so it costs nothing where nothing is open. What was found is kept for as long
-/// as the viewer stays and nothing moves that may stand in between.
+/// found by a ray to each vertex of which the light may change, and to a few of each place when it
+/// is asked for; so it costs nothing where nothing is open. What was found is kept, vertex by
+/// vertex, for as long as the viewer stays and nothing moves that may stand in between.
 class SeenWork {
 public:
     /// All must outlive this and the order.
@@ -36,17 +36,22 @@ public:
     std::uint64_t rays() const { return rayCount_; } ///< to the eye, so far
 
 private:
-    /// What was found of the vertices of a block: bits, and what they come to in one view.
-    struct CloseSight {
-        Bounds box;                        ///< around them [m, world]
-        std::uint64_t asked = 0, seen = 0; ///< by a ray
-        std::uint64_t valued = 0;          ///< in the order's view
+    /// What rays found of the vertices of a block.
+    struct Sight {
+        Bounds box;                        ///< around those that were asked for [m, world]
+        std::uint64_t asked = 0, seen = 0; ///< bits
+    };
+    /// What vertices of a block are worth.
+    struct Values {
+        std::uint64_t known = 0; ///< bits, in the order's view
         std::uint32_t view = 0;
-        std::array<PlaceValue, 64> values;
+        std::array<PlaceValue, 64> of;
     };
     ImportanceOrder::Sight look(std::uint32_t place);
     void lookClosely(std::uint32_t block, std::uint64_t which, std::span<PlaceValue> values);
-    void evaluate(std::uint32_t block, std::uint64_t which, CloseSight& close) const;
+    void evaluate(std::uint32_t block, std::uint64_t which, Values& values);
+    const Sight& sightOf(std::uint32_t block, std::uint64_t which);
+    float pixelsSeen(std::uint32_t place);
     std::uint64_t seenOf(std::uint32_t block, std::uint64_t which, const glm::vec3& eye);
     void forgetSights(std::span<const ObjectId> objects, const Bounds& before, const Bounds& now);
     WorkPlace placeNow(std::uint32_t place) const;
@@ -57,10 +62,11 @@ private:
     const DirectLight& light_;
     VertexPlaces places_;
     std::shared_ptr<ImportanceOrder> order_;
-    double ambient_ = 0;                                  ///< [lux]
-    std::unordered_map<std::uint32_t, CloseSight> close_; ///< by block
-    std::unordered_map<std::uint32_t, float> sights_;     ///< by place: pixels seen
-    std::optional<Viewpoint> from_;                       ///< where all of that was found
+    double ambient_ = 0;                                   ///< [lux]
+    std::unordered_map<std::uint32_t, Sight> sights_;      ///< by block
+    std::unordered_map<std::uint32_t, Values> values_;     ///< by block
+    std::unordered_map<std::uint32_t, float> placePixels_; ///< by place: those that are seen
+    std::optional<Viewpoint> from_;                        ///< where all of that was found
     std::uint64_t rayCount_ = 0;
 };
 

@@ -125,24 +125,10 @@ WorkPlace VertexPlaces::atVertex(std::size_t v, Rgb light) const {
     return place;
 }
 
-VertexPlaces::Sight VertexPlaces::sight(std::uint32_t index, const RayScene& rays,
-                                        const Viewpoint& viewpoint) const {
-    const glm::vec3 eye(*viewpoint.eye());
-    const float area = clusters_.places[index].area;
-    Sight sight;
-    float count = 0;
-    forSome(index, kSightSamples, [&](std::size_t v) {
-        const Receiver& receiver = patches_.vertices[v].receiver;
-        const Bounds point{receiver.position, receiver.position};
-        ++count;
-        if (glm::dot(eye - receiver.position, receiver.normal) <= 0) return;
-        if (viewpoint.regionOf(point) != Viewpoint::Region::picture) return;
-        ++sight.rays;
-        if (rays.occluded(receiver.position, eye)) return;
-        sight.pixels += float(viewpoint.pixelsOf(point, receiver.normal, area));
-    });
-    if (count > 0) sight.pixels /= count;
-    return sight;
+std::vector<std::size_t> VertexPlaces::spread(std::uint32_t place) const {
+    std::vector<std::size_t> vertices;
+    forSome(place, kSightSamples, [&](std::size_t v) { vertices.push_back(v); });
+    return vertices;
 }
 
 } // namespace penumbra

@@ -3,7 +3,6 @@
 
 #include "importance/PlaceClusters.h"
 #include "radiosity/PatchSet.h"
-#include "radiosity/RayScene.h"
 #include "scenegraph/Rgb.h"
 
 #include <glm/glm.hpp>
@@ -41,14 +40,8 @@ public:
     WorkPlace atVertex(std::size_t vertex, Rgb light) const;
     /// A place as it is now. \param light illuminance of the vertices [lux]
     WorkPlace at(std::uint32_t place, std::span<const Rgb> light) const;
-    /// How much of a place can be seen from somewhere.
-    struct Sight {
-        float pixels = 0; ///< that an average block of it covers
-        int rays = 0;     ///< that this cost
-    };
-    /// By a ray to each of up to eight vertices spread over it; what is turned away or not in the
-    /// picture is not seen. \pre the viewpoint is in the scene
-    Sight sight(std::uint32_t place, const RayScene& rays, const Viewpoint& viewpoint) const;
+    /// Up to about eight vertices, spread evenly over a place.
+    std::vector<std::size_t> spread(std::uint32_t place) const;
 
 private:
     void measure();

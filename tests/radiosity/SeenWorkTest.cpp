@@ -102,6 +102,45 @@ TEST(SeenWork, AsksAgainOnlyWhatAMoveMayHideOrShow) {
     }
 }
 
+TEST(SeenWork, PlacesAndTheirVerticesShareWhatWasFound) {
+    const Stage stage;
+    Watched watched(stage);
+    watched.seen.attend(from(kEye), 0);
+    gainsOf(watched.seen, watched.lit.patches());
+    const std::uint64_t rays = watched.seen.rays();
+    const VertexPlaces places(watched.lit.patches());
+    for (std::uint32_t place = 0; place < places.size(); ++place)
+        EXPECT_GT(watched.seen.order()->value(place).weight, 0) << "place " << place;
+    EXPECT_EQ(watched.seen.rays(), rays);
+}
+
+TEST(SeenWork, AThingTakenAwayShowsOfAPlaceWhatItHid) {
+    Stage stage;
+    stage.near->setMatrix(moved(3, -1.5, 0)); // in front of the other box
+    Watched watched(stage);
+    const VertexPlaces places(watched.lit.patches());
+    const auto weights = [&] {
+        std::vector<double> all;
+        for (std::uint32_t place = 0; place < places.size(); ++place)
+            all.push_back(watched.seen.order()->value(place).weight);
+        return all;
+    };
+    watched.seen.attend(from(kEye), 0);
+    const std::vector<double> first = weights();
+    const auto to = [&](double x) {
+        stage.near->setMatrix(moved(x, -1.5, 0));
+        const LitScene::Followed followed = watched.lit.follow(placeScene(stage.scene));
+        EXPECT_FALSE(followed.rebuilt);
+        watched.seen.follow(followed.change.objects);
+        return weights();
+    };
+    const std::vector<double> away = to(-3);
+    EXPECT_NE(away, first);
+    const std::vector<double> again = to(3);
+    for (std::size_t p = 0; p < first.size(); ++p)
+        EXPECT_NEAR(again[p], first[p], 1e-4 * first[p]) << "place " << p;
+}
+
 TEST(SeenWork, WhatLiesBesideTheEdgeOfAShadowToTheEyeIsPartlySeen) {
     // The boxes hide some of the floor behind them. What is drawn around a vertex that they hide,
     // but not its neighbour, is seen in part: worth more than what is hidden all round.

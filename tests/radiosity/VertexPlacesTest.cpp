@@ -90,40 +90,21 @@ TEST(VertexPlaces, FollowWhatIsMoved) {
     EXPECT_NEAR(places.at(ofBox[0], dark).box.centre().x, before - 4, 1e-4);
 }
 
-TEST(VertexPlaces, AreSeenFromWhereNothingIsInTheWay) {
-    Floor floor;
-    LitScene lit(placeScene(floor.scene), kMeshing, kDirect);
-    const VertexPlaces places(lit.patches(), 1);
-    const std::uint32_t place = placesOf(places, lit.patches(), "/floor")[0];
-    const auto from = [](glm::dvec3 eye, glm::dvec3 towards) {
-        const glm::dvec3 back = glm::normalize(eye - towards);
-        const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.1, 1, 0.2), back));
-        glm::dmat4 camera(1.0);
-        camera[0] = {right, 0}, camera[1] = {glm::cross(back, right), 0}, camera[2] = {back, 0};
-        camera[3] = {eye, 1};
-        Lens lens;
-        lens.focalLength = 1;
-        lens.horizontalAperture = 2; // 90 degrees
-        return Viewpoint(makeView(lens, camera, 200, 200), 200, 200);
-    };
-    // All of the floor from far above, but for what is under the lamp: 100 pixels per unit of
-    // slope.
-    const auto above = places.sight(place, lit.rays(), from({0, 0, 20}, {0, 0, 0}));
-    const WorkPlace known = places.known(place);
-    EXPECT_NEAR(above.pixels, known.area * 100 * 100 / 400, 0.25 * above.pixels);
-    EXPECT_GT(above.rays, 0);
-    const auto below = places.sight(place, lit.rays(), from({0, 0, -2}, {0, 0, 0}));
-    EXPECT_EQ(below.pixels, 0);
-    EXPECT_EQ(below.rays, 0);
-    const auto away = places.sight(place, lit.rays(), from({0, 0, 20}, {0, 0, 40}));
-    EXPECT_EQ(away.pixels, 0);
-    // Now the box stands in the way of some of the floor.
-    const auto beside = places.sight(place, lit.rays(), from({2.5, 0, 0.3}, {0, 0, 0}));
-    floor.box->setMatrix(moved(-1.2, 0, 0));
-    lit.follow(placeScene(floor.scene));
-    const auto behind = places.sight(place, lit.rays(), from({2.5, 0, 0.3}, {0, 0, 0}));
-    EXPECT_GT(behind.pixels, 0);
-    EXPECT_LT(behind.pixels, beside.pixels);
+TEST(VertexPlaces, AreSpokenForByVerticesSpreadOverThem) {
+    const Solution solution(Floor().scene, kMeshing, kDirect);
+    const VertexPlaces places(solution.patches(), 1);
+    const std::uint32_t place = placesOf(places, solution.patches(), "/floor")[0];
+    Bounds box;
+    const std::vector<std::size_t> vertices = places.spread(place);
+    for (const std::size_t v : vertices) {
+        EXPECT_EQ(places.placeOf()[v / PatchSet::kBlock], place);
+        EXPECT_FALSE(isPadding(solution.patches().vertices[v].receiver));
+        box.add(solution.patches().vertices[v].receiver.position);
+    }
+    EXPECT_GE(vertices.size(), 6u);
+    EXPECT_LE(vertices.size(), 10u);
+    EXPECT_GT(box.size().x, 2); // of 4 m
+    EXPECT_GT(box.size().y, 2);
 }
 
 } // namespace
