@@ -49,9 +49,15 @@ void SeenWork::forgetSights(std::span<const ObjectId> objects, const Bounds& bef
         for (std::uint64_t left = sight.asked; left != 0; left &= left - 1) {
             const auto r = std::size_t(std::countr_zero(left));
             const glm::vec3 p = patches_.vertices[block * PatchSet::kBlock + r].receiver.position;
-            if (stale({p, p})) sight.asked &= ~(std::uint64_t(1) << r);
+            const std::uint64_t bit = std::uint64_t(1) << r;
+            const Bounds point{p, p};
+            if (from.contains(p) || to.contains(p) ||
+                ((sight.seen & bit) && shaftMeets(point, eye, to)) ||
+                ((sight.behindMovable & bit) && shaftMeets(point, eye, from)))
+                sight.asked &= ~bit; // what stays hides what it hid
         }
         sight.seen &= sight.asked;
+        sight.behindMovable &= sight.asked;
     }
     std::erase_if(placePixels_, [&](const auto& item) {
         return moved(places_.objectOf(item.first)) || stale(places_.known(item.first).box);
@@ -125,7 +131,7 @@ const SeenWork::Sight& SeenWork::sightOf(std::uint32_t block, std::uint64_t whic
     Sight& sight = sights_[block];
     which &= ~sight.asked;
     sight.asked |= which;
-    sight.seen |= seenOf(block, which, glm::vec3(*order_->attention().viewpoint.eye()));
+    ask(block, which, sight);
     for (; which != 0; which &= which - 1) {
         const auto r = std::size_t(std::countr_zero(which));
         sight.box.add(
@@ -134,9 +140,9 @@ const SeenWork::Sight& SeenWork::sightOf(std::uint32_t block, std::uint64_t whic
     return sight;
 }
 
-/// Which of some vertices of a block face the eye, are in the picture, and not hidden by anything.
-std::uint64_t SeenWork::seenOf(std::uint32_t block, std::uint64_t which, const glm::vec3& eye) {
-    std::uint64_t seen = 0;
+/// Finds which of some vertices of a block face the eye, are in the picture, and not hidden.
+void SeenWork::ask(std::uint32_t block, std::uint64_t which, Sight& sight) {
+    const glm::vec3 eye(*order_->attention().viewpoint.eye());
     ShadowRays rays;
     std::array<std::uint32_t, ShadowRays::kMost> of{};
     int count = 0;
@@ -144,8 +150,13 @@ std::uint64_t SeenWork::seenOf(std::uint32_t block, std::uint64_t which, const g
         if (count == 0) return;
         rays_.occluded(rays);
         rayCount_ += std::uint64_t(count);
-        for (int i = 0; i < count; ++i)
-            seen |= std::uint64_t(rays.blocker[i] == ObjectId::kNone) << of[std::size_t(i)];
+        for (int i = 0; i < count; ++i) {
+            const std::uint64_t bit = std::uint64_t(1) << of[std::size_t(i)];
+            if (rays.blocker[i] == ObjectId::kNone)
+                sight.seen |= bit;
+            else if (patches_.objects[rays.blocker[i]].movable)
+                sight.behindMovable |= bit;
+        }
         rays.used = 0;
         count = 0;
     };
@@ -161,7 +172,6 @@ std::uint64_t SeenWork::seenOf(std::uint32_t block, std::uint64_t which, const g
         if (count == ShadowRays::kMost) trace();
     }
     trace();
-    return seen;
 }
 
 ImportanceOrder::Sight SeenWork::look(std::uint32_t index) {

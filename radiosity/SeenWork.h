@@ -38,8 +38,8 @@ public:
 private:
     /// What rays found of the vertices of a block.
     struct Sight {
-        Bounds box;                        ///< around those that were asked for [m, world]
-        std::uint64_t asked = 0, seen = 0; ///< bits
+        Bounds box; ///< around those that were asked for [m, world]
+        std::uint64_t asked = 0, seen = 0, behindMovable = 0; ///< bits
     };
     /// What vertices of a block are worth.
     struct Values {
@@ -52,7 +52,7 @@ private:
     void evaluate(std::uint32_t block, std::uint64_t which, Values& values);
     const Sight& sightOf(std::uint32_t block, std::uint64_t which);
     float pixelsSeen(std::uint32_t place);
-    std::uint64_t seenOf(std::uint32_t block, std::uint64_t which, const glm::vec3& eye);
+    void ask(std::uint32_t block, std::uint64_t which, Sight& sight);
     void forgetSights(std::span<const ObjectId> objects, const Bounds& before, const Bounds& now);
     WorkPlace placeNow(std::uint32_t place) const;
     double adaptationTo(const Viewpoint& viewpoint) const;
