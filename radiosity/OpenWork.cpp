@@ -17,6 +17,15 @@ constexpr float kVisit = 48, kEntry = 0.5f;
 /// rays do.
 constexpr double kLeastPart = 4 * kVisit;
 
+/// What was found may count for so much less, or more, than was expected.
+constexpr float kLeastFeedback = 0.02f, kMostFeedback = 3;
+
+float sumOf(const std::array<float, ExpectedFactors::kSize>& values, std::uint64_t which) {
+    float sum = 0;
+    for (; which != 0; which &= which - 1) sum += values[std::size_t(std::countr_zero(which))];
+    return sum;
+}
+
 float entryCost(const ExpectedFactors& expected, std::size_t receiver) {
     return kEntry + expected.rays[receiver];
 }
@@ -375,6 +384,21 @@ void OpenWork::expect(std::uint32_t row, std::uint32_t block, const ExpectedFact
     entry->prospect = std::make_unique<Prospect>();
     entry->prospect->expected = expected;
     if (entry->handle != kPutOff) queue_.rank(entry->handle, choosePart(row, *entry));
+}
+
+void OpenWork::learn(const OpenBlock& block, float change) {
+    Entry* const found = find(block.row, block.block);
+    if (!found || !found->prospect) return; // nothing is left, or it was opened anew
+    Entry& entry = *found;
+    std::array<float, ExpectedFactors::kSize>& expected = entry.prospect->expected.factor;
+    const float left = sumOf(expected, entry.left), done = sumOf(expected, block.receivers);
+    if (!(done + left > 0)) return;
+    const float feedback =
+        std::clamp((change + left) / (done + left), kLeastFeedback, kMostFeedback);
+    for (std::uint64_t r = entry.left; r != 0; r &= r - 1)
+        expected[std::size_t(std::countr_zero(r))] *= feedback;
+    entry.prospect->ranked = false;
+    if (entry.handle != kPutOff) queue_.rank(entry.handle, choosePart(block.row, entry));
 }
 
 void OpenWork::putBack(const OpenBlock& block) {

@@ -51,7 +51,13 @@ struct ExpectedFactors {
 ///
 ///     max over n of (gain_1 + ... + gain_n) / (visit + rays_1 + ... + rays_n)
 ///
-/// come first, and the rest is worth what the next such part is.
+/// come first, and the rest is worth what the next such part is. If the order learns, what was
+/// expected of those that are left, e in all, is multiplied by
+///
+///     (m + e) / (p + e)
+///
+/// when changes of m in all were found at receivers of which p was expected: the more is left, the
+/// less a few of them say of it.
 class OpenWork {
 public:
     /// What working on a block takes, about [rays].
@@ -102,6 +108,11 @@ public:
     /// Of an open block only these receivers (bits) are still to be worked on; if none is, it is
     /// closed. One that is not open is left alone.
     void narrow(std::uint32_t row, std::uint32_t block, std::uint64_t receivers);
+    /// Whether learn() has a use for what is found at a block that is worked on.
+    bool learns(const OpenBlock& block) const { return order_->learns() && ~block.receivers != 0; }
+    /// What was found at the receivers of a block that was worked on.
+    /// \param change the sum over them of how far F V changed, up or down
+    void learn(const OpenBlock& block, float change);
     void putBack(const OpenBlock& block); ///< from next(): not now
     /// next() and close().
     std::optional<OpenBlock> take(double enough, std::size_t& steps);

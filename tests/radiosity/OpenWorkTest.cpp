@@ -296,6 +296,51 @@ TEST_F(OpenWorkOfTwoRows, WhatComesToAPartOpensAllOfTheBlockAgain) {
     EXPECT_EQ(again->since, 3u); // of those that were left
 }
 
+class Learning : public Looking {
+public:
+    bool learns() const override { return true; }
+};
+
+TEST_F(OpenWorkOfTwoRows, TheRestOfABlockIsWorthWhatItsFirstPartWasFoundToBe) {
+    work.setOrder(std::make_shared<Learning>());
+    // A part of block 0 is done, of which changes of 0.3 were expected, and 0.02 of the rest; then
+    // block 1 is there as well.
+    const auto order = [&](float found, float elsewhere) {
+        open(0, {block(0, 0.1f), block(1, 0.1f)});
+        ExpectedFactors first = fewOpen(), second;
+        first.factor[7] = 0.02f;
+        second.open = 1u << 7;
+        second.factor[7] = elsewhere, second.rays[7] = 200;
+        work.expect(0, 0, first);
+        work.expect(0, 1, second);
+        std::size_t steps = 100;
+        const auto part = work.take(0, steps);
+        EXPECT_EQ(std::popcount(part->receivers), 3);
+        EXPECT_TRUE(work.learns(*part));
+        work.learn(*part, found);
+        return takeAll(0);
+    };
+    EXPECT_THAT(order(0.3f, 0.01f), ElementsAre(0, 1));
+    EXPECT_THAT(order(0, 0.01f), ElementsAre(1, 0)) << "too much was expected";
+    EXPECT_THAT(order(0.3f, 0.03f), ElementsAre(1, 0));
+    EXPECT_THAT(order(0.9f, 0.03f), ElementsAre(0, 1)) << "too little was expected";
+}
+
+TEST_F(OpenWorkOfTwoRows, NothingIsLearntOfWhatIsDoneOrInAnOrderThatDoesNotLearn) {
+    const auto learnsFromParts = [&] {
+        open(0, {block(0, 0.1f)});
+        work.expect(0, 0, fewOpen());
+        std::vector<bool> learns;
+        std::size_t steps = 100;
+        while (const auto part = work.take(0, steps)) learns.push_back(work.learns(*part));
+        return learns;
+    };
+    work.setOrder(std::make_shared<Learning>());
+    EXPECT_THAT(learnsFromParts(), ElementsAre(true, false));
+    work.setOrder(std::make_shared<Looking>());
+    EXPECT_THAT(learnsFromParts(), ElementsAre(false, false));
+}
+
 TEST_F(OpenWorkOfTwoRows, IsDoneAsAWholeIfItIsShownAsAWhole) {
     work.setOrder(std::make_shared<Looking>());
     work.setWhole(true);
