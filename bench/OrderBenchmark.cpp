@@ -1,5 +1,5 @@
-// What an order of work costs until all is settled: direct light after a move, as the viewer works
-// it off, a millisecond at a time, under plain order, by bounds, and by importance.
+// What an order of work costs until all is settled: direct light after a move, as the lighting
+// process works it off, turn by turn, under plain order, by bounds, and by importance.
 #include "bench/BenchCase.h"
 #include "bench/BenchScene.h"
 #include "bench/MoveRun.h"
@@ -26,7 +26,7 @@ constexpr Size kSizes[] = {
 };
 constexpr double kPatience = 6; ///< moves are repeated for about this long [s]
 constexpr std::size_t kLeastMoves = 3, kMostMoves = 100;
-constexpr double kStep = 1e-3; ///< [s]
+constexpr double kTurn = 8e-3; ///< of the lighting process [s]
 
 enum Order { plain, bound, importance, kOrders };
 
@@ -52,7 +52,7 @@ public:
         const LitScene::Followed followed = lit_.follow(placed);
         const Stopwatch watch;
         if (order_ == importance) solver.attend(attention(placed, followed.change.objects));
-        while (!solver.step(kStep)) {
+        while (!solver.step(kTurn)) {
         }
         return {watch.wall(), watch.cpu(), solver.done().inRays() - before};
     }

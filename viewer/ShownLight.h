@@ -56,9 +56,9 @@ struct ShownLight {
     };
     std::vector<IndirectRun> indirectRuns; ///< one a block; may be fewer
     /// Whether a copy as of a revision of a block differs from it in indirect light alone.
-    bool onlyIndirectSince(std::size_t block, std::uint64_t revision) const {
+    bool onlyIndirectSince(std::size_t block, std::uint64_t copied) const {
         return block < indirectRuns.size() && indirectRuns[block].to == blockRevisions[block] &&
-               indirectRuns[block].from <= revision;
+               indirectRuns[block].from <= copied;
     }
     std::uint64_t revision = 1; ///< rises when any of these does
 };
