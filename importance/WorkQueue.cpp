@@ -178,9 +178,8 @@ std::optional<WorkQueue::Choice> WorkQueue::choose(double now) {
         overdue && !oldest.chosen && owed_ >= oldest.task.worth.cost * (1 - fairness_.reserve);
     const std::optional<Handle> chosen = itsTurn ? oldest_ : best();
     if (!chosen) return {};
-    Slot& slot = slots_[*chosen];
-    slot.chosen = true;
-    return Choice{*chosen, slot.task, itsTurn, placeAt(slot.task.place).value.inPicture};
+    slots_[*chosen].chosen = true;
+    return Choice{*chosen, slots_[*chosen].task, itsTurn};
 }
 
 WorkQueue::Worth WorkQueue::worthOf(std::uint32_t place, double gain, double cost) {

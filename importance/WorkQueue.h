@@ -72,8 +72,7 @@ public:
     struct Choice {
         Handle handle = 0;
         Task task;
-        bool overdue = false;  ///< comes for its age, not for its worth
-        bool inPicture = true; ///< see PlaceValue
+        bool overdue = false; ///< comes for its age, not for its worth
     };
     /// The most valuable task, or the oldest if that is overdue and has its share. It stays open
     /// and grows older, but is not chosen again before rank(); or it is done, see finish().
@@ -89,6 +88,8 @@ public:
     /// Chooses a task to be done.
     std::optional<Task> take(double now);
 
+    /// Whether a place is in the picture, see PlaceValue.
+    bool inPicture(std::uint32_t place) { return placeAt(place).value.inPicture; }
     /// What a task that is open is ranked by now, see workValue().
     double value(Handle handle) const;
     /// What it would be ranked by if it were added.

@@ -13,7 +13,7 @@ namespace {
 
 // Off the screen is seen when the head turns, hidden things when they or the viewer move: how much
 // that counts is a matter of taste, that it counts for less by orders of magnitude is not.
-constexpr double kHidden = 0.005, kMargin = 5e-5, kElsewhere = 5e-6;
+constexpr double kHidden = 0.005, kMargin = 0.001, kElsewhere = 0.0001;
 constexpr double kTurnedAway = 0.02; ///< of a surface's pixels if it faced the viewer
 
 /// The pixels at stake, fewer for those that are not seen now.

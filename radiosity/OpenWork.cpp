@@ -1,6 +1,7 @@
 #include "radiosity/OpenWork.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <utility>
 
@@ -10,25 +11,6 @@ namespace {
 
 /// See setPatience(): until it is told how fast work is done.
 constexpr WorkQueue::Fairness kFairness{.patience = 4e6, .reserve = 0.25};
-
-/// What a block costs besides its rays, if their number is known, and each of its entries [rays].
-constexpr float kVisit = 48, kEntry = 0.5f;
-/// A part takes so many rays at least, unless no more are left: else visits take more time than
-/// rays do.
-constexpr double kLeastPart = 4 * kVisit;
-
-/// What was found may count for so much less, or more, than was expected.
-constexpr float kLeastFeedback = 0.02f, kMostFeedback = 3;
-
-float sumOf(const std::array<float, ExpectedFactors::kSize>& values, std::uint64_t which) {
-    float sum = 0;
-    for (; which != 0; which &= which - 1) sum += values[std::size_t(std::countr_zero(which))];
-    return sum;
-}
-
-float entryCost(const ExpectedFactors& expected, std::size_t receiver) {
-    return kEntry + expected.rays[receiver];
-}
 
 } // namespace
 
@@ -51,7 +33,7 @@ void OpenWork::setOrder(std::shared_ptr<const OrderOfWork> order) {
             entry.handle = kPutOff;
             if (!entry.open) continue;
             if (!order_->looks()) forget(entry);
-            if (entry.prospect) entry.prospect->ranked = false;
+            if (entry.prospect) entry.prospect->unrank();
         }
         setUnsorted(row);
     }
@@ -100,10 +82,7 @@ void OpenWork::add(std::uint32_t block, double factor, double power, int count) 
 /// About [rays].
 double OpenWork::costOf(const Entry& entry, std::uint64_t receivers) const {
     if (!entry.prospect) return double(cost({0, entry.block, entry.anew & receivers, 0, 0}));
-    double cost = kVisit;
-    for (; receivers != 0; receivers &= receivers - 1)
-        cost += entryCost(entry.prospect->expected, std::size_t(std::countr_zero(receivers)));
-    return cost;
+    return entry.prospect->cost(receivers);
 }
 
 WorkQueue::Task OpenWork::task(std::uint32_t row, const Entry& entry) const {
@@ -112,68 +91,32 @@ WorkQueue::Task OpenWork::task(std::uint32_t row, const Entry& entry) const {
         double(r.reflectance) * double(entry.factor) * (rows_[row].power + double(r.light));
     const OpenBlock block{row, entry.block, entry.anew, entry.since, entry.factor};
     // A look may find that all the change is in a few receivers.
-    const double expense = order_->looks() ? double(kVisit) : double(cost(block));
+    const double expense = order_->looks() ? double(kVisitCost) : double(cost(block));
     WorkQueue::Task task = order_->rank({row, entry.block, bound, expense});
     task.since = taken_;
     return task;
 }
 
-/// Puts those receivers of a block that are left in order, for as long as the viewer stays.
-void OpenWork::rankReceivers(std::uint32_t row, Entry& entry) {
-    const Receivers& r = receivers_[entry.block];
-    Prospect& prospect = *entry.prospect;
-    std::array<float, ExpectedFactors::kSize> change, gains;
-    for (std::size_t i = 0; i < change.size(); ++i)
-        change[i] = float(double(r.reflectance) * double(prospect.expected.factor[i]) *
-                          (rows_[row].power + double(r.light)));
-    order_->gains({row, entry.block, 0, 0}, change, gains);
-    struct Ranked {
-        float perCost;
-        std::uint8_t receiver;
-    };
-    std::array<Ranked, ExpectedFactors::kSize> ranked;
-    prospect.count = prospect.first = 0;
-    for (std::uint64_t left = entry.left; left != 0; left &= left - 1) {
-        const auto i = std::size_t(std::countr_zero(left));
-        ranked[prospect.count++] = {gains[i] / entryCost(prospect.expected, i), std::uint8_t(i)};
-    }
-    std::sort(ranked.begin(), ranked.begin() + std::ptrdiff_t(prospect.count),
-              [](const Ranked& a, const Ranked& b) {
-                  return a.perCost != b.perCost ? a.perCost > b.perCost : a.receiver < b.receiver;
-              });
-    for (std::size_t i = 0; i < prospect.count; ++i) {
-        prospect.by[i] = ranked[i].receiver;
-        prospect.gain[i] = gains[ranked[i].receiver];
-    }
-    prospect.view = order_->view();
-    prospect.ranked = true;
-}
-
-/// Of a block's ranked receivers that are left, those that make the most of a visit.
-struct OpenWork::Part {
-    std::uint64_t receivers = 0;
-    double gain = 0, cost = kVisit;
-};
-OpenWork::Part OpenWork::bestPart(const Prospect& prospect) const {
-    Part all, best;
-    for (std::size_t i = prospect.first; i < prospect.count; ++i) {
-        all.receivers |= std::uint64_t(1) << prospect.by[i];
-        all.gain += prospect.gain[i];
-        all.cost += entryCost(prospect.expected, prospect.by[i]);
-        const bool few = best.cost < kVisit + kLeastPart;
-        if (whole_ || few || all.gain * best.cost >= best.gain * all.cost) best = all;
-    }
-    return best;
-}
-
 /// Of a block that was looked at: which of the receivers that are left come next, and what that is
 /// worth.
 WorkQueue::Worth OpenWork::choosePart(std::uint32_t row, Entry& entry) {
-    if (!entry.prospect->ranked || entry.prospect->view != order_->view())
-        rankReceivers(row, entry);
-    const Part part = bestPart(*entry.prospect);
+    if (!entry.prospect->isRanked(order_->view())) rankReceivers(row, entry);
+    const std::uint32_t place = task(row, entry).place;
+    // Where nobody looks, visits are dearer than what comes a little sooner is worth.
+    const Prospect::Part part = entry.prospect->bestPart(whole_ || !queue_.inPicture(place));
     entry.part = part.receivers;
-    return queue_.worthOf(task(row, entry).place, part.gain, part.cost);
+    return queue_.worthOf(place, part.gain, part.cost);
+}
+
+void OpenWork::rankReceivers(std::uint32_t row, Entry& entry) {
+    const Receivers& r = receivers_[entry.block];
+    const ExpectedFactors& expected = entry.prospect->expected();
+    std::array<float, ExpectedFactors::kSize> change, gains;
+    for (std::size_t i = 0; i < change.size(); ++i)
+        change[i] = float(double(r.reflectance) * double(expected.factor[i]) *
+                          (rows_[row].power + double(r.light)));
+    order_->gains({row, entry.block, 0, 0}, change, gains);
+    entry.prospect->rank(entry.left, gains, order_->view());
 }
 
 WorkQueue::Worth OpenWork::worthOf(std::uint32_t row, Entry& entry) {
@@ -315,10 +258,9 @@ std::optional<OpenBlock> OpenWork::next(double enough, std::size_t& steps) {
             putOff(entry);
             continue;
         }
-        const bool looks =
-            !choice->overdue && order_->looks() && (choice->inPicture || entry.prospect);
+        const bool looks = !choice->overdue && order_->looks();
         if (looks && entry.prospect &&
-            entry.prospect->view != order_->view()) { // the viewer has moved
+            entry.prospect->view() != order_->view()) { // the viewer has moved
             queue_.rank(entry.handle, choosePart(row, entry));
             continue;
         }
@@ -344,7 +286,7 @@ void OpenWork::close(const OpenBlock& block) {
     entry.left &= ~block.receivers;
     entry.anew &= ~block.receivers;
     if (entry.left != 0) {
-        entry.prospect->first += std::size_t(std::popcount(block.receivers));
+        entry.prospect->close(block.receivers);
         return queue_.finishPart(choice, worthOf(block.row, entry));
     }
     queue_.finish(choice);
@@ -381,24 +323,15 @@ void OpenWork::narrow(std::uint32_t row, std::uint32_t block, std::uint64_t rece
 void OpenWork::expect(std::uint32_t row, std::uint32_t block, const ExpectedFactors& expected) {
     Entry* const entry = find(row, block);
     if (!entry || !narrow(row, *entry, expected.open)) return;
-    entry->prospect = std::make_unique<Prospect>();
-    entry->prospect->expected = expected;
+    entry->prospect = std::make_unique<Prospect>(expected);
     if (entry->handle != kPutOff) queue_.rank(entry->handle, choosePart(row, *entry));
 }
 
 void OpenWork::learn(const OpenBlock& block, float change) {
-    Entry* const found = find(block.row, block.block);
-    if (!found || !found->prospect) return; // nothing is left, or it was opened anew
-    Entry& entry = *found;
-    std::array<float, ExpectedFactors::kSize>& expected = entry.prospect->expected.factor;
-    const float left = sumOf(expected, entry.left), done = sumOf(expected, block.receivers);
-    if (!(done + left > 0)) return;
-    const float feedback =
-        std::clamp((change + left) / (done + left), kLeastFeedback, kMostFeedback);
-    for (std::uint64_t r = entry.left; r != 0; r &= r - 1)
-        expected[std::size_t(std::countr_zero(r))] *= feedback;
-    entry.prospect->ranked = false;
-    if (entry.handle != kPutOff) queue_.rank(entry.handle, choosePart(block.row, entry));
+    Entry* const entry = find(block.row, block.block);
+    if (!entry || !entry->prospect) return; // nothing is left, or it was opened anew
+    entry->prospect->learn(entry->left, block.receivers, change);
+    if (entry->handle != kPutOff) queue_.rank(entry->handle, choosePart(block.row, *entry));
 }
 
 void OpenWork::putBack(const OpenBlock& block) {

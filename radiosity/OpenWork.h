@@ -3,8 +3,8 @@
 #pragma once
 
 #include "importance/OrderOfWork.h"
+#include "radiosity/Prospect.h"
 
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -27,15 +27,6 @@ struct OpenBlock {
     std::uint32_t entry = 0;                     ///< from next(): where it stands among the open
 };
 
-/// What to expect of the entries of a block.
-struct ExpectedFactors {
-    static constexpr std::size_t kSize = 64;
-
-    std::uint64_t open = 0;            ///< bits: entries that may change at all
-    std::array<float, kSize> factor{}; ///< by how much F V changes, more or less
-    std::array<float, kSize> rays{};   ///< that it takes to find out
-};
-
 /// Open work, with a bound of what it may change found before any ray is traced. An entry of a
 /// receiver r and a sender s, whose F V changes by f at most, changes what r reflects by
 ///
@@ -46,18 +37,7 @@ struct ExpectedFactors {
 /// for each block of receivers, over all senders. Where the sum is small enough already, the rest
 /// of the work is put off: it stays open, and its bound is part of what is reported.
 ///
-/// An order that looks at blocks has them done in parts: of the receivers that are still open, in
-/// the order of what is gained at each per ray, as many as make the most of a visit,
-///
-///     max over n of (gain_1 + ... + gain_n) / (visit + rays_1 + ... + rays_n)
-///
-/// come first, and the rest is worth what the next such part is. If the order learns, what was
-/// expected of those that are left, e in all, is multiplied by
-///
-///     (m + e) / (p + e)
-///
-/// when changes of m in all were found at receivers of which p was expected: the more is left, the
-/// less a few of them say of it.
+/// An order that looks at blocks has them done in parts, see Prospect.
 class OpenWork {
 public:
     /// What working on a block takes, about [rays].
@@ -149,17 +129,6 @@ public:
 
 private:
     static constexpr WorkQueue::Handle kPutOff = ~WorkQueue::Handle(0);
-    /// What a look at a block said, and what comes of its receivers in which order.
-    struct Prospect {
-        ExpectedFactors expected;
-        std::uint32_t view = 0;                              ///< the order's, when they were ranked
-        std::size_t count = 0;                               ///< receivers that were left then,
-        std::size_t first = 0;                               ///< of which these are done
-        std::array<std::uint8_t, ExpectedFactors::kSize> by; ///< the best per cost first
-        std::array<float, ExpectedFactors::kSize> gain;      ///< likewise
-        bool ranked = false;
-    };
-    struct Part;
     struct Entry {
         std::uint64_t anew;
         std::uint32_t block, since;
@@ -185,7 +154,6 @@ private:
     WorkQueue::Task task(std::uint32_t row, const Entry& entry) const;
     double costOf(const Entry& entry, std::uint64_t receivers) const;
     void rankReceivers(std::uint32_t row, Entry& entry);
-    Part bestPart(const Prospect& prospect) const;
     WorkQueue::Worth choosePart(std::uint32_t row, Entry& entry);
     WorkQueue::Worth worthOf(std::uint32_t row, Entry& entry);
     void forget(Entry& entry);

@@ -1,0 +1,84 @@
+#include "radiosity/Prospect.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace penumbra {
+
+namespace {
+
+constexpr float kEntry = 0.5f; ///< what an entry costs besides its rays [rays]
+/// A part takes so many rays at least, unless no more are left: else visits take more time than
+/// rays do.
+constexpr double kLeastPart = 4 * kVisitCost;
+/// What was found may count for so much less, or more, than was expected.
+constexpr float kLeastFeedback = 0.02f, kMostFeedback = 3;
+
+float entryCost(const ExpectedFactors& expected, std::size_t receiver) {
+    return kEntry + expected.rays[receiver];
+}
+
+float sumOf(const std::array<float, ExpectedFactors::kSize>& values, std::uint64_t which) {
+    float sum = 0;
+    for (; which != 0; which &= which - 1) sum += values[std::size_t(std::countr_zero(which))];
+    return sum;
+}
+
+} // namespace
+
+void Prospect::rank(std::uint64_t left, std::span<const float> gains, std::uint32_t view) {
+    struct Ranked {
+        float perCost;
+        std::uint8_t receiver;
+    };
+    std::array<Ranked, ExpectedFactors::kSize> ranked;
+    count_ = first_ = 0;
+    for (; left != 0; left &= left - 1) {
+        const auto i = std::size_t(std::countr_zero(left));
+        ranked[count_++] = {gains[i] / entryCost(expected_, i), std::uint8_t(i)};
+    }
+    std::sort(ranked.begin(), ranked.begin() + std::ptrdiff_t(count_),
+              [](const Ranked& a, const Ranked& b) {
+                  return a.perCost != b.perCost ? a.perCost > b.perCost : a.receiver < b.receiver;
+              });
+    for (std::size_t i = 0; i < count_; ++i) {
+        by_[i] = ranked[i].receiver;
+        gain_[i] = gains[ranked[i].receiver];
+    }
+    view_ = view;
+    ranked_ = true;
+}
+
+double Prospect::cost(std::uint64_t receivers) const {
+    double cost = kVisitCost;
+    for (; receivers != 0; receivers &= receivers - 1)
+        cost += entryCost(expected_, std::size_t(std::countr_zero(receivers)));
+    return cost;
+}
+
+Prospect::Part Prospect::bestPart(bool whole) const {
+    Part all{.cost = kVisitCost}, best = all;
+    for (std::size_t i = first_; i < count_; ++i) {
+        all.receivers |= std::uint64_t(1) << by_[i];
+        all.gain += gain_[i];
+        all.cost += entryCost(expected_, by_[i]);
+        const bool few = best.cost < kVisitCost + kLeastPart;
+        if (whole || few || all.gain * best.cost >= best.gain * all.cost) best = all;
+    }
+    return best;
+}
+
+void Prospect::close(std::uint64_t part) {
+    first_ += std::size_t(std::popcount(part));
+}
+
+void Prospect::learn(std::uint64_t left, std::uint64_t done, float change) {
+    const float e = sumOf(expected_.factor, left), p = sumOf(expected_.factor, done);
+    if (!(p + e > 0)) return;
+    const float feedback = std::clamp((change + e) / (p + e), kLeastFeedback, kMostFeedback);
+    for (; left != 0; left &= left - 1)
+        expected_.factor[std::size_t(std::countr_zero(left))] *= feedback;
+    unrank();
+}
+
+} // namespace penumbra
