@@ -171,7 +171,6 @@ std::vector<OrderUnderTest> allOrders() {
     const std::pair<const char*, bool ValueFactors::*> factors[] = {
         {"no-change", &ValueFactors::change},
         {"no-look", &ValueFactors::look},
-        {"no-feedback", &ValueFactors::feedback},
         {"no-contrast", &ValueFactors::contrast},
         {"no-size", &ValueFactors::size},
         {"no-frustum", &ValueFactors::frustum},

@@ -30,8 +30,6 @@ public:
     /// Whether a block is looked at, before it is worked on, to know what to expect of each of its
     /// receivers; those that are worth it are then worked on before the others.
     virtual bool looks() const { return false; }
-    /// Whether what is found at some receivers of a block corrects what is expected of the others.
-    virtual bool learns() const { return false; }
     /// What is gained at each receiver of a block that was looked at, in the unit of value().
     /// \param change how far what it reflects is expected to change [lm/m^2]
     virtual void gains(const BlockOfWork& work, std::span<const float> change,
@@ -98,7 +96,6 @@ public:
     bool looks() const override {
         return closeLook_ && attention_ && attention_->factors.change && attention_->factors.look;
     }
-    bool learns() const override { return looks() && attention_->factors.feedback; }
     void gains(const BlockOfWork& work, std::span<const float> change,
                std::span<float> gains) const override;
     std::uint32_t view() const override { return view_; }

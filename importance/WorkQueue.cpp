@@ -173,9 +173,8 @@ std::optional<WorkQueue::Choice> WorkQueue::choose(double now) {
     if (empty()) return {};
     const Slot& oldest = slots_[oldest_];
     const bool overdue = now - oldest.task.since >= fairness_.patience;
-    if (!overdue) owed_ = 0;
-    const bool itsTurn =
-        overdue && !oldest.chosen && owed_ >= oldest.task.worth.cost * (1 - fairness_.reserve);
+    if (!overdue) owed_ = std::min(owed_, 0.0);
+    const bool itsTurn = overdue && !oldest.chosen && owed_ >= 0;
     const std::optional<Handle> chosen = itsTurn ? oldest_ : best();
     if (!chosen) return {};
     slots_[*chosen].chosen = true;
@@ -189,19 +188,18 @@ WorkQueue::Worth WorkQueue::worthOf(std::uint32_t place, double gain, double cos
     return {float(kOne / at.perThreshold), std::max(float(share), 1e-30f), float(cost)};
 }
 
-void WorkQueue::finish(const Choice& choice) {
-    spend(choice);
+void WorkQueue::finish(const Choice& choice, double cost) {
+    spend(choice, cost);
     remove(choice.handle);
 }
 
-void WorkQueue::finishPart(const Choice& choice, const Worth& rest) {
-    spend(choice);
+void WorkQueue::finishPart(const Choice& choice, double cost, const Worth& rest) {
+    spend(choice, cost);
     rank(choice.handle, rest);
 }
 
 /// Overdue work has a share of all work.
-void WorkQueue::spend(const Choice& choice) {
-    const double cost = slots_[choice.handle].task.worth.cost;
+void WorkQueue::spend(const Choice& choice, double cost) {
     if (choice.overdue)
         owed_ -= cost * (1 - fairness_.reserve);
     else
@@ -211,7 +209,7 @@ void WorkQueue::spend(const Choice& choice) {
 std::optional<WorkQueue::Task> WorkQueue::take(double now) {
     const std::optional<Choice> choice = choose(now);
     if (!choice) return {};
-    finish(*choice);
+    finish(*choice, double(choice->task.worth.cost));
     return choice->task;
 }
 

@@ -79,9 +79,10 @@ public:
     /// \param now in any unit that rises; nothing if there is no work
     std::optional<Choice> choose(double now);
     /// A task that was chosen is going to be done.
-    void finish(const Choice& choice);
+    /// \param cost as far as it is known by now: it may be more than it was ranked by
+    void finish(const Choice& choice, double cost);
     /// A part of it is going to be done; it stays open, and the rest is worth so much.
-    void finishPart(const Choice& choice, const Worth& rest);
+    void finishPart(const Choice& choice, double cost, const Worth& rest);
     /// What a task at a place is worth that gains so much as the viewer sees it now: when the view
     /// changes, it gains as much more or less as others there.
     Worth worthOf(std::uint32_t place, double gain, double cost);
@@ -140,7 +141,7 @@ private:
         const Slot& slot = slots_[ranked.slot];
         return slot.serial != ranked.serial || slot.ranking != ranked.ranking || slot.chosen;
     }
-    void spend(const Choice& choice);
+    void spend(const Choice& choice, double cost);
     void order(Place& place);
     void skipStale(Place& place);
     std::optional<Handle> best();
@@ -159,7 +160,7 @@ private:
     Handle oldest_ = kNone, youngest_ = kNone;
     std::uint64_t serial_ = 0;
     std::size_t size_ = 0;
-    double owed_ = 0; ///< cost that overdue work may take ahead of its turn
+    double owed_ = 0; ///< to overdue work, of its share; below 0 it has had more
 };
 
 } // namespace penumbra

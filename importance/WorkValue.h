@@ -24,7 +24,6 @@ struct WorkPlace {
 struct ValueFactors {
     bool change = true;    ///< how far the light may change; else all changes count alike
     bool look = true;      ///< looking at work for what to expect of it; else all that is possible
-    bool feedback = true;  ///< what was found at some receivers counts for what is left of a block
     bool contrast = true;  ///< what of it can be seen at all; else luminance counts as it is
     bool size = true;      ///< how many pixels it covers
     bool frustum = true;   ///< whether it is in the picture

@@ -112,9 +112,12 @@ void OpenWork::rankReceivers(std::uint32_t row, Entry& entry) {
     const Receivers& r = receivers_[entry.block];
     const ExpectedFactors& expected = entry.prospect->expected();
     std::array<float, ExpectedFactors::kSize> change, gains;
-    for (std::size_t i = 0; i < change.size(); ++i)
+    change.fill(0); // what is done is not asked for
+    for (std::uint64_t left = entry.left; left != 0; left &= left - 1) {
+        const auto i = std::size_t(std::countr_zero(left));
         change[i] = float(double(r.reflectance) * double(expected.factor[i]) *
                           (rows_[row].power + double(r.light)));
+    }
     order_->gains({row, entry.block, 0, 0}, change, gains);
     entry.prospect->rank(entry.left, gains, order_->view());
 }
@@ -287,9 +290,9 @@ void OpenWork::close(const OpenBlock& block) {
     entry.anew &= ~block.receivers;
     if (entry.left != 0) {
         entry.prospect->close(block.receivers);
-        return queue_.finishPart(choice, worthOf(block.row, entry));
+        return queue_.finishPart(choice, block.cost, worthOf(block.row, entry));
     }
-    queue_.finish(choice);
+    queue_.finish(choice, block.cost);
     entry.handle = kPutOff;
     finish(block.row, entry);
 }
@@ -325,13 +328,6 @@ void OpenWork::expect(std::uint32_t row, std::uint32_t block, const ExpectedFact
     if (!entry || !narrow(row, *entry, expected.open)) return;
     entry->prospect = std::make_unique<Prospect>(expected);
     if (entry->handle != kPutOff) queue_.rank(entry->handle, choosePart(row, *entry));
-}
-
-void OpenWork::learn(const OpenBlock& block, float change) {
-    Entry* const entry = find(block.row, block.block);
-    if (!entry || !entry->prospect) return; // nothing is left, or it was opened anew
-    entry->prospect->learn(entry->left, block.receivers, change);
-    if (entry->handle != kPutOff) queue_.rank(entry->handle, choosePart(block.row, *entry));
 }
 
 void OpenWork::putBack(const OpenBlock& block) {

@@ -88,11 +88,6 @@ public:
     /// Of an open block only these receivers (bits) are still to be worked on; if none is, it is
     /// closed. One that is not open is left alone.
     void narrow(std::uint32_t row, std::uint32_t block, std::uint64_t receivers);
-    /// Whether learn() has a use for what is found at a block that is worked on.
-    bool learns(const OpenBlock& block) const { return order_->learns() && ~block.receivers != 0; }
-    /// What was found at the receivers of a block that was worked on.
-    /// \param change the sum over them of how far F V changed, up or down
-    void learn(const OpenBlock& block, float change);
     void putBack(const OpenBlock& block); ///< from next(): not now
     /// next() and close().
     std::optional<OpenBlock> take(double enough, std::size_t& steps);

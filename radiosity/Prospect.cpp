@@ -11,17 +11,8 @@ constexpr float kEntry = 0.5f; ///< what an entry costs besides its rays [rays]
 /// A part takes so many rays at least, unless no more are left: else visits take more time than
 /// rays do.
 constexpr double kLeastPart = 4 * kVisitCost;
-/// What was found may count for so much less, or more, than was expected.
-constexpr float kLeastFeedback = 0.02f, kMostFeedback = 3;
-
 float entryCost(const ExpectedFactors& expected, std::size_t receiver) {
     return kEntry + expected.rays[receiver];
-}
-
-float sumOf(const std::array<float, ExpectedFactors::kSize>& values, std::uint64_t which) {
-    float sum = 0;
-    for (; which != 0; which &= which - 1) sum += values[std::size_t(std::countr_zero(which))];
-    return sum;
 }
 
 } // namespace
@@ -70,15 +61,6 @@ Prospect::Part Prospect::bestPart(bool whole) const {
 
 void Prospect::close(std::uint64_t part) {
     first_ += std::size_t(std::popcount(part));
-}
-
-void Prospect::learn(std::uint64_t left, std::uint64_t done, float change) {
-    const float e = sumOf(expected_.factor, left), p = sumOf(expected_.factor, done);
-    if (!(p + e > 0)) return;
-    const float feedback = std::clamp((change + e) / (p + e), kLeastFeedback, kMostFeedback);
-    for (; left != 0; left &= left - 1)
-        expected_.factor[std::size_t(std::countr_zero(left))] *= feedback;
-    unrank();
 }
 
 } // namespace penumbra

@@ -48,17 +48,6 @@ public:
     /// The best part is done.
     void close(std::uint64_t part);
 
-    /// Corrects what is expected of the receivers that are left by what was found at others: if
-    /// changes of F V of m in all were found where p was expected, the sum e of what is expected of
-    /// those that are left is multiplied by the feedback
-    ///
-    ///     (m + e) / (p + e)
-    ///
-    /// kept within [0.02, 3]: the more is left, the less a few of them say of it.
-    ///
-    /// \param left, done bits: receivers \param change m
-    void learn(std::uint64_t left, std::uint64_t done, float change);
-
 private:
     ExpectedFactors expected_;
     std::uint32_t view_ = 0;

@@ -1,13 +1,11 @@
 #include "radiosity/RowUpdates.h"
 
-#include "radiosity/ChangeOfBlock.h"
 #include "radiosity/Parallel.h"
 #include "radiosity/Shaft.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 namespace penumbra {
 
@@ -41,8 +39,6 @@ float factorBound(const RowUpdates::RowFacts& sender, const Bounds& receivers) {
                ? area / (std::numbers::pi_v<float> * distance2)
                : 1.0f;
 }
-
-;
 
 } // namespace
 
@@ -223,6 +219,7 @@ void RowUpdates::uniteParts() {
         if (last && last->row == item.row && last->block == item.block) {
             last->receivers |= item.receivers;
             last->anew |= item.anew;
+            last->cost += item.cost;
         } else {
             items_[count++] = item;
         }
@@ -279,7 +276,6 @@ std::span<const OpenBlock> RowUpdates::work(std::size_t effort, double enough, c
     const std::vector<Range> tasks = this->tasks();
     while (builders_.size() < std::min<std::size_t>(tasks.size(), 64))
         builders_.emplace_back(rayScene_);
-    std::vector<float> found(items.size(), -1); // how far blocks changed, where that is of use
     // A builder a task of a round: results do not depend on which thread does what.
     for (std::size_t round = 0; round < tasks.size(); round += builders_.size()) {
         const std::size_t count = std::min(tasks.size() - round, builders_.size());
@@ -289,21 +285,16 @@ std::span<const OpenBlock> RowUpdates::work(std::size_t effort, double enough, c
             RowBuilder& builder = builders_[task];
             for (std::size_t i = tasks[round + task].first; i < tasks[round + task].end(); ++i) {
                 const OpenBlock& item = items[i];
-                const RowBlock& block = table_[item.row][item.block];
-                std::optional<ChangeOfBlock> change;
-                if (open_.learns(item)) change.emplace(block);
                 const int entries = update(builder, item, movedSince(item.since), i);
-                if (change) found[i] = change->upTo(block);
                 if (entries == 0) continue;
                 changed[task] += std::uint64_t(entries);
-                RowTable::listBlockers(set_, item.row, item.block, block, notes[task]);
+                RowTable::listBlockers(set_, item.row, item.block, table_[item.row][item.block],
+                                       notes[task]);
             }
         });
         for (std::uint64_t n : changed) entriesChanged_ += n;
         for (const auto& some : notes) table_.note(some);
     }
-    for (std::size_t i = 0; i < items.size(); ++i)
-        if (found[i] >= 0) open_.learn(items[i], found[i]);
     for (RowBuilder& builder : builders_) rays_ += builder.takeRayCount();
     blocksVisited_ += items.size();
     if (open_.count() == 0) moved_.clear(), movedWhen_.clear();

@@ -27,6 +27,8 @@ public:
 
     /// Objects were placed anew, hidden or shown.
     void follow(std::span<const ObjectId> objects);
+    /// Something reflects other light than before.
+    void followColours() { places_.measure(); }
     /// What the viewer sees now. To take effect, the queue is to be keyed anew.
     /// \param attention an adaptation of 0 is found from what is in view
     /// \param ambient about what indirect light adds everywhere [lux]

@@ -77,6 +77,7 @@ void Solver::apply(const SceneChange& change) {
     if (change.empty()) return;
     direct_.apply(change);
     if (seen_) {
+        if (change.colours) seen_->followColours();
         seen_->follow(change.objects);
         if (inSeenOrder_) direct_.rekey();
     }

@@ -32,6 +32,7 @@ VertexPlaces::VertexPlaces(const PatchSet& patches, std::size_t most) : patches_
 
 /// How large places are, and what they reflect. Each corner has its share of an element.
 void VertexPlaces::measure() {
+    for (WorkPlace& place : clusters_.places) place.area = place.reflectance = 0;
     area_.assign(patches_.firstPrivate, 0);
     reflectance_.assign(patches_.firstPrivate, 0);
     for (std::size_t e = 0; e < patches_.uncoveredElements.size(); ++e) {

@@ -20,6 +20,8 @@ public:
     /// \param most about how many places there are to be. `patches` must outlive this.
     explicit VertexPlaces(const PatchSet& patches, std::size_t most = 2000);
 
+    /// Materials reflect other light than before.
+    void measure();
     /// Objects were placed anew, hidden or shown.
     void follow(std::span<const ObjectId> objects);
 
@@ -44,7 +46,6 @@ public:
     std::vector<std::size_t> spread(std::uint32_t place) const;
 
 private:
-    void measure();
     void locate(std::uint32_t place);
     template <class Visit>
     void forSome(std::uint32_t place, std::size_t most, Visit visit) const;

@@ -15,10 +15,10 @@ namespace penumbra {
 
 namespace {
 
-/// Share of an object's corners and middle that sees a point; half of one, if none does.
+/// Share of an object's corners and middle that sees a point.
 double seenShare(const SceneRays& rays, const Bounds& box, ObjectId object, glm::dvec3 lamp,
                  ObjectId lampObject) {
-    double seen = 0;
+    int seen = 0;
     for (int i = 0; i < 9; ++i) {
         const glm::vec3 way(i & 1 ? 0.45f : -0.45f, i & 2 ? 0.45f : -0.45f, i & 4 ? 0.45f : -0.45f);
         const glm::dvec3 from = box.centre() + (i < 8 ? way * box.size() : glm::vec3(0));
@@ -27,7 +27,7 @@ double seenShare(const SceneRays& rays, const Bounds& box, ObjectId object, glm:
         const auto touch = rays.touch(from, (lamp - from) / reach, reach, object);
         if (!touch || touch->object == lampObject) ++seen;
     }
-    return std::max(seen, 0.5) / 9;
+    return double(seen) / 9;
 }
 
 glm::dvec3 middle(const std::vector<glm::vec3>& polygon) {
@@ -95,37 +95,49 @@ std::vector<Lamp> lampsDrawable(const RadiosityNode& node, LiveBy by) {
 }
 
 LampLimits lampLimits(LiveBy by) {
-    if (by == LiveBy::maps) return {.most = kMostLampsByMaps, .least = 0.05};
+    if (by == LiveBy::maps) return {.most = kMostLampsByMaps, .least = 0.05, .hidden = false};
     return {.most = kMostLampsDrawnLive, .least = 0.0005}; // a thousandth can be seen in the dark
 }
 
 std::vector<std::string> lampsThatMatter(const std::vector<Lamp>& lamps, const SceneRays& rays,
                                          ObjectId object, const LampLimits& limits) {
-    std::vector<std::pair<double, const Lamp*>> found;
+    constexpr double kHidden = 0.5 / 9; // as if half a corner saw it
+    struct Found {
+        const Lamp* lamp;
+        double light; ///< [lux]
+        bool seen;
+    };
+    std::vector<Found> found;
     double sum = 0;
     const Bounds box = rays.bounds(object);
     for (const Lamp& lamp : lamps) {
         if (lamp.object == object) {
-            found.emplace_back(std::numeric_limits<double>::infinity(), &lamp);
+            found.push_back({&lamp, std::numeric_limits<double>::infinity(), true});
             continue;
         }
         if (box.empty()) continue;
-        double light = 0;
+        double light = 0, free = 0;
         for (const Emitter& emitter : lamp.emitters)
-            if (const double all = lightAt(emitter, box.centre()); all > 0)
+            if (const double all = lightAt(emitter, box.centre()); all > 0) {
+                free += all;
                 light += all * seenShare(rays, box, object, centreOf(emitter), lamp.object);
+            }
         sum += light;
-        if (light > 0) found.emplace_back(light, &lamp);
+        if (light > 0)
+            found.push_back({&lamp, light, true});
+        else if (limits.hidden && free > 0)
+            found.push_back({&lamp, kHidden * free, false});
     }
-    std::erase_if(found, [&](const auto& lamp) { return lamp.first < limits.least * sum; });
-    std::stable_sort(found.begin(), found.end(),
-                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::erase_if(found, [&](const Found& one) { return one.light < limits.least * sum; });
+    std::ranges::stable_sort(found, [](const Found& a, const Found& b) {
+        return a.seen != b.seen ? a.seen : a.light > b.light;
+    });
     std::vector<std::string> paths;
     std::size_t emitters = 0;
-    for (const auto& [light, lamp] : found) {
-        if (emitters + lamp->emitters.size() > limits.most) continue;
-        emitters += lamp->emitters.size();
-        paths.push_back(lamp->path);
+    for (const Found& one : found) {
+        if (emitters + one.lamp->emitters.size() > limits.most) continue;
+        emitters += one.lamp->emitters.size();
+        paths.push_back(one.lamp->path);
     }
     return paths;
 }

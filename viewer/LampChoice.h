@@ -26,14 +26,16 @@ std::vector<Lamp> lampsDrawable(const RadiosityNode& node, LiveBy by);
 struct LampLimits {
     std::size_t most = kMostLampsDrawnLive; ///< emitters: each costs as much as another lamp
     double least = 0;                       ///< share of all light that a lamp has to have
+    bool hidden = true;                     ///< lamps that the object does not see now, as well
 };
 LampLimits lampLimits(LiveBy by);
 
 /// The lamps to be drawn live while an object moves, the most important ones first: those in it,
 /// then those that give it the most light, of which it may take the most away from what lies
 /// behind it. Of an emitter that gives E without obstacles and is seen from a share v of the object
-/// (its corners and its middle), E v counts; of one that is not seen, as if half a corner saw it:
-/// the object may be moved into its light.
+/// (its corners and its middle), E v counts. Lamps that are not seen come last, as if half a corner
+/// saw them: the object may be moved into their light. Lamps that are turned away from it give
+/// none.
 ///
 /// \param object in `rays`, as Lamp::object \return paths
 std::vector<std::string> lampsThatMatter(const std::vector<Lamp>& lamps, const SceneRays& rays,

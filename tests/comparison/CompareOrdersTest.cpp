@@ -149,21 +149,6 @@ ComparisonOptions directOnly() {
     return options;
 }
 
-TEST(CompareOrders, FeedbackChangesTheOrderAndNotTheEnd) {
-    ComparisonOptions options = directOnly();
-    options.meshing.elementSize = 0.0625f;
-    const auto area = [&](bool feedback) {
-        OrderUnderTest order{.kind = OrderUnderTest::Kind::importance, .name = "importance"};
-        order.factors.feedback = feedback;
-        PushedBox box;
-        const ComparisonResult result = compareOrders(box.playback(2), {order}, options);
-        EXPECT_EQ(result.orders[0].differsFromTruth, 0);
-        return figuresOf(result).front().area;
-    };
-    EXPECT_EQ(area(true), area(true));
-    EXPECT_NE(area(true), area(false));
-}
-
 TEST(CompareOrders, WhoKnowsWhatChangesDoesLessWorkForTheSamePicture) {
     PushedBox box;
     ComparisonOptions options = directOnly();

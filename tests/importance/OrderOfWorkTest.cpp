@@ -124,21 +124,6 @@ TEST_F(TwoPlaces, ImportanceGainsWhereReceiversAreSeen) {
     EXPECT_EQ(gains[2], 0);
 }
 
-TEST_F(TwoPlaces, ImportanceLearnsFromWhatItLooksAtUnlessToldNotTo) {
-    ImportanceOrder order({0, 1}, sight,
-                          [](std::uint32_t, std::uint64_t, std::span<PlaceValue>) {});
-    Attention attention = looking(0);
-    order.attend(attention);
-    EXPECT_TRUE(order.learns());
-    attention.factors.feedback = false;
-    order.attend(attention);
-    EXPECT_FALSE(order.learns());
-    EXPECT_TRUE(order.looks());
-    attention.factors.feedback = true, attention.factors.look = false;
-    order.attend(attention);
-    EXPECT_FALSE(order.learns()) << "nothing is expected of single receivers";
-}
-
 TEST_F(TwoPlaces, ImportanceCountsWhatHasNoPlaceAsSomethingInView) {
     ImportanceOrder order({PlaceClusters::kNowhere, 1}, sight);
     order.attend(looking(0));

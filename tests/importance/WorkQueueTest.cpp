@@ -209,7 +209,7 @@ TEST(WorkQueue, WhatIsDoneInPartStaysOpenWithItsAge) {
     queue.rekey([](std::uint32_t) { return weight(1); });
     queue.add({.place = 0, .id = 7, .worth = {.change = 9}, .since = 1});
     queue.add({.place = 0, .id = 8, .worth = {.change = 5}, .since = 3});
-    queue.finishPart(*queue.choose(4), {.change = 1});
+    queue.finishPart(*queue.choose(4), 1, {.change = 1});
     EXPECT_EQ(queue.size(), 2u);
     EXPECT_EQ(queue.oldest(4), 1);
     EXPECT_EQ(queue.take(4)->id, 8u);

@@ -296,52 +296,33 @@ TEST_F(OpenWorkOfTwoRows, WhatComesToAPartOpensAllOfTheBlockAgain) {
     EXPECT_EQ(again->since, 3u); // of those that were left
 }
 
-class Learning : public Looking {
-public:
-    bool learns() const override { return true; }
-};
-
-TEST_F(OpenWorkOfTwoRows, TheRestOfABlockIsWorthWhatItsFirstPartWasFoundToBe) {
-    work.setOrder(std::make_shared<Learning>());
-    // A part of block 0 is done, of which changes of 0.3 were expected, and 0.02 of the rest; then
-    // block 1 is there as well.
-    const auto order = [&](float found, float elsewhere) {
-        open(0, {block(0, 0.1f), block(1, 0.1f)});
-        ExpectedFactors first = fewOpen(), second;
-        first.factor[7] = 0.02f;
-        second.open = 1u << 7;
-        second.factor[7] = elsewhere, second.rays[7] = 200;
-        work.expect(0, 0, first);
-        work.expect(0, 1, second);
-        std::size_t steps = 100;
-        const auto part = work.take(0, steps);
-        EXPECT_EQ(std::popcount(part->receivers), 3);
-        EXPECT_TRUE(work.learns(*part));
-        work.learn(*part, found);
-        return takeAll(0);
-    };
-    EXPECT_THAT(order(0.3f, 0.01f), ElementsAre(0, 1));
-    EXPECT_THAT(order(0, 0.01f), ElementsAre(1, 0)) << "too much was expected";
-    EXPECT_THAT(order(0.3f, 0.03f), ElementsAre(1, 0));
-    EXPECT_THAT(order(0.9f, 0.03f), ElementsAre(0, 1)) << "too little was expected";
-}
-
-TEST_F(OpenWorkOfTwoRows, NothingIsLearntOfWholeBlocksOrInAnOrderThatDoesNotLearn) {
-    const auto learns = [&](bool inParts) {
-        open(0, {block(0, 0.1f)});
-        if (inParts) work.expect(0, 0, fewOpen());
-        std::size_t steps = 100;
-        const OpenBlock first = work.take(0, steps).value();
-        const bool result = work.learns(first);
-        while (const auto part = work.take(0, steps)) work.learn(*part, 1); // none is left then
-        EXPECT_EQ(work.count(), 0u);
-        return result;
-    };
-    work.setOrder(std::make_shared<Learning>());
-    EXPECT_TRUE(learns(true));
-    EXPECT_FALSE(learns(false));
+TEST_F(OpenWorkOfTwoRows, OverdueWorkHasItsShareOfWhatItTakes) {
     work.setOrder(std::make_shared<Looking>());
-    EXPECT_FALSE(learns(true));
+    work.setPatience(0);
+    constexpr std::uint32_t kBlocks = 100;
+    work.setReceivers(std::vector<OpenWork::Receivers>(kBlocks, {0.5f, 0}));
+    std::vector<OpenBlock> dull, bright;
+    for (std::uint32_t b = 0; b < kBlocks; ++b) {
+        dull.push_back(block(b, 1e-6f, ~std::uint64_t(0)));
+        bright.push_back(block(b, 0.1f));
+    }
+    open(0, dull);
+    open(1, bright);
+    ExpectedFactors all; // each about as much work as an overdue one
+    all.open = ~std::uint64_t(0);
+    all.factor.fill(0.1f), all.rays.fill(20);
+    double overdue = 0, taken = 0;
+    std::size_t steps = 100000;
+    while (taken < 20 * 1536) {
+        const OpenBlock next = work.next(0, steps).value();
+        if (next.look) {
+            work.expect(next.row, next.block, all);
+            continue;
+        }
+        work.close(next);
+        (next.overdue ? overdue : taken) += next.cost;
+    }
+    EXPECT_NEAR(overdue / (overdue + taken), 0.25, 0.06);
 }
 
 TEST_F(OpenWorkOfTwoRows, IsDoneAsAWholeIfItIsShownAsAWhole) {

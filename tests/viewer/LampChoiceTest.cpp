@@ -72,6 +72,7 @@ TEST(LampChoice, ALampThatIsHiddenComesLastAsTheThingMayBeMovedIntoItsLight) {
     ASSERT_TRUE(updateUntilSettled(*room.node));
     EXPECT_EQ(room.thatMatter("/box", {}), Paths({"/panels/mesh", "/lamp/light"}));
     EXPECT_EQ(room.thatMatter("/box", {.least = 0.25}), Paths({"/panels/mesh"}));
+    EXPECT_EQ(room.thatMatter("/box", {.hidden = false}), Paths({"/panels/mesh"}));
 }
 
 TEST(LampChoice, EachEmitterOfAMeshCountsAsALamp) {
