@@ -8,8 +8,9 @@ namespace penumbra {
 
 namespace {
 
-/// What rays may have missed: this share of F changes whatever they say.
-constexpr float kLeastShare = 0.01f;
+/// What rays may have missed: this share of F changes whatever they say, and of entries that are
+/// evaluated anew, of which few have a ray of their own, this one.
+constexpr float kLeastShare = 0.01f, kLeastShareAnew = 0.25f;
 /// Of entries that are evaluated anew, one in so many has a ray.
 constexpr std::size_t kAnewGroup = 4;
 /// Rays of an entry in half-shadow for its further samples, as it may be one.
@@ -51,8 +52,10 @@ ExpectedFactors ChangeLook::at(const EmitterSender& sender, const ReceiverBlock&
     const LocalShare share(receivers.receivers);
     for (std::size_t r = 0; r < receivers.receivers.size(); ++r) {
         const Probe& probe = probes_[r];
-        expected.factor[r] = std::max(std::abs(changeOf(r, anew >> r & 1, share)),
-                                      kLeastShare * std::max(probe.now, probe.before));
+        const bool isAnew = anew >> r & 1;
+        const float least = isAnew ? kLeastShareAnew : kLeastShare;
+        expected.factor[r] = std::max(std::abs(changeOf(r, isAnew, share)),
+                                      least * std::max(probe.now, probe.before));
     }
     return expected;
 }
