@@ -23,9 +23,9 @@ namespace penumbra {
 /// keeps its age.
 ///
 /// Nothing starves. A task that has waited for `patience` is overdue; of the cost of all work taken
-/// from then on, the share `reserve` goes to what is overdue, the oldest first. So with work of
-/// cost P ahead of it in age, itself among it, a task that was added at time t is taken before work
-/// of cost P / reserve, and of one task more, is done after t + patience.
+/// from then on, the share `reserve` goes to what is overdue, the oldest first. So a task that was
+/// added at time t with work of cost P ahead of it in age, itself among it, is taken before work of
+/// cost P / reserve, and of one task more, is done after t + patience.
 class WorkQueue {
 public:
     struct Fairness {

@@ -263,7 +263,7 @@ std::optional<OpenBlock> OpenWork::next(double enough, std::size_t& steps) {
         }
         const bool looks = !choice->overdue && order_->looks();
         if (looks && entry.prospect &&
-            entry.prospect->view() != order_->view()) { // the viewer has moved
+            !entry.prospect->isRanked(order_->view())) { // the viewer has moved
             queue_.rank(entry.handle, choosePart(row, entry));
             continue;
         }

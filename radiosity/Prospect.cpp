@@ -11,6 +11,7 @@ constexpr float kEntry = 0.5f; ///< what an entry costs besides its rays [rays]
 /// A part takes so many rays at least, unless no more are left: else visits take more time than
 /// rays do.
 constexpr double kLeastPart = 4 * kVisitCost;
+
 float entryCost(const ExpectedFactors& expected, std::size_t receiver) {
     return kEntry + expected.rays[receiver];
 }
@@ -48,7 +49,7 @@ double Prospect::cost(std::uint64_t receivers) const {
 }
 
 Prospect::Part Prospect::bestPart(bool whole) const {
-    Part all{.cost = kVisitCost}, best = all;
+    Part all, best;
     for (std::size_t i = first_; i < count_; ++i) {
         all.receivers |= std::uint64_t(1) << by_[i];
         all.gain += gain_[i];

@@ -17,6 +17,9 @@ struct ExpectedFactors {
     std::array<float, kSize> rays{};   ///< that it takes to find out
 };
 
+/// What a visit of a block costs besides its rays, if their number is known [rays].
+constexpr float kVisitCost = 48;
+
 /// A block that was looked at is done in parts: of the receivers that are left, in the order of
 /// what is gained at each per ray, as many as make the most of a visit,
 ///
@@ -31,8 +34,8 @@ public:
 
     /// Whether its receivers are in order, as the viewer sees them.
     bool isRanked(std::uint32_t view) const { return ranked_ && view_ == view; }
-    std::uint32_t view() const { return view_; } ///< of which they were put in order last
     /// Puts receivers in order. \param left bits: those that are left \param gains one a receiver
+    /// \param view see OrderOfWork::view()
     void rank(std::uint64_t left, std::span<const float> gains, std::uint32_t view);
     /// They are to be put in order again.
     void unrank() { ranked_ = false; }
@@ -41,7 +44,8 @@ public:
     double cost(std::uint64_t receivers) const;
     struct Part {
         std::uint64_t receivers = 0; ///< bits
-        double gain = 0, cost;       ///< [rays]
+        double gain = 0;
+        double cost = kVisitCost; ///< [rays]
     };
     /// What comes next. \pre they are in order \param whole all that is left
     Part bestPart(bool whole) const;
@@ -57,8 +61,5 @@ private:
     std::array<float, ExpectedFactors::kSize> gain_;      ///< likewise
     bool ranked_ = false;
 };
-
-/// What a visit of a block costs besides its rays, if their number is known [rays].
-constexpr float kVisitCost = 48;
 
 } // namespace penumbra

@@ -25,9 +25,9 @@ double seenShare(const SceneRays& rays, const Bounds& box, ObjectId object, glm:
         const double reach = glm::distance(from, lamp);
         if (reach == 0) continue;
         const auto touch = rays.touch(from, (lamp - from) / reach, reach, object);
-        if (!touch || touch->object == lampObject) ++seen;
+        seen += !touch || touch->object == lampObject;
     }
-    return double(seen) / 9;
+    return seen / 9.0;
 }
 
 glm::dvec3 middle(const std::vector<glm::vec3>& polygon) {

@@ -35,6 +35,14 @@ struct Work {
     }
 };
 
+/// One that knows how long work takes; `work` has been asked for as much as it does in that time.
+Pace settled(Work& work) {
+    Pace pace(&told);
+    pace.aim(1e-3, kMost);
+    for (int i = 0; i < 30; ++i) pace.work(Pace::direct, std::ref(work));
+    return pace;
+}
+
 TEST(Pace, PiecesComeToTakeAsLongAsIsWanted) {
     Pace pace(&told);
     for (const double wanted : {2e-3, 5e-4}) {
@@ -46,10 +54,8 @@ TEST(Pace, PiecesComeToTakeAsLongAsIsWanted) {
 }
 
 TEST(Pace, WorkThatRunsOutDoesNotMakeTheNextPieceLarger) {
-    Pace pace(&told);
-    pace.aim(1e-3, kMost);
     Work work{100 * kMost};
-    for (int i = 0; i < 30; ++i) pace.work(Pace::direct, std::ref(work));
+    Pace pace = settled(work);
     const std::size_t usual = work.asked;
     for (int edit = 0; edit < 50; ++edit) {
         work.left = usual / 100;
@@ -62,10 +68,8 @@ TEST(Pace, WorkThatRunsOutDoesNotMakeTheNextPieceLarger) {
 }
 
 TEST(Pace, APieceThatTookTooLongCountsAtOnce) {
-    Pace pace(&told);
-    pace.aim(1e-3, kMost);
     Work work{100 * kMost};
-    for (int i = 0; i < 30; ++i) pace.work(Pace::direct, std::ref(work));
+    Pace pace = settled(work);
     const std::size_t usual = work.asked;
     work.perRay = 1.5 * kPerRay;
     pace.work(Pace::direct, std::ref(work));

@@ -17,8 +17,9 @@ struct Floor {
     std::shared_ptr<Transform> box = movable(
         "box",
         {std::make_shared<Mesh>("mesh", boxData({-0.5f, -0.5f, 0}, {0.5f, 0.5f, 1}, false))});
+    std::shared_ptr<Material> cloth = paint(Rgb(0.5f));
     Floor() {
-        scene.root->add(object("floor", floorData(-2, 2, -2, 2, 0, paint(Rgb(0.5f)))));
+        scene.root->add(object("floor", floorData(-2, 2, -2, 2, 0, cloth)));
         scene.root->add(ceilingLamp({0, 0, 3}, 1, 1, Rgb(100)));
         box->setMatrix(moved(9, 0, 0));
         scene.root->add(box);
@@ -88,6 +89,20 @@ TEST(VertexPlaces, FollowWhatIsMoved) {
     ASSERT_FALSE(followed.rebuilt);
     places.follow(followed.change.objects);
     EXPECT_NEAR(places.at(ofBox[0], dark).box.centre().x, before - 4, 1e-4);
+}
+
+TEST(VertexPlaces, ReflectAsTheyWereRepaintedAndAreAsLarge) {
+    Floor floor;
+    LitScene lit(placeScene(floor.scene), kMeshing, kDirect);
+    VertexPlaces places(lit.patches());
+    const std::uint32_t place = placesOf(places, lit.patches(), "/floor")[0];
+    const float area = places.known(place).area;
+    floor.cloth->setReflectance(Rgb(0.2f));
+    const auto followed = lit.follow(placeScene(floor.scene));
+    ASSERT_TRUE(followed.change.colours);
+    places.measure();
+    EXPECT_NEAR(places.known(place).reflectance, 0.2, 1e-5);
+    EXPECT_EQ(places.known(place).area, area);
 }
 
 TEST(VertexPlaces, AreSpokenForByVerticesSpreadOverThem) {
