@@ -1,5 +1,6 @@
 #include "comparison/OracleOrder.h"
 
+#include "importance/Adaptation.h"
 #include "importance/ContrastSensitivity.h"
 
 #include <array>
@@ -23,11 +24,18 @@ VertexFactors factorsOf(std::span<const Row> rows, std::size_t vertices) {
 OracleOrder::OracleOrder(const PatchSet& patches, std::span<const Row> now,
                          const VertexFactors& settled, const DrawnView& drawn, double adaptation)
     : patches_(patches), now_(now), settled_(settled), pixels_(drawn.vertexPixels()),
-      reflectance_(patches.vertices.size()),
-      perThreshold_(peakContrastSensitivity(adaptation) / adaptation) {
+      reflectance_(patches.vertices.size()), perThreshold_(patches.vertices.size()) {
     for (const Element& element : patches.elements)
         for (std::uint32_t v : element.vertices)
             reflectance_[v] = luminance(patches.materials[element.material].reflectance);
+    for (std::size_t v = 0; v < perThreshold_.size(); ++v) {
+        double light = 0; // [lux]
+        for (std::size_t row = 0; row < settled.size(); ++row)
+            light += settled[row][v] * luminance(patches.emitters[row].exitance);
+        const double adapted =
+            localAdaptation(reflectance_[v] * light * std::numbers::inv_pi, adaptation);
+        perThreshold_[v] = peakContrastSensitivity(adapted) / adapted;
+    }
 }
 
 WorkQueue::Task OracleOrder::rank(const BlockOfWork& work) const {
@@ -52,7 +60,7 @@ void OracleOrder::gains(const BlockOfWork& work, std::span<const float>,
     for (std::size_t r = 0; r < change.size(); ++r) {
         const std::size_t v = first + r;
         const double nits = std::abs(change[r]) * power * reflectance_[v] * std::numbers::inv_pi;
-        gains[r] = float(workValue({pixels_[v], perThreshold_, false}, nits, 1));
+        gains[r] = float(workValue({pixels_[v], perThreshold_[v], false}, nits, 1));
     }
 }
 

@@ -42,7 +42,7 @@ private:
     const VertexFactors& settled_;
     std::vector<float> pixels_;      ///< one a vertex
     std::vector<float> reflectance_; ///< likewise
-    double perThreshold_;            ///< [1/nit]
+    std::vector<double> perThreshold_; ///< likewise [1/nit]
 };
 
 } // namespace penumbra

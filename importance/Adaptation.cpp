@@ -8,7 +8,8 @@ namespace penumbra {
 
 namespace {
 
-constexpr double kDarkest = 1e-4; ///< [nit]
+constexpr double kDarkest = 1e-4;   ///< [nit]
+constexpr double kScattered = 0.005; ///< share of the picture's light, at any place
 
 } // namespace
 
@@ -20,7 +21,7 @@ double meanAdaptation(std::span<const float> luminances) {
 }
 
 double localAdaptation(double surface, double picture) {
-    return std::max(kDarkest, 0.5 * surface + 0.5 * picture);
+    return std::max(kDarkest, surface + kScattered * picture);
 }
 
 void Adaptation::look(double luminance, double seconds) {

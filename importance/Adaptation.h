@@ -14,8 +14,10 @@ namespace penumbra {
 /// Reinhard, Stark, Shirley & Ferwerda, SIGGRAPH 2002, equation 1.  [docs/references.md]
 double meanAdaptation(std::span<const float> luminances);
 
-/// Luminance that the eye is adapted to where it looks at a surface: half the surface's own and
-/// half the picture's. How far adaptation is local is not settled; this is midway.
+/// Luminance that the eye is adapted to where it looks at a surface: the surface's own, for
+/// adaptation reaches less than a degree around (Vangorp, Myszkowski, Graf & Mantiuk, "A model of
+/// local adaptation", ACM TOG 34(6), 2015), and a two-hundredth of the picture's, about what is
+/// scattered onto any place within the eye.
 /// \param surface, picture [nit]; \return [nit], at least 1e-4
 double localAdaptation(double surface, double picture);
 

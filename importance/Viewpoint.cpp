@@ -9,6 +9,7 @@ namespace penumbra {
 namespace {
 
 constexpr double kMargin = 15 * std::numbers::pi / 180;            ///< [rad]
+constexpr double kLeastCosine = 0.2; ///< of the angle to the axis: far out of most pictures
 constexpr double kOrthographicWidth = 30 * std::numbers::pi / 180; ///< [rad]
 
 bool isPerspective(const View& view) {
@@ -43,6 +44,7 @@ glm::dmat4 widened(const View& view) {
 
 Viewpoint::Viewpoint(const View& view, int width, int height)
     : inScene_(isPerspective(view) ? std::optional(view.eye) : std::nullopt), eye_(eyeOf(view)),
+      axis_(-glm::transpose(glm::dmat3(view.worldToCamera))[2]),
       clipToWorld_(glm::inverse(view.worldToClip())), picture_(view.worldToClip()),
       margin_(widened(view)),
       pixelsPerRadian_(isPerspective(view) ? 0.5 * width * view.projection[0][0]
@@ -82,7 +84,9 @@ double Viewpoint::pixelsOf(const Bounds& box, glm::vec3 normal, float area) cons
     const double facing = glm::dot(glm::dvec3(normal), way) / std::sqrt(distance2);
     const double cosine = std::clamp(facing + 0.25 * std::max(0.0, 1 - flat), 0.0, 1.0);
     const double radians2 = double(area) * cosine / distance2; // solid angle
-    return std::min(pixels_, radians2 * pixelsPerRadian_ * pixelsPerRadian_);
+    const double off = std::max(kLeastCosine, -glm::dot(axis_, way) / std::sqrt(distance2));
+    const double perRadian2 = pixelsPerRadian_ * pixelsPerRadian_ / (off * off * off);
+    return std::min(pixels_, radians2 * perRadian2);
 }
 
 } // namespace penumbra

@@ -41,7 +41,10 @@ public:
     /// About how many pixels a surface covers if nothing stands in front of it; 0 if it is turned
     /// away.
     ///
-    ///     pixels = area * cos(angle to the normal) / distance^2 * (pixels per radian)^2
+    ///     pixels = area * cos(angle to the normal) / distance^2 * (pixels per radian)^2 / cos(a)^3
+    ///
+    /// where a is the angle between the camera's axis and the way there: a flat picture stretches
+    /// what is far from its middle.
     ///
     /// \param box    around it [m, world]; it does not get closer than half its own radius
     /// \param normal mean of its unit normals; the shorter, the more it is curved
@@ -50,7 +53,7 @@ public:
 
 private:
     std::optional<glm::dvec3> inScene_;
-    glm::dvec3 eye_;
+    glm::dvec3 eye_, axis_; ///< [m, world]; where the camera looks, unit
     glm::dmat4 clipToWorld_;
     Frustum picture_, margin_;
     double pixelsPerRadian_, pixels_;

@@ -10,9 +10,9 @@ namespace {
 
 /// What rays may have missed: this share of F changes whatever they say, and of entries that are
 /// evaluated anew, of which few have a ray of their own, this one.
-constexpr float kLeastShare = 0.01f, kLeastShareAnew = 0.25f;
+constexpr float kLeastShare = 0.01f, kLeastShareAnew = 0.1f;
 /// Of entries that are evaluated anew, one in so many has a ray.
-constexpr std::size_t kAnewGroup = 4;
+constexpr std::size_t kAnewGroup = 8;
 /// Rays of an entry in half-shadow for its further samples, as it may be one.
 constexpr float kFurther = 8;
 
@@ -29,6 +29,17 @@ int oneOf(std::uint32_t lanes, std::size_t receiver) {
     return std::countr_zero(lanes);
 }
 
+/// Receivers (bits) of which one is asked.
+std::uint64_t groupOf(std::size_t receiver) {
+    constexpr std::uint64_t kAll = (std::uint64_t(1) << kAnewGroup) - 1;
+    return kAll << receiver / kAnewGroup * kAnewGroup;
+}
+
+float visibilityOf(const RowBlock::Draft& draft) {
+    if (draft.blockerCount == 0) return 1;
+    return draft.visible != 0 ? draft.visibility : 0.0f;
+}
+
 } // namespace
 
 ExpectedFactors ChangeLook::at(const EmitterSender& sender, const ReceiverBlock& receivers,
@@ -37,8 +48,7 @@ ExpectedFactors ChangeLook::at(const EmitterSender& sender, const ReceiverBlock&
     block.decode(std::span(drafts_).first(receivers.receivers.size()));
     ExpectedFactors expected;
     probes_.fill({});
-    anew_ = covered_ = uncovered_ = {};
-    groups_ = 0;
+    stored_ = anew_ = fresh_ = {};
     for (std::size_t r = 0; r < receivers.receivers.size(); ++r) {
         const Receiver& receiver = receivers.receivers[r];
         if (!(receivers.some >> r & 1) || (isPadding(receiver) && !(anew >> r & 1))) continue;
@@ -53,20 +63,21 @@ ExpectedFactors ChangeLook::at(const EmitterSender& sender, const ReceiverBlock&
     for (std::size_t r = 0; r < receivers.receivers.size(); ++r) {
         const Probe& probe = probes_[r];
         const bool isAnew = anew >> r & 1;
+        const Answers& answers = !isAnew ? stored_ : drafts_[r].formFactor > 0 ? anew_ : fresh_;
         const float least = isAnew ? kLeastShareAnew : kLeastShare;
-        expected.factor[r] = std::max(std::abs(changeOf(r, isAnew, share)),
+        expected.factor[r] = std::max(std::abs(changeOf(r, answers, share)),
                                       least * std::max(probe.now, probe.before));
     }
     return expected;
 }
 
 /// Of F V, up or down. What happened to rays happens to as many of the samples around them.
-float ChangeLook::changeOf(std::size_t r, bool anew, const LocalShare& share) const {
+float ChangeLook::changeOf(std::size_t r, const Answers& answers, const LocalShare& share) const {
     const Probe& probe = probes_[r];
     const auto blocked = [&](const Asked& asked) { return share.at(r, asked.all, asked.blocked); };
-    if (anew) return probe.now * (1 - blocked(anew_)) - probe.before;
-    return probe.now *
-           (probe.uncovered * (1 - blocked(uncovered_)) - probe.covered * blocked(covered_));
+    const float visible = probe.visible + probe.uncovered * (1 - blocked(answers.uncovered)) -
+                          probe.covered * blocked(answers.covered);
+    return probe.now * visible - probe.before;
 }
 
 /// \return whether there is anything to be done
@@ -102,15 +113,16 @@ bool ChangeLook::probeStored(const EmitterSender& sender, const Receiver& receiv
     if (!concerned) return false;
     const float total = weightOf(group, used);
     Probe& probe = probes_[r];
-    probe = {draft.formFactor, draft.formFactor, 0, 0};
+    const float visible = visibilityOf(draft);
+    probe = {draft.formFactor * visible, draft.formFactor, visible, 0, 0};
     rays = float(std::popcount(covered) + std::popcount(uncovered));
     if (total > 0 && covered != 0) {
         probe.covered = weightOf(group, covered) / total;
-        add(alone_, group, covered, r, covered_, moved);
+        add(alone_, group, covered, r, stored_.covered, moved);
     }
     if (total > 0 && uncovered != 0) {
         probe.uncovered = weightOf(group, uncovered) / total;
-        add(alone_, group, uncovered, r, uncovered_, moved);
+        add(alone_, group, uncovered, r, stored_.uncovered, moved);
     }
     if (rays > 0) rays += kFurther;
     return true;
@@ -121,19 +133,21 @@ bool ChangeLook::probeAnew(const EmitterSender& sender, const ReceiverBlock& rec
     const RowBlock::Draft& draft = drafts_[r];
     const Receiver& receiver = receivers.receivers[r];
     const bool wanted = (receivers.wanted >> r & 1) && !isPadding(receiver);
-    Probe& probe = probes_[r];
-    probe.before = draft.formFactor * (draft.blockerCount == 0 ? 1.0f
-                                       : draft.visible != 0    ? draft.visibility
-                                                               : 0.0f);
-    probe.now = wanted ? sender.formFactor(receiver) : 0.0f;
-    if (!(probe.now > 0)) return draft.formFactor > 0;
+    const float before = draft.formFactor > 0 ? visibilityOf(draft) : 0.0f;
+    probes_[r] = {draft.formFactor * before, wanted ? sender.formFactor(receiver) : 0.0f, before,
+                  before, 1 - before};
+    if (!(probes_[r].now > 0)) return draft.formFactor > 0;
     rays = float(sender.baseSamples()) + kFurther;
-    const std::uint64_t ofGroup = std::uint64_t(1) << r / kAnewGroup;
-    if ((groups_ & ofGroup) != 0) return true;
-    groups_ |= ofGroup;
+    std::uint64_t wasBlocked = draft.formFactor > 0 ? 0 : ~std::uint64_t(0);
+    for (int b = 0; draft.formFactor > 0 && b < draft.blockerCount; ++b)
+        wasBlocked |= draft.blockers[std::size_t(b)].samples;
+    Answers& answers = draft.formFactor > 0 ? anew_ : fresh_;
     SampleGroup group;
     sender.sampleGroup(receiver, 0, group);
-    add(whole_, group, group.rays.used, r, anew_, {});
+    if (group.rays.used == 0) return true; // light comes in along the surface: none of it is blocked
+    const int sample = oneOf(group.rays.used, r);
+    Asked& asked = wasBlocked >> sample & 1 ? answers.uncovered : answers.covered;
+    if ((asked.all & groupOf(r)) == 0) add(whole_, group, group.rays.used, r, asked, {});
     return true;
 }
 

@@ -24,8 +24,9 @@ namespace penumbra {
 /// - the samples that a moved object hid are visible if one of them is found to meet none of them:
 ///   what else may hide it is not looked for;
 /// - the samples that something else hides stay hidden;
-/// - an entry that is to be evaluated anew has its form factor; a sample of one in four is traced
-///   against the whole scene. So what goes dark counts as much as what becomes light.
+/// - an entry that is to be evaluated anew has its form factor. A sample of one in eight is traced
+///   against the whole scene, and tells how many that were visible, or were not, are so no more. So
+///   what goes dark counts as much as what becomes light, and what stays as it was is known to.
 ///
 /// A single ray says yes or no. What is expected goes by its neighbours as well, see LocalShare:
 /// half-shadows are as wide as a few receivers.
@@ -55,11 +56,16 @@ private:
     /// What is known of an entry before its rays are traced.
     struct Probe {
         float before = 0, now = 0;        ///< F V that was; F
+        float visible = 0;                ///< V that was
         float covered = 0, uncovered = 0; ///< shares of the samples that may become hidden; visible
     };
     /// Bits: receivers of which a ray was traced, and those of which it was blocked.
     struct Asked {
         std::uint64_t all = 0, blocked = 0;
+    };
+    /// Of samples that were visible, and of those that were not.
+    struct Answers {
+        Asked covered, uncovered;
     };
     /// Rays that wait for company.
     struct Packet {
@@ -72,7 +78,7 @@ private:
                      std::span<const MovedObject> moved, float& rays);
     bool probeAnew(const EmitterSender& sender, const ReceiverBlock& receivers, std::size_t r,
                    float& rays);
-    float changeOf(std::size_t r, bool anew, const LocalShare& share) const;
+    float changeOf(std::size_t r, const Answers& answers, const LocalShare& share) const;
     void add(Packet& packet, const SampleGroup& group, std::uint32_t samples, std::size_t receiver,
              Asked& asked, std::span<const MovedObject> moved);
     void trace(Packet& packet, std::span<const MovedObject> moved);
@@ -80,9 +86,8 @@ private:
     const RayScene& rays_;
     std::vector<RowBlock::Draft> drafts_;
     std::array<Probe, RowBlock::kSize> probes_;
-    Asked anew_, covered_, uncovered_; ///< see changeOf()
-    std::uint64_t groups_ = 0;         ///< bits: those of which an entry is in anew_
-    Packet whole_, alone_;             ///< against the whole scene; against moved objects
+    Answers stored_, anew_, fresh_; ///< of entries that stay; are evaluated anew; were not there
+    Packet whole_, alone_;          ///< against the whole scene; against moved objects
     RayCount rayCount_;
 };
 

@@ -43,9 +43,10 @@ void VertexPlaces::measure() {
         WorkPlace& place = clusters_.places[clusters_.placeOf[block]];
         const float area = elementArea(patches_, element);
         const float reflectance = luminance(patches_.materials[element.material].reflectance);
-        for (const std::uint32_t v : element.vertices) { // a triangle's last corner counts twice
-            area_[v] += area / 4;
-            reflectance_[v] = reflectance;
+        const std::size_t corners = element.isTriangle() ? 3 : 4;
+        for (std::size_t k = 0; k < corners; ++k) {
+            area_[element.vertices[k]] += area / float(corners);
+            reflectance_[element.vertices[k]] = reflectance;
         }
         place.area += area;
         place.reflectance += area * reflectance;
