@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kDrag = 20;        ///< [s]
 constexpr double kFrame = 1.0 / 60; ///< an edit a frame, as the viewer makes them [s]
-constexpr double kTurn = 1e-3;      ///< work between two looks at the clock [s]
+constexpr double kTurn = 8e-3;      ///< of the lighting process, between two looks at the clock [s]
 
 /// From the clock by which work waits, OpenWork::taken(), to the one on the wall.
 class WorkClock {

@@ -40,8 +40,8 @@ private:
     const PatchSet& patches_;
     std::span<const Row> now_;
     const VertexFactors& settled_;
-    std::vector<float> pixels_;      ///< one a vertex
-    std::vector<float> reflectance_; ///< likewise
+    std::vector<float> pixels_;        ///< one a vertex
+    std::vector<float> reflectance_;   ///< likewise
     std::vector<double> perThreshold_; ///< likewise [1/nit]
 };
 

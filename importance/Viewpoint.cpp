@@ -8,7 +8,7 @@ namespace penumbra {
 
 namespace {
 
-constexpr double kMargin = 15 * std::numbers::pi / 180;            ///< [rad]
+constexpr double kMargin = 15 * std::numbers::pi / 180; ///< [rad]
 constexpr double kLeastCosine = 0.2; ///< of the angle to the axis: far out of most pictures
 constexpr double kOrthographicWidth = 30 * std::numbers::pi / 180; ///< [rad]
 

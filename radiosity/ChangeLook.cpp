@@ -144,7 +144,8 @@ bool ChangeLook::probeAnew(const EmitterSender& sender, const ReceiverBlock& rec
     Answers& answers = draft.formFactor > 0 ? anew_ : fresh_;
     SampleGroup group;
     sender.sampleGroup(receiver, 0, group);
-    if (group.rays.used == 0) return true; // light comes in along the surface: none of it is blocked
+    if (group.rays.used == 0)
+        return true; // light comes in along the surface: none of it is blocked
     const int sample = oneOf(group.rays.used, r);
     Asked& asked = wasBlocked >> sample & 1 ? answers.uncovered : answers.covered;
     if ((asked.all & groupOf(r)) == 0) add(whole_, group, group.rays.used, r, asked, {});

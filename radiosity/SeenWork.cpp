@@ -120,9 +120,10 @@ void SeenWork::evaluate(std::uint32_t block, std::uint64_t which, Values& values
         place.luminance += place.reflectance * float(ambient_ * std::numbers::inv_pi);
         std::optional<float> pixels;
         if (looks) { // what is drawn around a hidden vertex may be seen
-            const float seen = 0.5f * float(sight.seen >> r & 1) +
-                               0.5f * share.at(r, sight.asked, sight.seen);
-            pixels = seen * float(attention.viewpoint.pixelsOf(place.box, place.normal, place.area));
+            const float seen =
+                0.5f * float(sight.seen >> r & 1) + 0.5f * share.at(r, sight.asked, sight.seen);
+            pixels =
+                seen * float(attention.viewpoint.pixelsOf(place.box, place.normal, place.area));
         }
         values.of[r] = place.box.empty() ? PlaceValue() : placeValue(place, attention, pixels);
     }

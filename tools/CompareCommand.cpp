@@ -111,6 +111,11 @@ std::string viewerMotion(const CompareCommand& command) {
     return "stays";
 }
 
+/// \param metres 0: nothing was asked for
+std::string lengthAskedFor(float metres, const char* otherwise) {
+    return metres > 0 ? fmt::format("{} m", metres) : otherwise;
+}
+
 ReportOptions reportOptions(const CompareCommand& command, const ComparisonResult& result) {
     const SolverOptions& solver = command.solve.solver;
     ReportOptions report;
@@ -126,8 +131,12 @@ ReportOptions reportOptions(const CompareCommand& command, const ComparisonResul
                           : "bounding shafts: what may change"},
         {"pictures", fmt::format("{} x {} pixels, {:.1f} pixels per degree", command.width,
                                  command.height, result.pixelsPerDegree)},
-        {"elements", std::to_string(result.elements)},
-        {"patches", std::to_string(result.patches)},
+        {"elements",
+         fmt::format("{}, edges of {} at most", result.elements,
+                     lengthAskedFor(command.solve.meshing.elementSize, "an eighth of a patch's"))},
+        {"patches",
+         fmt::format("{}, edges of {} at most", result.patches,
+                     lengthAskedFor(command.solve.meshing.patchSize, "the scene's choice"))},
         {"lamps", std::to_string(result.lamps)},
         {"light", solver.directOnly ? "direct only" : "direct and indirect"},
         {"visibility samples", std::to_string(solver.samples)},
@@ -141,8 +150,6 @@ ReportOptions reportOptions(const CompareCommand& command, const ComparisonResul
 
 void run(CompareCommand command) {
     const ThreadLimit limit(command.solve.threads);
-    if (command.solve.frames.empty())
-        throw CLI::ValidationError("--frames", "is needed: A:B, the frames to play");
     if (command.json.empty())
         command.json = std::filesystem::path(command.output).replace_extension(".json").string();
     checkOutputs(command.solve.scene, {command.output, command.json});
@@ -187,6 +194,7 @@ void addCompareCommand(CLI::App& app) {
                    "Example: penumbra compare scenes/office-seat.usda --frames 1:8 -o seat.html");
     addSolveOptions(*compare, command->solve);
     compare->remove_option(compare->get_option("--order")); // several are compared
+    compare->get_option("--frames")->required();
     compare->add_option("-o,--output", command->output, "HTML file to write")->required();
     compare->add_option("--json", command->json,
                         "All figures as JSON (default: beside the HTML file)");
@@ -223,7 +231,8 @@ void addCompareCommand(CLI::App& app) {
     compare->add_option(
         "--orders", command->orders,
         "Orders to compare, with commas: plain, importance, random (random2 ... random5),\n"
-        "bound, geometry, oracle, or importance without one of its factors, as 'no-occlusion'\n"
+        "bound, geometry, oracle, or importance without one of its factors: no-change, no-look,\n"
+        "no-contrast, no-size, no-frustum, no-occlusion, no-eccentricity, no-proximity\n"
         "(default: plain,importance,random,bound,oracle)");
     compare->add_option("--film", command->filmFrame,
                         "Frame of the film strip (default: the second one)");

@@ -16,9 +16,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
+#include <string_view>
 
 namespace penumbra {
 
@@ -90,8 +93,26 @@ void writeFrame(const RenderCommand& from, SceneSolution& solution, int number) 
     if (!command.png.empty()) writePng(command.png, frame);
 }
 
+/// A name that promises another format than what is written.
+void checkFormats(const RenderCommand& command) {
+    const auto endsIn = [](const std::string& path, std::initializer_list<std::string_view> some) {
+        std::string ending = std::filesystem::path(path).extension().string();
+        for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
+        return std::find(some.begin(), some.end(), ending) != some.end();
+    };
+    if (endsIn(command.output, {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".hdr", ".bmp"}))
+        throw CLI::ValidationError(
+            "--output",
+            fmt::format("'{}' would be OpenEXR: name it .exr; --png writes a PNG as well",
+                        command.output));
+    if (endsIn(command.png, {".exr", ".jpg", ".jpeg", ".tif", ".tiff", ".hdr", ".bmp"}))
+        throw CLI::ValidationError("--png",
+                                   fmt::format("'{}' would be PNG: name it .png", command.png));
+}
+
 void run(const RenderCommand& command) {
     const ThreadLimit limit(command.solve.threads);
+    checkFormats(command);
     checkOutputs(command.solve.scene, {command.output, command.png, command.solve.stats});
     checkNumbered(command.output, command.solve.frames);
     checkNumbered(command.png, command.solve.frames);

@@ -66,6 +66,15 @@ TEST(Viewpoint, CountsThePixelsOfASquareThatFacesIt) {
     EXPECT_EQ(viewpoint.pixelsOf(flat, {0, 0, -1}, 0.01f), 0);
 }
 
+TEST(Viewpoint, CountsAsManyPixelsAnywhereInThePlaneOfThePicture) {
+    const Viewpoint viewpoint(squareView(), 1000, 1000);
+    for (const glm::vec3 at : {glm::vec3(8, 0, -10), glm::vec3(-6, 9, -10)})
+        EXPECT_NEAR(
+            viewpoint.pixelsOf({at - glm::vec3(0.05f, 0.05f, 0), at + glm::vec3(0.05f, 0.05f, 0)},
+                               {0, 0, 1}, 0.01f),
+            25, 0.01);
+}
+
 TEST(Viewpoint, CountsThePixelsOfASphere) {
     // Of radius 0.1 m at 10 m: a disk of 78.5 pixels; its normals cancel out.
     const Viewpoint viewpoint(squareView(), 1000, 1000);

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -76,6 +77,35 @@ TEST(Compare, SaysHowTheViewerMovedAndWhatWasWorkedOn) {
     const auto settings = nlohmann::json::parse(readFile(work.path("report.json")))["settings"];
     EXPECT_THAT(settings["the viewer"].get<std::string>(), HasSubstr("20 degrees"));
     EXPECT_THAT(settings["dirty set"].get<std::string>(), HasSubstr("perfect"));
+}
+
+/// Mean error as a share of what it was at first, until so much work is done.
+double areaUnder(const nlohmann::json& samples, double work) {
+    double sum = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const double from = samples[i]["work"];
+        const double to = i + 1 < samples.size() ? samples[i + 1]["work"].get<double>() : work;
+        sum += std::max(0.0, std::min(to, work) - from) * samples[i]["mean_jnd"].get<double>();
+    }
+    return sum / (samples[0]["mean_jnd"].get<double>() * work);
+}
+
+TEST(Compare, ImportanceIsNoLaterThanPlainWhereASeatMovesByCentimetres) {
+    const Workplace work;
+    const Outcome outcome =
+        runPenumbra({"compare", PENUMBRA_SOURCE_DIR "/scenes/office-seat.usda", "--frames", "20:24",
+                     "--element-size", "0.1", "--direct-only", "--orders", "plain,importance",
+                     "--width", "320", "-o", work.path("report.html"), "--quiet"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto json = nlohmann::json::parse(readFile(work.path("report.json")));
+    const auto &plain = json["orders"][0]["edits"], &importance = json["orders"][1]["edits"];
+    ASSERT_EQ(plain.size(), 4u);
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+        const double all = plain[i]["samples"].back()["work"];
+        EXPECT_LT(areaUnder(importance[i]["samples"], all),
+                  1.05 * areaUnder(plain[i]["samples"], all))
+            << "edit " << i + 1;
+    }
 }
 
 /// What Chromium prints; it finds no network and keeps its own files in `work`.

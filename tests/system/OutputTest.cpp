@@ -75,8 +75,7 @@ TEST_F(Output, OfStatisticsAndValuesOntoAFullDiskFails) {
     for (int i = 0; i < 30; ++i) list += "1,1,0,0,0,1\n"; // more than the disk holds
     const std::string sensors = here.write("in.csv", list);
     const std::string values = here.path("v.csv"), stats = here.path("s.json");
-    expectOneLine(solve({"--quiet", "--stats", stats}, {.fileBytes = 400}),
-                  "s.json: ");
+    expectOneLine(solve({"--quiet", "--stats", stats}, {.fileBytes = 400}), "s.json: ");
     expectOneLine(solve({"--quiet", "--sensors", sensors, "--values", values}, {.fileBytes = 400}),
                   "v.csv: ");
     EXPECT_THAT(here.files(), ElementsAre("in.csv", "room.usda"));
@@ -84,8 +83,7 @@ TEST_F(Output, OfStatisticsAndValuesOntoAFullDiskFails) {
 
 TEST_F(Output, OfValuesAndStatisticsIntoAFolderThatDoesNotExistFails) {
     const std::string sensors = here.write("in.csv", "x,y,z,nx,ny,nz\n1,1,0,0,0,1\n");
-    expectOneLine(solve({"--quiet", "--stats", here.path("none/s.json")}),
-                  "none/s.json: ");
+    expectOneLine(solve({"--quiet", "--stats", here.path("none/s.json")}), "none/s.json: ");
     expectOneLine(solve({"--quiet", "--sensors", sensors, "--values", here.path("none/v.csv")}),
                   "none/v.csv: ");
 }

@@ -35,6 +35,16 @@ TEST_F(Render, WritesAnExrAndAPngAndNothingElse) {
     EXPECT_EQ(readFile(here.path("a.png")).substr(1, 3), "PNG");
 }
 
+TEST_F(Render, TellsWhoNamesAnotherFormatThanItWrites) {
+    const Outcome output = render("a.PNG");
+    EXPECT_EQ(output.exitCode, 2);
+    EXPECT_THAT(output.err, testing::HasSubstr("name it .exr"));
+    const Outcome png = render("a.exr", {"--png", here.path("b.jpg")});
+    EXPECT_EQ(png.exitCode, 2);
+    EXPECT_THAT(png.err, testing::HasSubstr("name it .png"));
+    EXPECT_THAT(here.files(), testing::ElementsAre("room.usda"));
+}
+
 TEST_F(Render, DrawsALitPictureThatAnotherLibraryReads) {
     if (outputOf("command -v oiiotool").empty())
         GTEST_SKIP() << "no oiiotool in PATH (Debian: openimageio-tools)";
