@@ -15,10 +15,9 @@ namespace penumbra {
 double meanAdaptation(std::span<const float> luminances);
 
 /// Luminance that the eye is adapted to where it looks at a surface: the surface's own, for
-/// adaptation reaches less than a degree around (Vangorp, Myszkowski, Graf & Mantiuk, "A model of
-/// local adaptation", ACM TOG 34(6), 2015), and a two-hundredth of the picture's, about what is
-/// scattered onto any place within the eye.
-/// \param surface, picture [nit]; \return [nit], at least 1e-4
+/// adaptation reaches less than a degree around [Vangorp2015], and a two-hundredth of the
+/// picture's, for some of that is scattered onto any place within the eye. \param surface, picture
+/// [nit]; \return [nit], at least 1e-4
 double localAdaptation(double surface, double picture);
 
 /// The eye's state of adaptation as time passes: it nears what it looks at exponentially,

@@ -8,8 +8,7 @@ namespace penumbra {
 
 namespace {
 
-constexpr double kMargin = 15 * std::numbers::pi / 180; ///< [rad]
-constexpr double kLeastCosine = 0.2; ///< of the angle to the axis: far out of most pictures
+constexpr double kMargin = 15 * std::numbers::pi / 180;            ///< [rad]
 constexpr double kOrthographicWidth = 30 * std::numbers::pi / 180; ///< [rad]
 
 bool isPerspective(const View& view) {
@@ -49,7 +48,10 @@ Viewpoint::Viewpoint(const View& view, int width, int height)
       margin_(widened(view)),
       pixelsPerRadian_(isPerspective(view) ? 0.5 * width * view.projection[0][0]
                                            : 0.5 * width / std::tan(kOrthographicWidth / 2)),
-      pixels_(double(width) * height) {}
+      pixels_(double(width) * height) {
+    for (const glm::dvec2 corner : {glm::dvec2(-1, -1), {1, -1}, {-1, 1}, {1, 1}})
+        cornerCosine_ = std::min(cornerCosine_, glm::dot(axis_, through(corner)));
+}
 
 bool Viewpoint::operator==(const Viewpoint& other) const {
     return eye_ == other.eye_ && clipToWorld_ == other.clipToWorld_ &&
@@ -84,7 +86,7 @@ double Viewpoint::pixelsOf(const Bounds& box, glm::vec3 normal, float area) cons
     const double facing = glm::dot(glm::dvec3(normal), way) / std::sqrt(distance2);
     const double cosine = std::clamp(facing + 0.25 * std::max(0.0, 1 - flat), 0.0, 1.0);
     const double radians2 = double(area) * cosine / distance2; // solid angle
-    const double off = std::max(kLeastCosine, -glm::dot(axis_, way) / std::sqrt(distance2));
+    const double off = std::max(cornerCosine_, -glm::dot(axis_, way) / std::sqrt(distance2));
     const double perRadian2 = pixelsPerRadian_ * pixelsPerRadian_ / (off * off * off);
     return std::min(pixels_, radians2 * perRadian2);
 }

@@ -43,8 +43,8 @@ public:
     ///
     ///     pixels = area * cos(angle to the normal) / distance^2 * (pixels per radian)^2 / cos(a)^3
     ///
-    /// where a is the angle between the camera's axis and the way there: a flat picture stretches
-    /// what is far from its middle.
+    /// where a is the angle between the camera's axis and the way there, at most that of the
+    /// farthest corner: a flat picture stretches what is far from its middle.
     ///
     /// \param box    around it [m, world]; it does not get closer than half its own radius
     /// \param normal mean of its unit normals; the shorter, the more it is curved
@@ -57,6 +57,7 @@ private:
     glm::dmat4 clipToWorld_;
     Frustum picture_, margin_;
     double pixelsPerRadian_, pixels_;
+    double cornerCosine_ = 1; ///< of the angle between the axis and the farthest corner
 };
 
 } // namespace penumbra

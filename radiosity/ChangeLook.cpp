@@ -138,17 +138,19 @@ bool ChangeLook::probeAnew(const EmitterSender& sender, const ReceiverBlock& rec
                   before, 1 - before};
     if (!(probes_[r].now > 0)) return draft.formFactor > 0;
     rays = float(sender.baseSamples()) + kFurther;
+    Answers& answers = draft.formFactor > 0 ? anew_ : fresh_;
+    const auto isKnown = [&](const Asked& asked) { return (asked.all & groupOf(r)) != 0; };
+    if ((before == 0 || isKnown(answers.covered)) && (before == 1 || isKnown(answers.uncovered)))
+        return true;
+    SampleGroup group;
+    sender.sampleGroup(receiver, 0, group);
+    if (group.rays.used == 0) return true; // light comes along the surface: none of it is blocked
     std::uint64_t wasBlocked = draft.formFactor > 0 ? 0 : ~std::uint64_t(0);
     for (int b = 0; draft.formFactor > 0 && b < draft.blockerCount; ++b)
         wasBlocked |= draft.blockers[std::size_t(b)].samples;
-    Answers& answers = draft.formFactor > 0 ? anew_ : fresh_;
-    SampleGroup group;
-    sender.sampleGroup(receiver, 0, group);
-    if (group.rays.used == 0)
-        return true; // light comes in along the surface: none of it is blocked
-    const int sample = oneOf(group.rays.used, r);
-    Asked& asked = wasBlocked >> sample & 1 ? answers.uncovered : answers.covered;
-    if ((asked.all & groupOf(r)) == 0) add(whole_, group, group.rays.used, r, asked, {});
+    Asked& asked =
+        wasBlocked >> oneOf(group.rays.used, r) & 1 ? answers.uncovered : answers.covered;
+    if (!isKnown(asked)) add(whole_, group, group.rays.used, r, asked, {});
     return true;
 }
 

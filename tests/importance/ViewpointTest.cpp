@@ -75,6 +75,12 @@ TEST(Viewpoint, CountsAsManyPixelsAnywhereInThePlaneOfThePicture) {
             25, 0.01);
 }
 
+TEST(Viewpoint, StretchesWhatIsOutOfThePictureNoMoreThanItsCorners) {
+    const Viewpoint viewpoint(squareView(), 1000, 1000);
+    const double behind = viewpoint.pixelsOf(cubeAt({0, 0, 10}), {0, 0, -1}, 0.01f);
+    EXPECT_NEAR(behind, 25 * std::pow(3, 1.5), 0.1);
+}
+
 TEST(Viewpoint, CountsThePixelsOfASphere) {
     // Of radius 0.1 m at 10 m: a disk of 78.5 pixels; its normals cancel out.
     const Viewpoint viewpoint(squareView(), 1000, 1000);
