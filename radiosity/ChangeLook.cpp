@@ -144,7 +144,7 @@ bool ChangeLook::probeAnew(const EmitterSender& sender, const ReceiverBlock& rec
         return true;
     SampleGroup group;
     sender.sampleGroup(receiver, 0, group);
-    if (group.rays.used == 0) return true; // light comes along the surface: none of it is blocked
+    if (group.rays.used == 0) return true; // light comes along the surface
     std::uint64_t wasBlocked = draft.formFactor > 0 ? 0 : ~std::uint64_t(0);
     for (int b = 0; draft.formFactor > 0 && b < draft.blockerCount; ++b)
         wasBlocked |= draft.blockers[std::size_t(b)].samples;

@@ -53,7 +53,8 @@ PointGather::PointGather(const PatchSet& patches, const RayScene& rays, const Li
       patchRadiosity_(patches.patches.size()), patchRadius_(patches.patches.size()),
       patchSamples_(patches.patches.size() * kPatchSamples) {
     for (const Emitter& emitter : patches.emitters)
-        emitters_.emplace_back(emitter, kShadowSamples, kShadowSamples);
+        if (patches.objects[emitter.object.value].present)
+            emitters_.emplace_back(emitter, kShadowSamples, kShadowSamples);
     for (std::uint32_t p = 0; p < patches.patches.size(); ++p) {
         const Patch& patch = patches.patches[p];
         samplePatch(patches, patch, patchSamples_.data() + p * kPatchSamples);

@@ -26,8 +26,8 @@ struct LitMaterial {
 struct LampShare {
     enum class Known : std::uint8_t {
         no,    ///< the factors of this block have not come yet
-        stale, ///< an edit may still change some of them
-        exact  ///< they are those of the scene (but see RadiosityState::lampsMarked)
+        stale, ///< an edit may still change some of them, or what other lamps give there
+        exact  ///< both are those of the scene (but see RadiosityState::lampsMarked)
     };
     /// Illuminance by this lamp over its exitance pi L: F V, no unit; as long as positions.
     std::vector<float> factor;

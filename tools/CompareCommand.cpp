@@ -111,9 +111,9 @@ std::string viewerMotion(const CompareCommand& command) {
     return "stays";
 }
 
-/// \param metres 0: nothing was asked for
-std::string lengthAskedFor(float metres, const char* otherwise) {
-    return metres > 0 ? fmt::format("{} m", metres) : otherwise;
+/// \param metres 0: nothing
+std::string askedFor(float metres) {
+    return metres > 0 ? fmt::format("edges of {} m asked for", metres) : "no size asked for";
 }
 
 ReportOptions reportOptions(const CompareCommand& command, const ComparisonResult& result) {
@@ -132,11 +132,9 @@ ReportOptions reportOptions(const CompareCommand& command, const ComparisonResul
         {"pictures", fmt::format("{} x {} pixels, {:.1f} pixels per degree", command.width,
                                  command.height, result.pixelsPerDegree)},
         {"elements",
-         fmt::format("{}, edges of {} at most", result.elements,
-                     lengthAskedFor(command.solve.meshing.elementSize, "an eighth of a patch's"))},
+         fmt::format("{}, {}", result.elements, askedFor(command.solve.meshing.elementSize))},
         {"patches",
-         fmt::format("{}, edges of {} at most", result.patches,
-                     lengthAskedFor(command.solve.meshing.patchSize, "the scene's choice"))},
+         fmt::format("{}, {}", result.patches, askedFor(command.solve.meshing.patchSize))},
         {"lamps", std::to_string(result.lamps)},
         {"light", solver.directOnly ? "direct only" : "direct and indirect"},
         {"visibility samples", std::to_string(solver.samples)},

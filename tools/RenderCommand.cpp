@@ -105,6 +105,9 @@ void checkFormats(const RenderCommand& command) {
             "--output",
             fmt::format("'{}' would be OpenEXR: name it .exr; --png writes a PNG as well",
                         command.output));
+    for (const std::string& output : {command.output, command.png})
+        if (output == "-")
+            throw CLI::ValidationError("--output", "pictures are written to files, not to '-'");
     if (endsIn(command.png, {".exr", ".jpg", ".jpeg", ".tif", ".tiff", ".hdr", ".bmp"}))
         throw CLI::ValidationError("--png",
                                    fmt::format("'{}' would be PNG: name it .png", command.png));

@@ -30,7 +30,8 @@ public:
         : patches_(patches), rays_(rays), surface_(patches, lighting), view_(view),
           clipToWorld_(glm::inverse(view.worldToClip())), width_(width), height_(height) {
         for (const Emitter& emitter : patches.emitters)
-            emitters_.emplace_back(emitter, kShadowSamples, kShadowSamples);
+            if (patches.objects[emitter.object.value].present)
+                emitters_.emplace_back(emitter, kShadowSamples, kShadowSamples);
     }
 
     /// \param x,y       position in the picture [pixel], top left is (0, 0)

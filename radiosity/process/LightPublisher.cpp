@@ -83,33 +83,39 @@ void LightPublisher::setLiveLamps(std::uint32_t serial, const std::vector<std::s
     const PatchSet& set = scene_.patches();
     lampSet_ = serial;
     lamps_.clear();
-    for (const std::string& path : paths) {
-        LiveLamp& lamp = lamps_.emplace_back();
-        for (std::uint32_t e = 0; e < set.emitters.size(); ++e)
-            if (set.emitters[e].path == path) lamp.emitters.push_back(e);
+    lamps_.resize(paths.size());
+    others_ = {};
+    for (std::uint32_t e = 0; e < set.emitters.size(); ++e) {
+        const auto path = std::find(paths.begin(), paths.end(), set.emitters[e].path);
+        LampRows& rows = path != paths.end() ? lamps_[std::size_t(path - paths.begin())] : others_;
+        rows.emitters.push_back(e);
     }
     findStale();
     for (std::uint32_t b = 0; b < blockCount(); ++b) touch(b);
 }
 
 bool LightPublisher::findStale() {
-    const DirectLight& direct = scene_.solver().direct();
-    if (!direct.openKnown()) return false;
-    const double enough = scene_.solver().directTolerance();
-    for (LiveLamp& lamp : lamps_) {
-        std::vector<std::uint32_t> now;
-        for (std::uint32_t emitter : lamp.emitters)
-            for (std::uint32_t block : direct.openBlocks(emitter, enough)) now.push_back(block);
-        std::sort(now.begin(), now.end());
-        now.erase(std::unique(now.begin(), now.end()), now.end());
-        std::vector<std::uint32_t> begun, ended;
-        std::ranges::set_difference(now, lamp.stale, std::back_inserter(begun));
-        std::ranges::set_difference(lamp.stale, now, std::back_inserter(ended));
-        for (std::uint32_t block : ended) touch(block);
-        for (std::uint32_t block : begun) touchStale(block);
-        lamp.stale = std::move(now);
-    }
+    if (!scene_.solver().direct().openKnown()) return false;
+    if (lamps_.empty()) return true;
+    for (LampRows& rows : lamps_) findStale(rows);
+    findStale(others_);
     return true;
+}
+
+void LightPublisher::findStale(LampRows& rows) {
+    const Solver& solver = scene_.solver();
+    std::vector<std::uint32_t> now;
+    for (std::uint32_t emitter : rows.emitters)
+        for (std::uint32_t block : solver.direct().openBlocks(emitter, solver.directTolerance()))
+            now.push_back(block);
+    std::sort(now.begin(), now.end());
+    now.erase(std::unique(now.begin(), now.end()), now.end());
+    std::vector<std::uint32_t> begun, ended;
+    std::ranges::set_difference(now, rows.stale, std::back_inserter(begun));
+    std::ranges::set_difference(rows.stale, now, std::back_inserter(ended));
+    for (std::uint32_t block : ended) touch(block);
+    for (std::uint32_t block : begun) touchStale(block);
+    rows.stale = std::move(now);
 }
 
 void LightPublisher::directWorked() {
@@ -244,8 +250,10 @@ void LightPublisher::writeLamps(std::uint32_t block, LightBlock& light) const {
         }
         if (!lamps_[l].emitters.empty())
             light.exitance[l] = scene_.patches().emitters[lamps_[l].emitters.front()].exitance;
-        if (std::binary_search(lamps_[l].stale.begin(), lamps_[l].stale.end(), block))
-            light.stale |= 1u << l;
+        // What other lamps give is in the light that a factor is taken with.
+        for (const LampRows* rows : {&lamps_[l], &others_})
+            if (std::binary_search(rows->stale.begin(), rows->stale.end(), block))
+                light.stale |= 1u << l;
     }
 }
 

@@ -31,9 +31,9 @@ public:
     /// Lamps of which each one's own light is published as well, see RadiosityNode.
     /// \param serial of this set, not 0
     void setLiveLamps(std::uint32_t serial, const std::vector<std::string>& paths);
-    /// Finds what of their rows is open work. \return false: there may be more. Work that the
-    /// solver puts off does not count: what it may change is within the tolerance of the whole
-    /// picture, and may take long to come.
+    /// Finds what of their rows, and of those of other lamps, is open work. \return false: there
+    /// may be more. Work that the solver puts off does not count: what it may change is within the
+    /// tolerance of the whole picture, and may take long to come.
     bool findStale();
     /// Whether all that was found to be stale has been published as such.
     bool staleShown() const { return staleToShow_ == 0; }
@@ -64,10 +64,11 @@ private:
     void writeCorners(std::uint32_t block, LightBlock& light) const;
     void writeLamps(std::uint32_t block, LightBlock& light) const;
 
-    struct LiveLamp {
+    struct LampRows {
         std::vector<std::uint32_t> emitters;
-        std::vector<std::uint32_t> stale; ///< blocks, in order
+        std::vector<std::uint32_t> stale; ///< blocks of which work is open, in order
     };
+    void findStale(LampRows& rows);
 
     LitScene& scene_;
     std::unique_ptr<StoreWriter> store_;
@@ -76,7 +77,8 @@ private:
     std::vector<glm::dvec3> nodes_;                       ///< illuminance that is published [lux]
     std::vector<Rgb> detail_; ///< what fine shadows added when it was settled last [lux]
     std::uint32_t lampSet_ = 0;
-    std::vector<LiveLamp> lamps_;
+    std::vector<LampRows> lamps_; ///< live ones,
+    LampRows others_;             ///< and all that are not
     enum class Touched : std::uint8_t { no, yes, stale };
     std::vector<std::uint32_t> open_;
     std::vector<Touched> touched_;

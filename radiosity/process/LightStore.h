@@ -30,7 +30,7 @@ struct alignas(8) LightBlock {
     std::array<std::uint32_t, kSize> corners{};
     /// If there are live lamps only.
     std::uint32_t lamps = 0;
-    std::uint32_t stale = 0;                    ///< bit l: open work on the row of lamp l
+    std::uint32_t stale = 0; ///< bit l: open work on the row of lamp l, or of one not live
     std::array<Rgb, kMostLiveLamps> exitance{}; ///< that `direct` was summed with [lm/m^2]
     std::array<std::array<float, kSize>, kMostLiveLamps> factor{}; ///< see LampShare
 };

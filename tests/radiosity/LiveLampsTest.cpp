@@ -158,6 +158,39 @@ TEST(LiveLamps, LightThatIsCalledExactDoesNotChangeAnyMore) {
     expectLampsAreAllDirectLight(lamps, *room.node);
 }
 
+TEST(LiveLamps, NothingIsExactWhereALampThatIsNotLiveHasYetToCome) {
+    // Who goes over to that light, with all that is in it, is to stay there.
+    struct Moment {
+        std::vector<Rgb> direct;
+        std::vector<Known> known;
+    };
+    LampRoom lamps;
+    lamps.other->setMatrix(moved(1.5, 1, 2.3));
+    lamps.room().node->setLiveLamps({"/other/light"});
+    ASSERT_TRUE(lamps.settle());
+    const auto floor = [&]() -> Moment {
+        for (const LitObject& object : lamps.room().node->objects())
+            if (object.path == "/room")
+                return {object.geometry->data().direct, object.geometry->data().lamps[0].known};
+        return {};
+    };
+    std::vector<Moment> seen;
+    lamps.room().box->setMatrix(moved(0.9, -0.4, 0.1));
+    ASSERT_TRUE(lamps.settle([&] {
+        if (lamps.state().lampsMarked && seen.size() < 200) seen.push_back(floor());
+    }));
+    const Moment last = floor();
+    std::size_t exact = 0, changed = 0;
+    for (const Moment& then : seen)
+        for (std::size_t v = 0; v < last.direct.size(); ++v) {
+            if (then.known[v / LitGeometry::kBlock] != Known::exact) continue;
+            ++exact;
+            changed += std::abs(then.direct[v].g - last.direct[v].g) > 1e-3f * last.direct[v].g;
+        }
+    EXPECT_GT(exact, 0u);
+    EXPECT_EQ(changed, 0u);
+}
+
 TEST(LiveLamps, TheirSharesFitTheDirectLightAtEveryMoment) {
     LampRoom lamps;
     lamps.other->setMatrix(moved(1.5, 1, 2.3));

@@ -24,6 +24,23 @@ TEST(PointGather, HasTheClosedFormOfALampThatNothingHides) {
     EXPECT_FLOAT_EQ(gather.direct(point).r, std::numbers::pi_v<float> * factor);
 }
 
+TEST(PointGather, ALampThatIsHiddenGivesNoLight) {
+    const auto lamp =
+        movable("lamp", {std::make_shared<Light>("light", SphereShape{0.1f}, Rgb(100))});
+    lamp->setMatrix(moved(0, 0, 2));
+    const auto choice = std::make_shared<Switch>("choice");
+    choice->add(lamp);
+    const Receiver point{{0.3f, 0.1f, 0.01f}, {0, 0, 1}};
+    for (const bool visible : {true, false}) {
+        choice->setVisible(visible);
+        const Solution solution(sceneOf({object("floor", floorData(-1, 1, -1, 1, 0)), choice}),
+                                kMeshing);
+        ASSERT_EQ(solution.patches().emitters.size(), 1u);
+        const PointGather gather(solution.patches(), solution.rays, solution.lighting);
+        EXPECT_EQ(gather.direct(point).g > 0, visible);
+    }
+}
+
 TEST(PointGather, InAFurnaceFindsTheSameLightEverywhere) {
     // rho = 0.5, E = 1: direct light 1 lux, indirect light 1 lux, at any point, turned any way.
     const auto walls = paint(Rgb(0.5f), Rgb(1 / std::numbers::pi_v<float>));
