@@ -86,9 +86,9 @@ double Viewpoint::pixelsOf(const Bounds& box, glm::vec3 normal, float area) cons
     const double facing = glm::dot(glm::dvec3(normal), way) / std::sqrt(distance2);
     const double cosine = std::clamp(facing + 0.25 * std::max(0.0, 1 - flat), 0.0, 1.0);
     const double radians2 = double(area) * cosine / distance2; // solid angle
-    const double off = std::max(cornerCosine_, -glm::dot(axis_, way) / std::sqrt(distance2));
-    const double perRadian2 = pixelsPerRadian_ * pixelsPerRadian_ / (off * off * off);
-    return std::min(pixels_, radians2 * perRadian2);
+    const double off = -glm::dot(axis_, way) / std::sqrt(distance2);
+    const double stretch = off >= cornerCosine_ ? 1 / (off * off * off) : 1;
+    return std::min(pixels_, radians2 * pixelsPerRadian_ * pixelsPerRadian_ * stretch);
 }
 
 } // namespace penumbra

@@ -43,8 +43,8 @@ public:
     ///
     ///     pixels = area * cos(angle to the normal) / distance^2 * (pixels per radian)^2 / cos(a)^3
     ///
-    /// where a is the angle between the camera's axis and the way there, at most that of the
-    /// farthest corner: a flat picture stretches what is far from its middle.
+    /// where a is the angle between the camera's axis and the way there: a flat picture stretches
+    /// what is far from its middle. What is farther from it than all corners is not stretched.
     ///
     /// \param box    around it [m, world]; it does not get closer than half its own radius
     /// \param normal mean of its unit normals; the shorter, the more it is curved

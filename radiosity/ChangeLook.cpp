@@ -24,7 +24,8 @@ float weightOf(const SampleGroup& group, std::uint32_t lanes) {
 
 /// One of some lanes; another one for each receiver, as likely as any.
 int oneOf(std::uint32_t lanes, std::size_t receiver) {
-    const int place = int(7 * receiver + 3) % std::popcount(lanes);
+    constexpr std::size_t kStep = 23; // has no divisor in common with any number of lanes
+    const int place = int(kStep * receiver + 3) % std::popcount(lanes);
     for (int i = 0; i < place; ++i) lanes &= lanes - 1;
     return std::countr_zero(lanes);
 }

@@ -117,7 +117,7 @@ WorkPlace VertexPlaces::atVertex(std::size_t v, Rgb light) const {
     } else {
         const Element& element =
             patches_.uncoveredElements[patches_.privateElement[v - patches_.firstPrivate]];
-        place.area = elementArea(patches_, element) / 4;
+        place.area = elementArea(patches_, element) / (element.isTriangle() ? 3 : 4);
         place.reflectance = luminance(patches_.materials[element.material].reflectance);
     }
     const glm::vec3 half(0.5f * std::sqrt(place.area));
