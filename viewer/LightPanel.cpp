@@ -18,9 +18,13 @@ void drawCertificate(const PanelState& state) {
     const RadiosityState& light = state.light;
     if (!(light.meanRadiosity > 0)) return;
     const double share = light.certificate / light.meanRadiosity;
-    ImGui::Text("certificate %.3g lm/m2 (%.2g %% of the mean)", light.certificate, 100 * share);
+    if (share > 1) // while a scene is young: nothing is bounded yet that anybody could use
+        ImGui::TextUnformatted("certificate: more than there is light");
+    else
+        ImGui::TextWrapped("certificate: %.2g %% of the mean light", 100 * share);
     if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("What the picture may still be wrong by, of the meshed scene");
+        ImGui::SetTooltip("What the picture may still be wrong by, of the meshed scene: %.3g lm/m2",
+                          light.certificate);
     const History& history = state.certificates;
     if (history.size() > 1)
         ImGui::PlotLines("##certificates", history.values().data(), int(history.size()),
@@ -54,8 +58,8 @@ void drawLightPanel(PanelState& state) {
     }
     if (light.phase == RadiosityState::Phase::solving && !light.task.empty())
         ImGui::ProgressBar(float(light.progress), {-1, 0}, light.task.c_str());
-    ImGui::Text("open work: %zu blocks, %zu edits; light is %.1f s old", light.openBlocks,
-                light.queued, light.age);
+    ImGui::TextWrapped("open work: %zu blocks, %zu edits; light is %.1f s old", light.openBlocks,
+                       light.queued, light.age);
     drawCertificate(state);
     drawSizes(state);
 }
