@@ -24,9 +24,10 @@ namespace penumbra {
 /// - the samples that a moved object hid are visible if one of them is found to meet none of them:
 ///   what else may hide it is not looked for;
 /// - the samples that something else hides stay hidden;
-/// - an entry that is to be evaluated anew has its form factor. A sample of one in eight is traced
-///   against the whole scene, and tells how many that were visible, or were not, are so no more. So
-///   what goes dark counts as much as what becomes light, and what stays as it was is known to.
+/// - an entry that is to be evaluated anew has its form factor. A sample that was visible, one that
+///   was not, and one of an entry that was not there, each of one receiver in eight, are traced
+///   against the whole scene, and tell how many stay so. So what goes dark counts as much as what
+///   becomes light, and what stays as it was is known to.
 ///
 /// A single ray says yes or no. What is expected goes by its neighbours as well, see LocalShare:
 /// half-shadows are as wide as a few receivers.
