@@ -19,7 +19,7 @@ void drawCertificate(const PanelState& state) {
     if (!(light.meanRadiosity > 0)) return;
     const double share = light.certificate / light.meanRadiosity;
     if (share > 1) // while a scene is young: nothing is bounded yet that anybody could use
-        ImGui::TextUnformatted("certificate: more than there is light");
+        ImGui::TextUnformatted("certificate: above the mean light");
     else
         ImGui::TextWrapped("certificate: %.2g %% of the mean light", 100 * share);
     if (ImGui::IsItemHovered())
