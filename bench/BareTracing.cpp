@@ -1,8 +1,8 @@
 #include "bench/BareTracing.h"
 
+#include "base/Parallel.h"
 #include "bench/BenchScene.h"
-#include "radiosity/Parallel.h"
-#include "radiosity/Row.h"
+#include "radiosity/rows/Row.h"
 
 #include <embree3/rtcore.h>
 

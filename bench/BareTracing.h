@@ -1,11 +1,11 @@
 // The rays of direct light, traced and nothing else: what the solver's time is compared with.
 #pragma once
 
-#include "radiosity/EmitterSender.h"
-#include "radiosity/PatchSet.h"
-#include "radiosity/RayScene.h"
-#include "radiosity/Solver.h"
-#include "radiosity/Walls.h"
+#include "radiosity/mesh/PatchSet.h"
+#include "radiosity/rays/RayScene.h"
+#include "radiosity/rows/EmitterSender.h"
+#include "radiosity/rows/Walls.h"
+#include "radiosity/transport/Solver.h"
 
 #include <cstddef>
 #include <cstdint>

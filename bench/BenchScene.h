@@ -2,8 +2,8 @@
 // memory.
 #pragma once
 
-#include "io/UsdScene.h"
-#include "radiosity/BuildPatches.h"
+#include "io/usd/scene/UsdScene.h"
+#include "radiosity/mesh/BuildPatches.h"
 #include "scenegraph/Objects.h"
 
 #include <string>

@@ -15,7 +15,7 @@ constexpr MeshingOptions kMeshing{.patchSize = 0.4f, .elementSize = 0.1f};
 constexpr int kRounds = 15;
 
 void building(benchmark::State& state, int copies) {
-    using Place = MovedScene::Place;
+    using Pose = MovedScene::Pose;
     SolverOptions options;
     options.directOnly = true;
     for (auto _ : state) {
@@ -25,8 +25,8 @@ void building(benchmark::State& state, int copies) {
         std::vector<double> wall, cpu, follow;
         MoveCost cost;
         for (int i = 0; i < kRounds; ++i) {
-            run.go(Place::home);
-            cost = run.go(Place::there);
+            run.go(Pose::home);
+            cost = run.go(Pose::there);
             wall.push_back(cost.wall()), cpu.push_back(cost.cpu);
             follow.push_back(cost.place + cost.follow);
         }

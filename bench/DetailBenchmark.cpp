@@ -1,8 +1,8 @@
 // Rays for fine shadows of indirect light: those of a moved object against those of everything.
 #include "bench/BenchScene.h"
 #include "bench/MovedScene.h"
-#include "radiosity/DetailHits.h"
-#include "radiosity/LitScene.h"
+#include "radiosity/transport/DetailHits.h"
+#include "radiosity/transport/LitScene.h"
 
 #include <benchmark/benchmark.h>
 
@@ -23,10 +23,10 @@ double trace(DetailHits& hits) {
 }
 
 void detail(benchmark::State& state, const Move& move) {
-    using Place = MovedScene::Place;
+    using Pose = MovedScene::Pose;
     for (auto _ : state) {
         MovedScene scene(move);
-        scene.put(Place::there);
+        scene.put(Pose::there);
         LitScene lit(scene.placed(), {.patchSize = float(scene.scene().patchSize)},
                      {.directOnly = true});
         auto& counters = state.counters;
@@ -34,13 +34,13 @@ void detail(benchmark::State& state, const Move& move) {
         counters["scratch_s"] = trace(hits);
         const std::uint64_t scratch = hits.rayCount();
         // There and back first, for the boxes of what is seen grow.
-        for (Place place : {Place::home, Place::there, Place::home}) {
+        for (Pose place : {Pose::home, Pose::there, Pose::home}) {
             scene.put(place);
             hits.apply(lit.follow(scene.placed()).change);
             trace(hits);
         }
         const std::uint64_t rays = hits.rayCount(), groups = hits.groupsVisited();
-        scene.put(Place::there);
+        scene.put(Pose::there);
         const SceneChange change = lit.follow(scene.placed()).change;
         const Stopwatch applying;
         hits.apply(change);

@@ -22,7 +22,7 @@ constexpr Size kSizes[] = {
     {"gallery", "10k", 0.568f}, {"gallery", "100k", 0.205f}, {"gallery", "1M", 0.0475f},
 };
 /// Moves and solutions from scratch are each repeated for about this long [s].
-constexpr double kPatience = 1.5;
+constexpr double kAging = 1.5;
 constexpr std::size_t kLeastMoves = 3, kMostMoves = 200, kMostSolves = 5;
 
 /// Times of all moves in one direction; counts are the same each time.
@@ -79,7 +79,7 @@ void reportCounts(benchmark::State& state, const MoveCost& move, const SolveStat
 }
 
 void edit(benchmark::State& state, const Move& move, float elementSize) {
-    using Place = MovedScene::Place;
+    using Pose = MovedScene::Pose;
     SolverOptions options;
     options.directOnly = true;
     for (auto _ : state) {
@@ -90,7 +90,7 @@ void edit(benchmark::State& state, const Move& move, float elementSize) {
         state.counters["mesh_s"] = run.meshing();
         state.counters["blocks"] =
             double(patches.vertices.size() / PatchSet::kBlock) * double(patches.emitters.size());
-        run.go(Place::home);
+        run.go(Pose::home);
 
         Times scratch, moves;
         std::unique_ptr<Solver> fresh;
@@ -100,12 +100,12 @@ void edit(benchmark::State& state, const Move& move, float elementSize) {
             scratch.wall.push_back(one.wall), scratch.cpu.push_back(one.cpu);
         };
         do solve();
-        while (solving.wall() < kPatience && scratch.wall.size() < kMostSolves);
+        while (solving.wall() < kAging && scratch.wall.size() < kMostSolves);
         const auto rowsOf = [&] { return run.lit().solver().emitterRows(); };
         if (const std::string at = firstDifference(fresh->emitterRows(), rowsOf()); !at.empty())
             return state.SkipWithError(("not what a new solver sees: " + at).c_str());
 
-        const MoveCost first = run.go(Place::there);
+        const MoveCost first = run.go(Pose::there);
         moves.add(first);
         const LeastRays least = leastRays(patches, run.lit().rays(), options.samples, first.change,
                                           fresh->emitterRows(), rowsOf());
@@ -113,9 +113,9 @@ void edit(benchmark::State& state, const Move& move, float elementSize) {
         fresh.reset();
         const Stopwatch moving;
         while (moves.wall.size() < kLeastMoves ||
-               (moving.wall() < kPatience && moves.wall.size() < kMostMoves)) {
-            run.go(Place::home);
-            moves.add(run.go(Place::there));
+               (moving.wall() < kAging && moves.wall.size() < kMostMoves)) {
+            run.go(Pose::home);
+            moves.add(run.go(Pose::there));
         }
         reportTimes(state, moves, scratch, least);
         state.SetIterationTime(median(moves.wall));

@@ -1,7 +1,7 @@
 // The two inner loops: closed-form form factors, and packets of shadow rays.
 #include "bench/BenchScene.h"
-#include "radiosity/FormFactor.h"
-#include "radiosity/RayScene.h"
+#include "radiosity/rays/RayScene.h"
+#include "radiosity/rows/FormFactor.h"
 
 #include <benchmark/benchmark.h>
 

@@ -4,10 +4,10 @@
 #include "bench/BenchScene.h"
 #include "bench/MoveRun.h"
 #include "bench/MovedScene.h"
-#include "radiosity/RadiosityNode.h"
 #include "radiosity/process/ProcessLink.h"
-#include "viewer/OffscreenContext.h"
-#include "viewer/Renderer.h"
+#include "radiosity/process/RadiosityNode.h"
+#include "viewer/gl/OffscreenContext.h"
+#include "viewer/gl/Renderer.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -82,7 +82,7 @@ public:
         options.trigger = Trigger::continuous;
         options.threads = 1;
         options.niceness = 0;
-        options.patience = 600; // it may stand still
+        options.timeout = 600; // it may stand still
         node_ = std::make_shared<RadiosityNode>(
             "lit", options, makeProcessLink({.program = PENUMBRA_PROGRAM, .byHand = {}}));
         node_->add(scene_.scene().root);

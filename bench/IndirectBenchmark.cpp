@@ -1,9 +1,9 @@
 // Indirect light and its detail, at the scenes' default sizes.
 #include "bench/BenchCase.h"
 #include "bench/BenchScene.h"
-#include "radiosity/DetailGather.h"
-#include "radiosity/RayScene.h"
-#include "radiosity/Solver.h"
+#include "radiosity/rays/RayScene.h"
+#include "radiosity/transport/DetailGather.h"
+#include "radiosity/transport/Solver.h"
 
 #include <string>
 

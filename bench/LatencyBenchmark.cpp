@@ -1,12 +1,12 @@
 // From an edit to its light where it is drawn: by the solver alone, by a worker in a thread, and by
 // one in a process.
+#include "base/Parallel.h"
 #include "bench/BenchCase.h"
 #include "bench/BenchScene.h"
 #include "bench/MoveRun.h"
 #include "bench/MovedScene.h"
-#include "radiosity/Parallel.h"
-#include "radiosity/RadiosityNode.h"
 #include "radiosity/process/ProcessLink.h"
+#include "radiosity/process/RadiosityNode.h"
 
 #include <memory>
 #include <string>
@@ -17,7 +17,7 @@ namespace penumbra {
 
 namespace {
 
-using Place = MovedScene::Place;
+using Pose = MovedScene::Pose;
 
 constexpr int kRepeats = 8; ///< there and back, by each way in turn: drift hits all
 
@@ -25,7 +25,7 @@ constexpr int kRepeats = 8; ///< there and back, by each way in turn: drift hits
 class LitMove {
 public:
     virtual ~LitMove() = default;
-    virtual void move(Place place) = 0;
+    virtual void move(Pose place) = 0;
 
     std::vector<double> first;  ///< from the edit to the first block with new light [s]
     std::vector<double> settle; ///< from the edit to the settled light [s]
@@ -35,14 +35,14 @@ public:
 class AloneMove : public LitMove {
 public:
     AloneMove(const Move& move, float elementSize) : scene_(move) {
-        scene_.put(Place::home);
+        scene_.put(Pose::home);
         lit_ = std::make_unique<LitScene>(scene_.placed(), meshingOf(scene_.scene(), elementSize),
                                           SolverOptions());
         lit_->solver().settle();
         lit_->solver().takeSummedBlocks();
     }
 
-    void move(Place place) override {
+    void move(Pose place) override {
         Solver& solver = lit_->solver();
         const Stopwatch watch;
         scene_.put(place);
@@ -69,7 +69,7 @@ class NodeMove : public LitMove {
 public:
     NodeMove(const Move& move, float elementSize, std::unique_ptr<LightingLink> link)
         : scene_(move) {
-        scene_.put(Place::home);
+        scene_.put(Pose::home);
         RadiosityOptions options;
         options.meshing = meshingOf(scene_.scene(), elementSize);
         options.trigger = Trigger::continuous;
@@ -81,7 +81,7 @@ public:
         while (!node_->state().complete);
     }
 
-    void move(Place place) override {
+    void move(Pose place) override {
         const std::uint64_t before = node_->state().blocksTaken;
         const Stopwatch watch;
         scene_.put(place);
@@ -115,7 +115,7 @@ void latency(benchmark::State& state, const Move& move, float elementSize) {
         for (int i = 0; i < kRepeats; ++i)
             for (LitMove* way : {static_cast<LitMove*>(&alone), static_cast<LitMove*>(&thread),
                                  static_cast<LitMove*>(&process)})
-                way->move(i % 2 == 0 ? Place::there : Place::home);
+                way->move(i % 2 == 0 ? Pose::there : Pose::home);
         if (process.restarts() > 0) return state.SkipWithError("the process had to be replaced");
         const auto ms = [](const std::vector<double>& times) { return 1e3 * median(times); };
         report(state, {{"alone_first_ms", ms(alone.first)},

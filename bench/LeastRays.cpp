@@ -1,8 +1,8 @@
 #include "bench/LeastRays.h"
 
+#include "base/Parallel.h"
 #include "bench/BenchScene.h"
-#include "radiosity/EmitterSender.h"
-#include "radiosity/Parallel.h"
+#include "radiosity/rows/EmitterSender.h"
 
 #include <algorithm>
 #include <bit>

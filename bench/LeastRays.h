@@ -1,10 +1,10 @@
 // The rays that following a move cannot do without: what an update is compared with.
 #pragma once
 
-#include "radiosity/PatchSet.h"
-#include "radiosity/RayScene.h"
-#include "radiosity/Row.h"
-#include "radiosity/SceneChange.h"
+#include "radiosity/mesh/PatchSet.h"
+#include "radiosity/rays/RayScene.h"
+#include "radiosity/rows/Row.h"
+#include "radiosity/transport/SceneChange.h"
 
 #include <cstdint>
 #include <span>

@@ -1,7 +1,7 @@
 #include "bench/MoveRun.h"
 
+#include "base/Error.h"
 #include "bench/BenchScene.h"
-#include "scenegraph/Error.h"
 
 #include <algorithm>
 
@@ -10,7 +10,7 @@ namespace penumbra {
 MoveRun::MoveRun(const Move& move, const MeshingOptions& meshing, const SolverOptions& options,
                  int copies)
     : scene_(move, copies), options_(options) {
-    scene_.put(Place::there);
+    scene_.put(Pose::there);
     const PlacedScene placed = scene_.placed();
     MeshingOptions sizes = meshing;
     if (sizes.patchSize == 0) sizes.patchSize = float(scene_.scene().patchSize);
@@ -25,7 +25,7 @@ MoveRun::MoveRun(const Move& move, const MeshingOptions& meshing, const SolverOp
     statistics_ = lit_->solver().statistics();
 }
 
-MoveCost MoveRun::go(Place place) {
+MoveCost MoveRun::go(Pose place) {
     scene_.put(place);
     MoveCost cost;
     const Stopwatch all;

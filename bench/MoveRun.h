@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bench/MovedScene.h"
-#include "radiosity/LitScene.h"
+#include "radiosity/transport/LitScene.h"
 
 #include <cstdint>
 #include <memory>
@@ -34,14 +34,14 @@ struct Seconds {
 /// Keeps the scene of a Move lit. It begins with the object `there`.
 class MoveRun {
 public:
-    using Place = MovedScene::Place;
+    using Pose = MovedScene::Pose;
 
     /// \param meshing a patch size of 0 stands for what the file asks for, or the default
     MoveRun(const Move& move, const MeshingOptions& meshing, const SolverOptions& options,
             int copies = 1);
 
     /// Moves and settles. \throws Error if the scene was meshed anew
-    MoveCost go(Place place);
+    MoveCost go(Pose place);
     /// Solves the scene as it stands anew: same meshes, same rays, empty rows.
     Seconds fromScratch(std::unique_ptr<Solver>& solver) const;
 

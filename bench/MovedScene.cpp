@@ -1,7 +1,7 @@
 #include "bench/MovedScene.h"
 
+#include "base/Error.h"
 #include "bench/BenchScene.h"
-#include "scenegraph/Error.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

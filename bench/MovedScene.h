@@ -39,8 +39,8 @@ public:
     ///               building. The object of the first one moves.
     explicit MovedScene(const Move& move, int copies = 1);
 
-    enum class Place { home, there };
-    void put(Place place) { object_->setMatrix(poses_[std::size_t(place)]); }
+    enum class Pose { home, there };
+    void put(Pose place) { object_->setMatrix(poses_[std::size_t(place)]); }
     /// On the way from home (0) to there (1), turned as at home.
     void putBetween(double share) {
         glm::dmat4 pose = poses_[0];

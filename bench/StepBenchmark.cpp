@@ -1,7 +1,7 @@
 // How far Solver::step() goes beyond the time that it was given, while a recorded walk is followed.
 #include "bench/BenchCase.h"
 #include "bench/BenchScene.h"
-#include "radiosity/LitScene.h"
+#include "radiosity/transport/LitScene.h"
 
 #include <algorithm>
 #include <string>

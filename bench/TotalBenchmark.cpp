@@ -38,7 +38,7 @@ void reportRays(benchmark::State& state, const SolveStatistics& scratch, const M
 }
 
 /// What was put off when the certificate was met.
-void reportPutOff(benchmark::State& state, const MoveCost& move) {
+void reportDeferred(benchmark::State& state, const MoveCost& move) {
     const SolveStatistics& then = move.converged;
     const auto blocks = [](const WorkCount& direct, const WorkCount& indirect) {
         return double(direct.blocksVisited + indirect.blocksVisited);
@@ -46,10 +46,10 @@ void reportPutOff(benchmark::State& state, const MoveCost& move) {
     auto& counters = state.counters;
     counters["rays_until_converged"] =
         double(then.direct.rays.total() + then.indirect.rays.total());
-    counters["put_off_blocks"] = double(then.openBlocks);
+    counters["put_off_blocks"] = double(then.dirtyBlocks);
     counters["put_off_share"] =
-        double(then.openBlocks) / (double(then.openBlocks) + blocks(then.direct, then.indirect));
-    counters["put_off_bound"] = then.openBound / then.brightest;
+        double(then.dirtyBlocks) / (double(then.dirtyBlocks) + blocks(then.direct, then.indirect));
+    counters["put_off_bound"] = then.dirtyBound / then.brightest;
     counters["certificate"] = then.certificate / then.brightest;
 }
 
@@ -66,7 +66,7 @@ void reportRows(benchmark::State& state, const Solver& solver) {
 }
 
 void total(benchmark::State& state, const Move& move) {
-    using Place = MovedScene::Place;
+    using Pose = MovedScene::Pose;
     SolverOptions options;
     options.residual = kTolerance;
     options.detail = false; // see DetailBenchmark.cpp
@@ -84,9 +84,9 @@ void total(benchmark::State& state, const Move& move) {
         std::vector<double> wall, settled, follow, direct, indirect;
         for (int i = 0; i < kRounds; ++i) {
             const bool last = i + 1 == kRounds;
-            run.go(Place::home);
+            run.go(Pose::home);
             const std::vector<Rgb> before = run.lit().solver().radiosity();
-            const MoveCost cost = run.go(Place::there);
+            const MoveCost cost = run.go(Pose::there);
             wall.push_back(cost.wallToConverge()), settled.push_back(cost.wall());
             follow.push_back(cost.place + cost.follow);
             direct.push_back(cost.converged.direct.seconds);
@@ -95,7 +95,7 @@ void total(benchmark::State& state, const Move& move) {
             counters["patches_affected"] = double(affected(before, run.lit().solver().radiosity()));
             counters["update_shots"] = double(cost.shots);
             reportRays(state, scratch, cost);
-            reportPutOff(state, cost);
+            reportDeferred(state, cost);
         }
         counters["update_s"] = median(wall);
         counters["update_settled_s"] = median(settled);

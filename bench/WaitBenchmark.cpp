@@ -1,11 +1,11 @@
 // How long open work on direct light waits at most while something is dragged without end: what
-// nobody sees must have its turn as well (OpenWork::setPatience()).
+// nobody sees must have its turn as well (DirtySet::setAging()).
 #include "bench/BenchCase.h"
 #include "bench/BenchScene.h"
 #include "bench/MovedScene.h"
-#include "radiosity/LitScene.h"
 #include "radiosity/process/EditPace.h"
 #include "radiosity/process/ViewerAttention.h"
+#include "radiosity/transport/LitScene.h"
 
 #include <algorithm>
 #include <chrono>
@@ -24,7 +24,7 @@ constexpr double kDrag = 20;        ///< [s]
 constexpr double kFrame = 1.0 / 60; ///< an edit a frame, as the viewer makes them [s]
 constexpr double kTurn = 8e-3;      ///< of the lighting process, between two looks at the clock [s]
 
-/// From the clock by which work waits, OpenWork::taken(), to the one on the wall.
+/// From the clock by which work waits, DirtySet::taken(), to the one on the wall.
 class WorkClock {
 public:
     void note(double taken, double seconds, bool idle) {
@@ -88,14 +88,14 @@ private:
         for (const ObjectId object : followed.change.objects)
             moved.add(boundsOf(lit_.patches(), object));
         viewer_.setMoved(moved);
-        viewer_.tell(lit_.solver(), watch_.wall());
+        viewer_.update(lit_.solver(), watch_.wall());
         ++edits;
     }
     void work(double end) {
         Solver& solver = lit_.solver();
         for (double left = end - watch_.wall(); left > 0; left = end - watch_.wall()) {
             done_ = solver.stepUntilReady(std::min(kTurn, left));
-            pace_.worked(watch_.wall(), solver.direct().openKnown());
+            pace_.worked(watch_.wall(), solver.direct().dirtyKnown());
             look();
             if (!done_) continue;
             idle += std::max(0.0, end - watch_.wall()) / kDrag;
@@ -103,7 +103,7 @@ private:
         }
     }
     void look() {
-        const OpenWork& open = lit_.solver().direct().updates().open();
+        const DirtySet& open = lit_.solver().direct().updates().open();
         const std::optional<double> oldest = open.oldest();
         clock_.note(open.taken(), watch_.wall(), !oldest);
         if (!oldest) return;

@@ -1,7 +1,7 @@
 // The order of open work: keying it anew when the camera turns, taking from it, adding to it.
-#include "importance/PlaceClusters.h"
+#include "importance/Priority.h"
+#include "importance/ReceiverClusters.h"
 #include "importance/WorkQueue.h"
-#include "importance/WorkValue.h"
 
 #include <benchmark/benchmark.h>
 
@@ -18,30 +18,31 @@ constexpr std::uint32_t kSenders = 8;
 /// Blocks on the six sides of a room of 8 x 8 x 4 m, side by side, and open work of some size on
 /// each for every sender.
 struct Room {
-    PlaceClusters clusters;
+    ReceiverClusters clusters;
     std::vector<WorkQueue::Task> tasks;
 
     explicit Room(std::size_t count) {
         const std::size_t blocks = (count + kSenders - 1) / kSenders;
-        std::vector<WorkPlace> places;
+        std::vector<ReceiverCluster> receivers;
         std::vector<std::uint32_t> sides;
         const auto perSide = (blocks + 5) / 6;
         const auto width = std::uint32_t(std::ceil(std::sqrt(double(perSide))));
         for (std::uint32_t b = 0; b < blocks; ++b) {
             const auto side = std::uint32_t(b / perSide), at = std::uint32_t(b % perSide);
-            places.push_back(block(side, at % width, at / width, width));
+            receivers.push_back(block(side, at % width, at / width, width));
             sides.push_back(side);
         }
-        clusters = clusterBlocks(places, sides);
+        clusters = clusterBlocks(receivers, sides);
         std::uint32_t random = 1;
         for (std::uint32_t t = 0; t < count; ++t) {
             random = random * 1664525 + 1013904223; // Numerical Recipes
             const float change = float(random >> 8) / float(1 << 24);
-            tasks.push_back({clusters.placeOf[t / kSenders], t, {20 * change * change, 1, 1}, 0});
+            tasks.push_back({clusters.clusterOf[t / kSenders], t, {20 * change * change, 1, 1}, 0});
         }
     }
 
-    static WorkPlace block(std::uint32_t side, std::uint32_t x, std::uint32_t y, std::uint32_t n) {
+    static ReceiverCluster block(std::uint32_t side, std::uint32_t x, std::uint32_t y,
+                                 std::uint32_t n) {
         const int axis = int(side / 2);
         const float sign = side % 2 == 0 ? -1.0f : 1.0f;
         const glm::vec3 half(4, 4, 2);
@@ -51,13 +52,13 @@ struct Room {
         normal[axis] = -sign;
         glm::vec3 corner = -half;
         corner[axis] = sign * half[axis];
-        WorkPlace place;
-        place.box.add(corner + float(x) * u + float(y) * v);
-        place.box.add(corner + float(x + 1) * u + float(y + 1) * v);
-        place.normal = normal;
-        place.area = glm::length(u) * glm::length(v);
-        place.luminance = 40;
-        return place;
+        ReceiverCluster cluster;
+        cluster.box.add(corner + float(x) * u + float(y) * v);
+        cluster.box.add(corner + float(x + 1) * u + float(y + 1) * v);
+        cluster.normal = normal;
+        cluster.area = glm::length(u) * glm::length(v);
+        cluster.luminance = 40;
+        return cluster;
     }
 };
 
@@ -76,7 +77,8 @@ Attention looking(double turn) {
 
 void key(WorkQueue& queue, const Room& room, double turn) {
     const Attention attention = looking(turn);
-    queue.rekey([&](std::uint32_t p) { return placeValue(room.clusters.places[p], attention); });
+    queue.rekey(
+        [&](std::uint32_t p) { return clusterPriority(room.clusters.clusters[p], attention); });
 }
 
 WorkQueue filled(const Room& room) {
@@ -95,7 +97,7 @@ void rekey(benchmark::State& state) {
         key(queue, room, turn += 0.1);
         benchmark::DoNotOptimize(queue.take(0));
     }
-    state.counters["places"] = double(room.clusters.places.size());
+    state.counters["places"] = double(room.clusters.clusters.size());
 }
 
 /// Adding all tasks, keying them and taking them all: what the order costs in all [a task].

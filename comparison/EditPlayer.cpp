@@ -27,19 +27,19 @@ EditPlayer::EditPlayer(const Playback& playback, const ComparisonOptions& option
     : playback_(playback), options_(options), placed_(playback.show(playback.frames.front())),
       lit_(placed_, options.meshing, options.solving) {
     settle();
-    look();
+    aim();
 }
 
 void EditPlayer::edit(double frame) {
     placed_ = playback_.show(frame);
     const LitScene::Followed followed = lit_.follow(placed_);
     change_ = followed.rebuilt ? SceneChange() : followed.change;
-    look();
+    aim();
 }
 
 void EditPlayer::knowWhatChanges(const Truth& truth) {
     Solver& solver = lit_.solver();
-    while (!solver.direct().openKnown() && solver.work(65536)) {
+    while (!solver.direct().dirtyKnown() && solver.work(65536)) {
     }
     const VertexFactors now = factorsOf(solver.emitterRows(), lit_.patches().vertices.size());
     solver.narrowDirect([&](std::uint32_t emitter, std::uint32_t block) {
@@ -58,29 +58,29 @@ void EditPlayer::catchUp() {
 }
 
 void EditPlayer::settle() {
-    lit_.solver().setOrder(UpdateOrder::importance);
+    lit_.solver().setPolicy(PolicyKind::importance);
     lit_.solver().settle();
 }
 
-void EditPlayer::order(const OrderUnderTest& order, const Truth& truth, bool before) {
-    using Kind = OrderUnderTest::Kind;
+void EditPlayer::policy(const PolicyUnderTest& policy, const Truth& truth, bool before) {
+    using Kind = PolicyUnderTest::Kind;
     Solver& solver = lit_.solver();
-    switch (order.kind) {
+    switch (policy.kind) {
     case Kind::plain:
-        return solver.setOrder(UpdateOrder::plain);
+        return solver.setPolicy(PolicyKind::plain);
     case Kind::bound:
-        return solver.setDirectOrder(std::make_shared<BoundOrder>());
+        return solver.setDirectPolicy(std::make_shared<BoundPolicy>());
     case Kind::random:
-        return solver.setDirectOrder(std::make_shared<RandomOrder>(order.seed));
+        return solver.setDirectPolicy(std::make_shared<RandomPolicy>(policy.seed));
     case Kind::importance:
-        return solver.attend(attention(order, before));
+        return solver.attend(attention(policy, before));
     case Kind::oracle:
-        return solver.setDirectOrder(std::make_shared<OracleOrder>(
+        return solver.setDirectPolicy(std::make_shared<OraclePolicy>(
             lit_.patches(), solver.emitterRows(), truth.factors, *drawn_, adaptation_));
     }
 }
 
-void EditPlayer::look(double turn) {
+void EditPlayer::aim(double turn) {
     view_ = playback_.view(placed_);
     if (turn != 0) view_ = turned(view_, playback_.up, turn);
     drawn_ = std::make_unique<DrawnView>(lit_.patches(), view_, options_.width, options_.height);
@@ -95,7 +95,7 @@ Viewpoint EditPlayer::viewpoint(const View& view) const {
     return Viewpoint(view, options_.width, options_.height);
 }
 
-Attention EditPlayer::attention(const OrderUnderTest& order, bool before) const {
+Attention EditPlayer::attention(const PolicyUnderTest& policy, bool before) const {
     std::optional<Bounds> moved;
     for (ObjectId object : change_.objects) {
         if (!moved) moved.emplace();
@@ -104,7 +104,7 @@ Attention EditPlayer::attention(const OrderUnderTest& order, bool before) const 
     GazeHints hints;
     if (moved) hints.dragged = glm::dvec3(moved->centre());
     const Viewpoint from = viewpoint(before ? playback_.viewBefore(placed_) : view_);
-    return {from, Gaze(from, hints), adaptation_, moved, order.factors};
+    return {from, Gaze(from, hints), adaptation_, moved, policy.factors};
 }
 
 } // namespace penumbra

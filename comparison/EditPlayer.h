@@ -1,11 +1,11 @@
 // A scene that is played under several orders of work.
 #pragma once
 
-#include "comparison/CompareOrders.h"
-#include "comparison/OracleOrder.h"
+#include "comparison/ComparePolicies.h"
+#include "comparison/OraclePolicy.h"
 #include "importance/Viewpoint.h"
-#include "radiosity/DrawnView.h"
-#include "radiosity/LitScene.h"
+#include "radiosity/query/DrawnView.h"
+#include "radiosity/transport/LitScene.h"
 
 #include <memory>
 #include <vector>
@@ -40,9 +40,9 @@ public:
     /// Tells the solver in which order to go about it, as a viewer would at each frame.
     /// \param truth for the order that knows it
     /// \param before the cut, if there is one
-    void order(const OrderUnderTest& order, const Truth& truth, bool before);
+    void policy(const PolicyUnderTest& policy, const Truth& truth, bool before);
     /// Looks at the scene as it is. \param turn of the viewer to the left [degrees]
-    void look(double turn = 0);
+    void aim(double turn = 0);
 
     LitScene& lit() { return lit_; }
     double pixelsPerDegree() const { return viewpoint(view_).pixelsPerDegree(); }
@@ -53,7 +53,7 @@ public:
 
 private:
     Viewpoint viewpoint(const View& view) const;
-    Attention attention(const OrderUnderTest& order, bool before) const;
+    Attention attention(const PolicyUnderTest& policy, bool before) const;
 
     const Playback& playback_;
     const ComparisonOptions& options_;

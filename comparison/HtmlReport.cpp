@@ -41,17 +41,17 @@ Edits countedEdits(const ComparisonResult& result) {
 }
 
 template <class Over>
-Curves curvesOf(const OrderResult& order, const Edits& edits, Over over) {
+Curves curvesOf(const PolicyResult& policy, const Edits& edits, Over over) {
     Curves curves;
-    for (std::size_t i : edits) curves.push_back(over(order.frames[i]));
+    for (std::size_t i : edits) curves.push_back(over(policy.frames[i]));
     return curves;
 }
 
-std::vector<CurvePoint> meanOverWork(const OrderResult& order, const Edits& edits) {
-    return meanOf(curvesOf(order, edits, errorOverWork));
+std::vector<CurvePoint> meanOverWork(const PolicyResult& policy, const Edits& edits) {
+    return meanOf(curvesOf(policy, edits, errorOverWork));
 }
-std::vector<CurvePoint> meanOverTime(const OrderResult& order, const Edits& edits) {
-    return meanOf(curvesOf(order, edits, errorOverTime));
+std::vector<CurvePoint> meanOverTime(const PolicyResult& policy, const Edits& edits) {
+    return meanOf(curvesOf(policy, edits, errorOverTime));
 }
 
 double mean(const std::vector<double>& values, const Edits& edits) {
@@ -63,8 +63,8 @@ double mean(const std::vector<double>& values, const Edits& edits) {
 /// Until where areas are taken: all orders are settled there.
 double lastWork(const ComparisonResult& result, const Edits& edits) {
     double last = 0;
-    for (const OrderResult& order : result.orders)
-        for (std::size_t i : edits) last = std::max(last, order.work[i]);
+    for (const PolicyResult& policy : result.policies)
+        for (std::size_t i : edits) last = std::max(last, policy.work[i]);
     return last;
 }
 
@@ -79,7 +79,7 @@ void writeFigures(std::string& page, const ComparisonResult& result) {
             "<th>time to 1 % [ms]</th><th>time in all [ms]</th><th>settled, off by [JND]</th>"
             "</tr></thead><tbody>\n";
     std::size_t index = 0;
-    for (const OrderFigures& f : figuresOf(result))
+    for (const PolicyFigures& f : figuresOf(result))
         fmt::format_to(std::back_inserter(page),
                        "<tr><td><span class='swatch' style='background:{}'></span>{}</td>"
                        "<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
@@ -95,7 +95,7 @@ void writeFigures(std::string& page, const ComparisonResult& result) {
         "of all edits, so that long ones may come late; in all: a mean edit. {} of "
         "{} edits are seen. What is worked on: {}.</p>\n",
         seenEdits(result).size(), result.frames.size(),
-        result.dirty == DirtySet::perfect
+        result.dirty == DirtySetKind::perfect
             ? "of direct light only what comes out otherwise, as if that were known"
             : "what bounding shafts find, of which some turns out not to change");
 }
@@ -103,9 +103,9 @@ void writeFigures(std::string& page, const ComparisonResult& result) {
 void writeCharts(std::string& page, const ComparisonResult& result) {
     const Edits edits = countedEdits(result);
     std::vector<ChartSeries> work, time;
-    for (const OrderResult& order : result.orders) {
-        work.push_back({order.name, meanOverWork(order, edits)});
-        time.push_back({order.name, meanOverTime(order, edits)});
+    for (const PolicyResult& policy : result.policies) {
+        work.push_back({policy.name, meanOverWork(policy, edits)});
+        time.push_back({policy.name, meanOverTime(policy, edits)});
         for (CurvePoint& point : time.back().points) point.x *= 1e3;
     }
     constexpr int kWidth = 600; // two beside one another, or one on a narrow page
@@ -123,7 +123,7 @@ void writeCharts(std::string& page, const ComparisonResult& result) {
 }
 
 /// One moment of the film: the picture, and below it what is wrong with it.
-void writeMoment(std::string& page, const std::string& order, const FilmPicture& film,
+void writeMoment(std::string& page, const std::string& policy, const FilmPicture& film,
                  const Exposure& exposure) {
     const int width = std::min(film.picture.width, 320);
     const int height = film.picture.height * width / film.picture.width;
@@ -133,13 +133,13 @@ void writeMoment(std::string& page, const std::string& order, const FilmPicture&
                    "<figcaption><b>{5} ms</b>, {6} rays' worth<br>mean {7} JND, 99 % below {8}<br>"
                    "{9:.2f} % of pixels above 1</figcaption></figure>\n",
                    pictureUri(film.picture, exposure), differenceUri(film.jnd), width, height,
-                   escaped(order), figure(1e3 * film.seconds), figure(film.work),
+                   escaped(policy), figure(1e3 * film.seconds), figure(film.work),
                    figure(film.error.mean), figure(film.error.p99), 100 * film.error.visible);
 }
 
-void writeFilm(std::string& page, const OrderResult& order, const Exposure& exposure) {
-    page += "<h3>" + escaped(order.name) + "</h3>\n<div class='strip'>";
-    for (const FilmPicture& film : order.film) writeMoment(page, order.name, film, exposure);
+void writeFilm(std::string& page, const PolicyResult& policy, const Exposure& exposure) {
+    page += "<h3>" + escaped(policy.name) + "</h3>\n<div class='strip'>";
+    for (const FilmPicture& film : policy.film) writeMoment(page, policy.name, film, exposure);
     page += "</div>\n";
 }
 
@@ -156,7 +156,7 @@ void writeFilms(std::string& page, const ComparisonResult& result, int frame) {
         "<figure><img src='{}' width='{}' height='{}' alt='settled'><figcaption>settled: "
         "what is to come out</figcaption></figure></div>\n",
         pictureUri(result.truth, exposure), result.truth.width, result.truth.height);
-    for (const OrderResult& order : result.orders) writeFilm(page, order, exposure);
+    for (const PolicyResult& policy : result.policies) writeFilm(page, policy, exposure);
 }
 
 void writeFacts(std::string& page, const std::string& heading, const Facts& facts) {
@@ -183,10 +183,10 @@ std::vector<std::size_t> seenEdits(const ComparisonResult& result) {
     constexpr double kSeen = 1e-3; // [JND]
     std::vector<std::size_t> edits;
     for (std::size_t i = 0; i < result.frames.size(); ++i) {
-        const bool seen =
-            std::any_of(result.orders.begin(), result.orders.end(), [&](const OrderResult& order) {
-                return order.frames[i].front().error.mean >= kSeen;
-            });
+        const bool seen = std::any_of(result.policies.begin(), result.policies.end(),
+                                      [&](const PolicyResult& policy) {
+                                          return policy.frames[i].front().error.mean >= kSeen;
+                                      });
         if (seen) edits.push_back(i);
     }
     return edits;
@@ -205,26 +205,26 @@ std::string whatIsNotSeen(const ComparisonResult& result) {
                : "nothing is seen of what changes in frame " + frames + ": left out of the figures";
 }
 
-std::vector<OrderFigures> figuresOf(const ComparisonResult& result) {
+std::vector<PolicyFigures> figuresOf(const ComparisonResult& result) {
     const bool seen = !seenEdits(result).empty();
     const Edits edits = countedEdits(result);
     const double last = lastWork(result, edits);
-    std::vector<OrderFigures> figures;
-    for (const OrderResult& order : result.orders) {
-        OrderFigures f;
-        f.name = order.name;
+    std::vector<PolicyFigures> figures;
+    for (const PolicyResult& policy : result.policies) {
+        PolicyFigures f;
+        f.name = policy.name;
         if (seen) {
-            const std::vector<CurvePoint> work = meanOverWork(order, edits);
-            const std::vector<CurvePoint> time = meanOverTime(order, edits);
+            const std::vector<CurvePoint> work = meanOverWork(policy, edits);
+            const std::vector<CurvePoint> time = meanOverTime(policy, edits);
             f.area = normalisedArea(work, last);
             f.work10 = whenBelow(work, 0.1).value_or(-1);
             f.work1 = whenBelow(work, 0.01).value_or(-1);
             f.seconds10 = whenBelow(time, 0.1).value_or(-1);
             f.seconds1 = whenBelow(time, 0.01).value_or(-1);
         }
-        f.work = mean(order.work, edits);
-        f.seconds = mean(order.seconds, edits);
-        f.differsFromTruth = order.differsFromTruth;
+        f.work = mean(policy.work, edits);
+        f.seconds = mean(policy.seconds, edits);
+        f.differsFromTruth = policy.differsFromTruth;
         figures.push_back(f);
     }
     return figures;

@@ -1,7 +1,7 @@
 // The comparison as a page that people read.
 #pragma once
 
-#include "comparison/CompareOrders.h"
+#include "comparison/ComparePolicies.h"
 
 #include <string>
 #include <utility>
@@ -25,7 +25,7 @@ std::string whatIsNotSeen(const ComparisonResult& result);
 
 /// Figures of one order over all edits that are seen, each a mean of the curves (see ErrorCurve.h).
 /// If none is there are no figures but those of work and time, over all edits.
-struct OrderFigures {
+struct PolicyFigures {
     std::string name;
     /// Under error over work, up to where the slowest order is settled; -1: nothing is seen.
     double area = -1;
@@ -34,7 +34,7 @@ struct OrderFigures {
     double work = 0, seconds = 0;         ///< to the settled light, mean of these edits
     double differsFromTruth = 0;          ///< [JND]
 };
-std::vector<OrderFigures> figuresOf(const ComparisonResult& result);
+std::vector<PolicyFigures> figuresOf(const ComparisonResult& result);
 
 /// A page in HTML 5 that needs no network, no script and no other file.
 std::string htmlReport(const ComparisonResult& result, const ReportOptions& options);

@@ -1,6 +1,6 @@
 #include "comparison/ReportImages.h"
 
-#include "io/PngEncoder.h"
+#include "io/image/PngEncoder.h"
 
 #include <fmt/format.h>
 

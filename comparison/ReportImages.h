@@ -1,9 +1,9 @@
 // Pictures that are part of a page.
 #pragma once
 
-#include "comparison/CompareOrders.h"
+#include "comparison/ComparePolicies.h"
 #include "importance/Pyramid.h"
-#include "io/PngWriter.h"
+#include "io/image/PngWriter.h"
 
 #include <cstddef>
 #include <span>

@@ -1,7 +1,7 @@
 // The least that a program needs to have a scene lit while it moves things: docs/processes.md.
-#include "io/UsdScene.h"
-#include "radiosity/RadiosityNode.h"
+#include "io/usd/scene/UsdScene.h"
 #include "radiosity/process/ProcessLink.h"
+#include "radiosity/process/RadiosityNode.h"
 #include "scenegraph/Transform.h"
 
 #include <glm/gtc/matrix_transform.hpp>

@@ -24,7 +24,7 @@ double localAdaptation(double surface, double picture) {
     return std::max(kDarkest, surface + kScattered * picture);
 }
 
-void Adaptation::look(double luminance, double seconds) {
+void Adaptation::adapt(double luminance, double seconds) {
     assert(luminance > 0 && seconds >= 0);
     const double rods = 0.04 / (0.04 + luminance);
     const double tau = 0.4 * rods + 0.1 * (1 - rods); // [s]

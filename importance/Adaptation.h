@@ -34,7 +34,7 @@ public:
     explicit Adaptation(double luminance = 100) : luminance_(luminance) {}
 
     /// The eye has looked at a picture of mean `luminance` [nit], > 0, for `seconds` >= 0.
-    void look(double luminance, double seconds);
+    void adapt(double luminance, double seconds);
     double luminance() const { return luminance_; } ///< [nit]
 
 private:

@@ -1,7 +1,7 @@
 // How near something is to the object being moved.
 #pragma once
 
-#include "scenegraph/Bounds.h"
+#include "base/Bounds.h"
 
 namespace penumbra {
 

@@ -1,7 +1,7 @@
 // From where, and how large, the viewer sees a piece of the scene.
 #pragma once
 
-#include "scenegraph/Bounds.h"
+#include "base/Bounds.h"
 #include "scenegraph/Camera.h"
 #include "scenegraph/Frustum.h"
 

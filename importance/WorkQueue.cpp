@@ -10,7 +10,7 @@ namespace penumbra {
 /// Whether place a comes before place b. Of equals, one whose key is only a bound comes first: what
 /// it holds may be older.
 bool WorkQueue::before(std::uint32_t a, std::uint32_t b) const {
-    const Place &one = places_[a], &other = places_[b];
+    const Cluster &one = clusters_[a], &other = clusters_[b];
     if (one.key != other.key) return one.key > other.key;
     if (one.ordered != other.ordered) return !one.ordered;
     if (one.ordered) return one.tasks.front().serial < other.tasks.front().serial;
@@ -18,12 +18,12 @@ bool WorkQueue::before(std::uint32_t a, std::uint32_t b) const {
 }
 
 /// At least the value of any task of a place, also after rounding.
-double WorkQueue::boundOf(const Place& at) {
-    return at.tasks.empty() ? 0 : (1 + 1e-6) * workValue(at.value, at.mostChange, at.leastCost);
+double WorkQueue::boundOf(const Cluster& at) {
+    return at.tasks.empty() ? 0 : (1 + 1e-6) * priorityOf(at.value, at.mostChange, at.leastCost);
 }
 
-double WorkQueue::valueOf(const PlaceValue& at, const Worth& worth) {
-    return workValue(at, worth.change, double(worth.cost) / double(worth.share));
+double WorkQueue::valueOf(const ClusterPriority& at, const TaskPriority& priority) {
+    return priorityOf(at, priority.change, double(priority.cost) / double(priority.share));
 }
 
 double WorkQueue::value(Handle handle) const {
@@ -31,9 +31,9 @@ double WorkQueue::value(Handle handle) const {
 }
 
 double WorkQueue::value(const Task& task) const {
-    if (task.place < places_.size() && places_[task.place].keyed == rekeys_)
-        return valueOf(places_[task.place].value, task.worth);
-    return valueOf(value_ ? value_(task.place) : PlaceValue(), task.worth);
+    if (task.cluster < clusters_.size() && clusters_[task.cluster].keyed == rekeys_)
+        return valueOf(clusters_[task.cluster].value, task.priority);
+    return valueOf(value_ ? value_(task.cluster) : ClusterPriority(), task.priority);
 }
 
 WorkQueue::Handle WorkQueue::add(const Task& task) {
@@ -54,33 +54,33 @@ WorkQueue::Handle WorkQueue::add(const Task& task) {
     return handle;
 }
 
-void WorkQueue::rank(Handle handle, const Worth& worth) {
-    slots_[handle].task.worth = worth;
+void WorkQueue::rank(Handle handle, const TaskPriority& priority) {
+    slots_[handle].task.priority = priority;
     insert(handle);
 }
 
 /// Puts a task in the list of its place; what stood there for it counts no more.
 void WorkQueue::insert(Handle handle) {
     Slot& slot = slots_[handle];
-    const Worth& worth = slot.task.worth;
-    assert(worth.cost > 0 && worth.change >= 0 && worth.share > 0);
+    const TaskPriority& priority = slot.task.priority;
+    assert(priority.cost > 0 && priority.change >= 0 && priority.share > 0);
     slot.chosen = false;
-    Place& at = placeAt(slot.task.place);
-    at.mostChange = std::max(at.mostChange, worth.change);
-    at.leastCost = std::min(at.leastCost, worth.cost / worth.share);
-    at.tasks.push_back({valueOf(at.value, worth), slot.serial, handle, ++slot.ranking});
+    Cluster& at = clusterAt(slot.task.cluster);
+    at.mostChange = std::max(at.mostChange, priority.change);
+    at.leastCost = std::min(at.leastCost, priority.cost / priority.share);
+    at.tasks.push_back({valueOf(at.value, priority), slot.serial, handle, ++slot.ranking});
     if (at.ordered) std::push_heap(at.tasks.begin(), at.tasks.end());
     if (at.position == kOut) {
         at.position = heap_.size();
-        heap_.push_back(slot.task.place);
+        heap_.push_back(slot.task.cluster);
     }
-    settle(slot.task.place);
+    settle(slot.task.cluster);
 }
 
 /// A place whose value is that of the last rekey().
-WorkQueue::Place& WorkQueue::placeAt(std::uint32_t index) {
-    if (index >= places_.size()) places_.resize(index + 1);
-    Place& at = places_[index];
+WorkQueue::Cluster& WorkQueue::clusterAt(std::uint32_t index) {
+    if (index >= clusters_.size()) clusters_.resize(index + 1);
+    Cluster& at = clusters_[index];
     if (at.keyed == rekeys_) return at;
     at.keyed = rekeys_;
     at.value = value_(index);
@@ -92,36 +92,36 @@ WorkQueue::Place& WorkQueue::placeAt(std::uint32_t index) {
 void WorkQueue::rekey(Value value) {
     value_ = std::move(value);
     ++rekeys_;
-    for (std::uint32_t index : heap_) placeAt(index);
+    for (std::uint32_t index : heap_) clusterAt(index);
     const auto after = [&](std::uint32_t a, std::uint32_t b) { return before(b, a); };
     std::make_heap(heap_.begin(), heap_.end(), after);
-    for (std::size_t i = 0; i < heap_.size(); ++i) places_[heap_[i]].position = i;
+    for (std::size_t i = 0; i < heap_.size(); ++i) clusters_[heap_[i]].position = i;
 }
 
-void WorkQueue::rekey(std::uint32_t index, const PlaceValue& value) {
-    Place& at = placeAt(index);
+void WorkQueue::rekey(std::uint32_t index, const ClusterPriority& value) {
+    Cluster& at = clusterAt(index);
     at.value = value;
     at.ordered = false;
     if (at.position != kOut) settle(index);
 }
 
 /// Ranks all tasks of a place, and finds its exact key and bounds.
-void WorkQueue::order(Place& at) {
+void WorkQueue::order(Cluster& at) {
     std::erase_if(at.tasks, [&](const Ranked& ranked) { return stale(ranked); });
     at.mostChange = 0;
     at.leastCost = std::numeric_limits<float>::infinity();
     for (Ranked& ranked : at.tasks) {
-        const Worth& worth = slots_[ranked.slot].task.worth;
-        ranked.value = valueOf(at.value, worth);
-        at.mostChange = std::max(at.mostChange, worth.change);
-        at.leastCost = std::min(at.leastCost, worth.cost / worth.share);
+        const TaskPriority& priority = slots_[ranked.slot].task.priority;
+        ranked.value = valueOf(at.value, priority);
+        at.mostChange = std::max(at.mostChange, priority.change);
+        at.leastCost = std::min(at.leastCost, priority.cost / priority.share);
     }
     std::make_heap(at.tasks.begin(), at.tasks.end());
     at.ordered = true;
 }
 
 /// Tasks that were removed or ranked anew leave their place's list only now.
-void WorkQueue::skipStale(Place& at) {
+void WorkQueue::skipStale(Cluster& at) {
     while (!at.tasks.empty() && stale(at.tasks.front())) {
         std::pop_heap(at.tasks.begin(), at.tasks.end());
         at.tasks.pop_back();
@@ -130,7 +130,7 @@ void WorkQueue::skipStale(Place& at) {
 
 /// Brings a place of the heap to where it belongs, or takes it out if nothing is left in it.
 void WorkQueue::settle(std::uint32_t index) {
-    Place& at = places_[index];
+    Cluster& at = clusters_[index];
     if (at.ordered) skipStale(at);
     if (at.tasks.empty()) {
         const std::size_t hole = std::exchange(at.position, kOut);
@@ -139,8 +139,8 @@ void WorkQueue::settle(std::uint32_t index) {
         const std::uint32_t last = heap_.back();
         heap_.pop_back();
         if (last == index) return;
-        place(hole, last);
-        rise(hole), sink(places_[last].position);
+        cluster(hole, last);
+        rise(hole), sink(clusters_[last].position);
         return;
     }
     at.key = at.ordered ? at.tasks.front().value : boundOf(at);
@@ -161,7 +161,7 @@ void WorkQueue::remove(Handle handle) {
 std::optional<WorkQueue::Handle> WorkQueue::best() {
     while (!heap_.empty()) {
         const std::uint32_t index = heap_.front();
-        Place& at = places_[index];
+        Cluster& at = clusters_[index];
         if (at.ordered && !stale(at.tasks.front())) return at.tasks.front().slot;
         if (!at.ordered) order(at);
         settle(index);
@@ -172,7 +172,7 @@ std::optional<WorkQueue::Handle> WorkQueue::best() {
 std::optional<WorkQueue::Choice> WorkQueue::choose(double now) {
     if (empty()) return {};
     const Slot& oldest = slots_[oldest_];
-    const bool overdue = now - oldest.task.since >= fairness_.patience;
+    const bool overdue = now - oldest.task.since >= fairness_.aging;
     if (!overdue) owed_ = std::min(owed_, 0.0);
     const bool itsTurn = overdue && !oldest.chosen && owed_ >= 0;
     const std::optional<Handle> chosen = itsTurn ? oldest_ : best();
@@ -181,9 +181,9 @@ std::optional<WorkQueue::Choice> WorkQueue::choose(double now) {
     return Choice{*chosen, slots_[*chosen].task, itsTurn};
 }
 
-WorkQueue::Worth WorkQueue::worthOf(std::uint32_t place, double gain, double cost) {
-    constexpr double kOne = std::numbers::phi; // g(kOne) = 1, see workValue()
-    const PlaceValue& at = placeAt(place).value;
+WorkQueue::TaskPriority WorkQueue::priorityFor(std::uint32_t cluster, double gain, double cost) {
+    constexpr double kOne = std::numbers::phi; // g(kOne) = 1, see priorityOf()
+    const ClusterPriority& at = clusterAt(cluster).value;
     const double share = at.weight > 0 ? gain / at.weight : 0;
     return {float(kOne / at.perThreshold), std::max(float(share), 1e-30f), float(cost)};
 }
@@ -193,7 +193,7 @@ void WorkQueue::finish(const Choice& choice, double cost) {
     remove(choice.handle);
 }
 
-void WorkQueue::finishPart(const Choice& choice, double cost, const Worth& rest) {
+void WorkQueue::finishPart(const Choice& choice, double cost, const TaskPriority& rest) {
     spend(choice, cost);
     rank(choice.handle, rest);
 }
@@ -209,7 +209,7 @@ void WorkQueue::spend(const Choice& choice, double cost) {
 std::optional<WorkQueue::Task> WorkQueue::take(double now) {
     const std::optional<Choice> choice = choose(now);
     if (!choice) return {};
-    finish(*choice, double(choice->task.worth.cost));
+    finish(*choice, double(choice->task.priority.cost));
     return choice->task;
 }
 
@@ -217,9 +217,9 @@ double WorkQueue::oldest(double now) const {
     return empty() ? now : slots_[oldest_].task.since;
 }
 
-void WorkQueue::place(std::size_t position, std::uint32_t index) {
+void WorkQueue::cluster(std::size_t position, std::uint32_t index) {
     heap_[position] = index;
-    places_[index].position = position;
+    clusters_[index].position = position;
 }
 
 void WorkQueue::rise(std::size_t position) {
@@ -227,10 +227,10 @@ void WorkQueue::rise(std::size_t position) {
     while (position > 0) {
         const std::size_t parent = (position - 1) / 2;
         if (!before(index, heap_[parent])) break;
-        place(position, heap_[parent]);
+        cluster(position, heap_[parent]);
         position = parent;
     }
-    place(position, index);
+    cluster(position, index);
 }
 
 void WorkQueue::sink(std::size_t position) {
@@ -240,10 +240,10 @@ void WorkQueue::sink(std::size_t position) {
         if (child >= heap_.size()) break;
         if (child + 1 < heap_.size() && before(heap_[child + 1], heap_[child])) ++child;
         if (!before(heap_[child], index)) break;
-        place(position, heap_[child]);
+        cluster(position, heap_[child]);
         position = child;
     }
-    place(position, index);
+    cluster(position, index);
 }
 
 } // namespace penumbra

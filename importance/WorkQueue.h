@@ -1,7 +1,7 @@
 // Open work in the order of its worth, re-ordered at once when the viewer moves.
 #pragma once
 
-#include "importance/WorkValue.h"
+#include "importance/Priority.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -14,10 +14,10 @@
 namespace penumbra {
 
 /// A priority queue of tasks. What a task is worth has a part that is its own (how far luminance
-/// may change, at what cost) and a part that all work at the same place shares (PlaceValue). When
-/// the view changes only the latter is computed anew, place by place, with an upper bound of what
-/// the tasks there may be worth; the tasks themselves are only put in order when their place's turn
-/// comes. The order is nevertheless exactly that of the tasks' values, ties broken by age.
+/// may change, at what cost) and a part that all work at the same place shares (ClusterPriority).
+/// When the view changes only the latter is computed anew, place by place, with an upper bound of
+/// what the tasks there may be worth; the tasks themselves are only put in order when their place's
+/// turn comes. The order is nevertheless exactly that of the tasks' values, ties broken by age.
 ///
 /// What is known of a task may change while it is open: rank() puts it where it belongs now, and it
 /// keeps its age.
@@ -29,41 +29,41 @@ namespace penumbra {
 class WorkQueue {
 public:
     struct Fairness {
-        double patience = std::numeric_limits<double>::infinity(); ///< in the unit of `now`
-        double reserve = 0.25;                                     ///< share of the cost, in (0, 1]
+        double aging = std::numeric_limits<double>::infinity(); ///< in the unit of `now`
+        double reserve = 0.25;                                  ///< share of the cost, in (0, 1]
     };
 
     explicit WorkQueue(Fairness fairness) : fairness_(fairness) {}
     WorkQueue() : WorkQueue(Fairness()) {}
-    void setPatience(double patience) { fairness_.patience = patience; }
+    void setAging(double aging) { fairness_.aging = aging; }
 
     /// What a task is ranked by, besides its place.
-    struct Worth {
-        float change = 0; ///< of luminance where it changes, see workValue() [nit]
+    struct TaskPriority {
+        float change = 0; ///< of luminance where it changes, see priorityOf() [nit]
         float share = 1;  ///< of the place that changes, in (0, 1]
         float cost = 1;   ///< > 0
     };
     /// A piece of open work; `id` is the caller's.
     struct Task {
-        std::uint32_t place = 0;
+        std::uint32_t cluster = 0;
         std::uint64_t id = 0;
-        Worth worth;
+        TaskPriority priority;
         double since = 0; ///< when it was added
     };
     using Handle = std::uint32_t; ///< of a task that is open
 
     /// What work at a place is worth as the viewer sees it now.
-    using Value = std::function<PlaceValue(std::uint32_t place)>;
+    using Value = std::function<ClusterPriority(std::uint32_t cluster)>;
     /// Asks anew for all places, those with open work at once, others when work comes there.
     void rekey(Value value);
     /// The same for one place, as when its light was found to change less than was thought.
-    void rekey(std::uint32_t place, const PlaceValue& value);
+    void rekey(std::uint32_t cluster, const ClusterPriority& value);
 
     /// Adds a task. Before the first rekey() all are worth nothing.
     /// \param task its `since` may not be before that of tasks added earlier
     Handle add(const Task& task);
     /// A task is worth something else now.
-    void rank(Handle handle, const Worth& worth);
+    void rank(Handle handle, const TaskPriority& priority);
     /// A task goes by another id from now on.
     void setId(Handle handle, std::uint64_t id) { slots_[handle].task.id = id; }
     /// A task is not open any more.
@@ -82,16 +82,16 @@ public:
     /// \param cost as far as it is known by now: it may be more than it was ranked by
     void finish(const Choice& choice, double cost);
     /// A part of it is going to be done; it stays open, and the rest is worth so much.
-    void finishPart(const Choice& choice, double cost, const Worth& rest);
+    void finishPart(const Choice& choice, double cost, const TaskPriority& rest);
     /// What a task at a place is worth that gains so much as the viewer sees it now: when the view
     /// changes, it gains as much more or less as others there.
-    Worth worthOf(std::uint32_t place, double gain, double cost);
+    TaskPriority priorityFor(std::uint32_t cluster, double gain, double cost);
     /// Chooses a task to be done.
     std::optional<Task> take(double now);
 
-    /// Whether a place is in the picture, see PlaceValue.
-    bool inPicture(std::uint32_t place) { return placeAt(place).value.inPicture; }
-    /// What a task that is open is ranked by now, see workValue().
+    /// Whether a place is in the picture, see ClusterPriority.
+    bool inPicture(std::uint32_t cluster) { return clusterAt(cluster).value.inPicture; }
+    /// What a task that is open is ranked by now, see priorityOf().
     double value(Handle handle) const;
     /// What it would be ranked by if it were added.
     double value(const Task& task) const;
@@ -111,8 +111,8 @@ private:
             return value != o.value ? value < o.value : serial > o.serial;
         }
     };
-    struct Place {
-        PlaceValue value;
+    struct Cluster {
+        ClusterPriority value;
         std::uint32_t keyed = 0;   ///< at which rekey() it was asked for
         std::vector<Ranked> tasks; ///< a heap once it is `ordered`
         bool ordered = false;
@@ -131,10 +131,10 @@ private:
     static constexpr Handle kNone = ~Handle(0);
     static constexpr std::size_t kOut = ~std::size_t(0);
 
-    Place& placeAt(std::uint32_t index);
+    Cluster& clusterAt(std::uint32_t index);
     bool before(std::uint32_t a, std::uint32_t b) const;
-    static double boundOf(const Place& place);
-    static double valueOf(const PlaceValue& place, const Worth& worth);
+    static double boundOf(const Cluster& cluster);
+    static double valueOf(const ClusterPriority& cluster, const TaskPriority& priority);
     void insert(Handle handle);
     /// Whether an entry of a place's list counts for nothing any more.
     bool stale(const Ranked& ranked) const {
@@ -142,10 +142,10 @@ private:
         return slot.serial != ranked.serial || slot.ranking != ranked.ranking || slot.chosen;
     }
     void spend(const Choice& choice, double cost);
-    void order(Place& place);
-    void skipStale(Place& place);
+    void order(Cluster& cluster);
+    void skipStale(Cluster& cluster);
     std::optional<Handle> best();
-    void place(std::size_t position, std::uint32_t index);
+    void cluster(std::size_t position, std::uint32_t index);
     void rise(std::size_t position);
     void sink(std::size_t position);
     void settle(std::uint32_t index);
@@ -153,7 +153,7 @@ private:
     Fairness fairness_;
     Value value_;
     std::uint32_t rekeys_ = 0;
-    std::vector<Place> places_;
+    std::vector<Cluster> clusters_;
     std::vector<std::uint32_t> heap_; ///< places with open work, the one with the largest key first
     std::deque<Slot> slots_; ///< grows without being copied: that would take longer than a step
     std::vector<std::uint32_t> free_;

@@ -1,7 +1,7 @@
 // What a view can see of a box.
 #pragma once
 
-#include "scenegraph/Bounds.h"
+#include "base/Bounds.h"
 
 #include <glm/glm.hpp>
 

@@ -1,9 +1,9 @@
 // Area lights, in UsdLux's local frames.
 #pragma once
 
-#include "scenegraph/Bounds.h"
+#include "base/Bounds.h"
+#include "base/Rgb.h"
 #include "scenegraph/Node.h"
-#include "scenegraph/Rgb.h"
 
 #include <variant>
 

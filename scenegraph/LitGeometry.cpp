@@ -50,11 +50,11 @@ void LitGeometry::setTopology(const std::function<void(LitMeshData&)>& edit) {
     touch();
 }
 
-void LitGeometry::setLamps(std::size_t count) {
-    const LampShare unknown{std::vector<float>(data_.positions.size()),
-                            std::vector<LampShare::Known>(blocksOf(data_), LampShare::Known::no),
-                            std::vector<Rgb>(blocksOf(data_))};
-    data_.lamps.assign(count, unknown);
+void LitGeometry::setLights(std::size_t count) {
+    const LightShare unknown{std::vector<float>(data_.positions.size()),
+                             std::vector<LightShare::Known>(blocksOf(data_), LightShare::Known::no),
+                             std::vector<Rgb>(blocksOf(data_))};
+    data_.lights.assign(count, unknown);
     for (std::uint64_t& revision : blockRevisions_) ++revision;
     touch();
 }

@@ -1,10 +1,10 @@
 // What is drawn: triangles whose vertices carry irradiance.
 #pragma once
 
-#include "scenegraph/Bounds.h"
+#include "base/Bounds.h"
+#include "base/ObjectId.h"
+#include "base/Rgb.h"
 #include "scenegraph/Node.h"
-#include "scenegraph/ObjectId.h"
-#include "scenegraph/Rgb.h"
 
 #include <glm/glm.hpp>
 
@@ -23,11 +23,11 @@ struct LitMaterial {
 };
 
 /// What has to do with one lamp alone, for those who exchange its light for a faster estimate.
-struct LampShare {
+struct LightShare {
     enum class Known : std::uint8_t {
         no,    ///< the factors of this block have not come yet
         stale, ///< an edit may still change some of them, or what other lamps give there
-        exact  ///< both are those of the scene (but see RadiosityState::lampsMarked)
+        exact  ///< both are those of the scene (but see RadiosityState::dirtyMarked)
     };
     /// Illuminance by this lamp over its exitance pi L: F V, no unit; as long as positions.
     std::vector<float> factor;
@@ -50,7 +50,7 @@ struct LitMeshData {
     /// Which patch a triangle is part of: any number, the same for those of one patch. As long as
     /// triangleMaterial; empty: nobody knows.
     std::vector<std::uint32_t> trianglePatch = {};
-    std::vector<LampShare> lamps = {}; ///< of the live lamps, if there are any
+    std::vector<LightShare> lights = {}; ///< of the live lamps, if there are any
 };
 
 /// The lit surface of one object. Its light comes in blocks of kBlock consecutive vertices: one
@@ -79,7 +79,7 @@ public:
     /// Replaces what triangles are made of; positions may only be added at the end.
     void setTopology(const std::function<void(LitMeshData&)>& edit);
     /// From now on there are so many live lamps; nothing is known of them.
-    void setLamps(std::size_t count);
+    void setLights(std::size_t count);
     void setMaterials(std::vector<LitMaterial> materials);
 
     std::uint64_t topologyRevision() const { return topologyRevision_; }

@@ -1,7 +1,7 @@
 // How a surface looks to a radiosity system: Lambertian reflectance and emission.
 #pragma once
 
-#include "scenegraph/Rgb.h"
+#include "base/Rgb.h"
 
 #include <cstdint>
 #include <string>

@@ -1,7 +1,7 @@
 // Polygons and subdivision cages.
 #pragma once
 
-#include "scenegraph/Bounds.h"
+#include "base/Bounds.h"
 #include "scenegraph/Material.h"
 #include "scenegraph/Node.h"
 

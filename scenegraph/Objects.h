@@ -1,8 +1,8 @@
 // The scene as a list of placed things, grouped into rigid objects.
 #pragma once
 
-#include "scenegraph/Bounds.h"
-#include "scenegraph/ObjectId.h"
+#include "base/Bounds.h"
+#include "base/ObjectId.h"
 #include "scenegraph/Scene.h"
 
 #include <glm/glm.hpp>

@@ -20,7 +20,7 @@ struct Scene {
     double residual = 0;       ///< of the light that the file asks for, see SolverOptions; 0: none
     std::string
         trigger; ///< when edits are to be lit, implicit, onDemand, continuous; empty: not said
-    std::string order;        ///< in which order, importance, plain; empty: not said
+    std::string policy;       ///< in which order, importance, plain; empty: not said
     double metersPerUnit = 1; ///< of the file; already applied to the graph
     double startTimeCode = 0; ///< first and last frame of the file's animation
     double endTimeCode = 0;

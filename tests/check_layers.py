@@ -1,47 +1,80 @@
 #!/usr/bin/env python3
-"""Checks the layer order: which folder may include what. Usage: check_layers.py [PROJECT_ROOT]"""
+"""Checks the layer order: which room may include which. Usage: check_layers.py [PROJECT_ROOT]"""
 import pathlib
 import re
 import sys
 
-# Folders whose headers a folder may include, besides its own. tests/ and bench/ may see everything.
-MAY_SEE = {
-    "scenegraph": set(),
-    "importance": {"scenegraph"},
-    "radiosity": {"importance", "scenegraph"},
-    "io": {"scenegraph"},
-    "viewer": {"io", "radiosity", "importance", "scenegraph"},
-    "comparison": {"io", "radiosity", "importance", "scenegraph"},
-    "tools": {"comparison", "viewer", "io", "radiosity", "importance", "scenegraph"},
+# Every room, and those whose headers it may include besides its own. What those may include, it may include as well.
+# tests/ and bench/ may see everything.
+USES = {
+    "base": [],
+    "scenegraph": ["base"],
+    "importance": ["scenegraph"],
+    "radiosity/rays": ["scenegraph"],
+    "radiosity/mesh": ["radiosity/rays"],
+    "radiosity/rows": ["radiosity/mesh"],
+    "radiosity/schedule": ["radiosity/rows", "importance"],
+    "radiosity/transport": ["radiosity/schedule"],
+    "radiosity/query": ["radiosity/transport"],
+    "radiosity/process/memory": ["base"],
+    "radiosity/process/snapshot": ["radiosity/process/memory", "scenegraph"],
+    "radiosity/process/store": ["radiosity/process/snapshot", "radiosity/transport"],
+    "radiosity/process": ["radiosity/process/store", "radiosity/query"],
+    "io/image": ["scenegraph"],
+    "io/usd/layer": ["scenegraph"],
+    "io/usd/scene": ["io/usd/layer", "io/image"],
+    "comparison": ["radiosity/process", "io/usd/scene"],
+    "viewer/preview": ["radiosity/process"],
+    "viewer/input": ["viewer/preview", "io/usd/scene"],
+    "viewer/gl": ["viewer/preview", "io/image"],
+    "viewer/shadowmaps": ["viewer/gl"],
+    "viewer/overlay": ["viewer/gl"],
+    "viewer/panels": ["viewer/overlay", "viewer/input"],
+    "viewer/app": ["viewer/panels", "viewer/shadowmaps"],
+    "tools": ["viewer/app", "comparison"],
 }
-# Third-party headers (by how their path begins) that one folder keeps to itself, in its .cpp files.
+# Third-party headers (by how their path begins) that some rooms keep to themselves, in their .cpp files.
 HOME = {
-    "boost/": "radiosity", "embree": "radiosity", "opensubdiv/": "radiosity",
-    "tbb/": "radiosity", "oneapi/": "radiosity",
-    "OpenEXR/": "io", "Imf": "io", "Imath": "io", "png.h": "io",
+    "tbb/": "base", "oneapi/": "base", "boost/": "radiosity/process", "embree": "radiosity/rays",
+    "opensubdiv/": "radiosity/mesh",
+    "OpenEXR/": "io/image", "Imf": "io/image", "Imath": "io/image", "png.h": "io/image",
     "epoxy/": "viewer", "EGL/": "viewer", "GL/": "viewer", "GLFW/": "viewer",
-    "imgui": "viewer", "backends/imgui": "viewer",
+    "imgui": "viewer/panels", "backends/imgui": "viewer/panels",
     "CLI/": "tools", "nlohmann/": "tools",
 }
+MOST_FILES = 35  # in a room
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)
 
 
+def seen(room):
+    """All that a room may include. A circle in USES would not end: the order itself is checked by that."""
+    return {room}.union(*(seen(other) for other in USES[room]))
+
+
 def faults(root):
-    for folder, seen in MAY_SEE.items():
-        sources = [p for p in (root / folder).rglob("*") if p.suffix in {".h", ".cpp"}]
-        for path in sorted(sources):
+    for room in USES:
+        may_see = seen(room)
+        sources = [p for p in sorted((root / room).glob("*")) if p.suffix in {".h", ".cpp"}]
+        if len(sources) > MOST_FILES:
+            yield f"{room}/: {len(sources)} files are more than {MOST_FILES}: is there a second idea in it?"
+        for path in sources:
             name = path.relative_to(root).as_posix()
             for quote, header in INCLUDE.findall(path.read_text(encoding="utf-8")):
-                other = header.split("/")[0]
+                other = header.rpartition("/")[0]
                 home = next((HOME[start] for start in HOME if header.startswith(start)), None)
-                if other in {*MAY_SEE, "tests", "bench"} - seen - {folder}:
-                    yield f"{name}: {folder}/ may not include {other}/"
-                elif quote == '"' and other not in MAY_SEE:
-                    yield f'{name}: "{header}" does not begin with a folder of the project'
-                elif home and home != folder:
+                if header.split("/")[0] in {"tests", "bench"} or (other in USES and other not in may_see):
+                    yield f"{name}: {room}/ may not include {other}/"
+                elif quote == '"' and other not in USES:
+                    yield f'{name}: "{header}" does not begin with a room of the project'
+                elif home and not f"{room}/".startswith(f"{home}/"):
                     yield f"{name}: only {home}/ may include <{header}>"
                 elif home and path.suffix != ".cpp":
                     yield f"{name}: <{header}> belongs in a .cpp file"
+    for top in sorted({room.split("/")[0] for room in USES}):
+        for path in sorted((root / top).rglob("*.*")):
+            room = path.parent.relative_to(root).as_posix()
+            if path.suffix in {".h", ".cpp"} and room not in USES:
+                yield f"{path.relative_to(root).as_posix()}: {room}/ is no room: see USES"
 
 
 if __name__ == "__main__":

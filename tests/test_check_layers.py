@@ -23,42 +23,58 @@ def check(files):
 class CheckLayers(unittest.TestCase):
     def test_passes_what_the_order_allows(self):
         status, _ = check({
-            "scenegraph/Error.h": "#include <string>",
-            "radiosity/Rays.cpp": '#include "radiosity/Rays.h"\n#include "scenegraph/Error.h"\n'
-                                  "#include <embree3/rtcore.h>",
-            "radiosity/Rays.h": "#include <glm/glm.hpp>",
-            "viewer/Window.cpp": '#include "io/Image.h"\n#include <epoxy/gl.h>',
-            "tests/io/ExrTest.cpp": '#include "viewer/Window.h"\n#include <OpenEXR/ImfInputFile.h>',
+            "base/Error.h": "#include <string>",
+            "radiosity/rays/Rays.cpp": '#include "radiosity/rays/Rays.h"\n#include "base/Error.h"\n'
+                                       "#include <embree3/rtcore.h>",
+            "radiosity/rays/Rays.h": "#include <glm/glm.hpp>",
+            "radiosity/query/Gather.h": '#include "radiosity/rays/Rays.h"',
+            "viewer/app/Window.cpp": '#include "io/image/Png.h"\n#include <epoxy/gl.h>',
+            "tests/io/ExrTest.cpp": '#include "viewer/app/Window.h"\n#include <OpenEXR/ImfInputFile.h>',
         })
         self.assertEqual(status, 0)
 
     def fails_with(self, text, name, line):
         self.assertEqual(check({name: line}), (1, f"{name}: {text}"))
 
-    def test_names_a_folder_that_looks_up(self):
-        self.fails_with("scenegraph/ may not include io/", "scenegraph/Error.h",
-                        '#include "io/UsdText.h"')
+    def test_names_a_room_that_looks_up(self):
+        self.fails_with("scenegraph/ may not include io/usd/layer/", "scenegraph/Node.h",
+                        '#include "io/usd/layer/UsdText.h"')
+        self.fails_with("radiosity/rows/ may not include radiosity/transport/", "radiosity/rows/Row.h",
+                        '#include "radiosity/transport/Solver.h"')
 
     def test_keeps_io_and_radiosity_apart(self):
-        self.fails_with("io/ may not include radiosity/", "io/Lit.cpp",
-                        '#include "radiosity/PatchSet.h"')
-        self.fails_with("radiosity/ may not include io/", "radiosity/Row.cpp", '#include "io/Image.h"')
+        self.fails_with("io/image/ may not include radiosity/mesh/", "io/image/Lit.cpp",
+                        '#include "radiosity/mesh/PatchSet.h"')
+        self.fails_with("radiosity/rows/ may not include io/image/", "radiosity/rows/Row.cpp",
+                        '#include "io/image/Png.h"')
+
+    def test_keeps_the_preview_below_the_window_and_opengl(self):
+        self.fails_with("viewer/preview/ may not include viewer/gl/", "viewer/preview/LightFade.h",
+                        '#include "viewer/gl/GlObject.h"')
 
     def test_keeps_tests_out_of_the_product(self):
-        self.fails_with("tools/ may not include tests/", "tools/main.cpp",
+        self.fails_with("tools/ may not include tests/viewer/", "tools/main.cpp",
                         '#include "tests/viewer/LitScenes.h"')
 
-    def test_names_third_party_in_the_wrong_folder(self):
-        self.fails_with("only radiosity/ may include <embree3/rtcore.h>", "scenegraph/Picking.cpp",
+    def test_names_third_party_in_the_wrong_room(self):
+        self.fails_with("only radiosity/rays/ may include <embree3/rtcore.h>", "scenegraph/Mesh.cpp",
                         "#include <embree3/rtcore.h>")
 
     def test_names_third_party_in_a_header(self):
-        self.fails_with("<epoxy/gl.h> belongs in a .cpp file", "viewer/Texture.h",
+        self.fails_with("<epoxy/gl.h> belongs in a .cpp file", "viewer/gl/Texture.h",
                         "#include <epoxy/gl.h>")
 
-    def test_wants_the_folder_in_every_include(self):
-        self.fails_with('"../io/Image.h" does not begin with a folder of the project',
+    def test_wants_the_room_in_every_include(self):
+        self.fails_with('"../io/Image.h" does not begin with a room of the project',
                         "scenegraph/Mesh.cpp", '#include "../io/Image.h"')
+
+    def test_names_files_that_are_in_no_room(self):
+        self.fails_with("radiosity/ is no room: see USES", "radiosity/Row.h", "#pragma once")
+
+    def test_names_a_room_that_has_become_too_full(self):
+        status, said = check({f"importance/File{i}.h": "#pragma once" for i in range(36)})
+        self.assertEqual((status, said), (1, "importance/: 36 files are more than 35: "
+                                             "is there a second idea in it?"))
 
 
 if __name__ == "__main__":

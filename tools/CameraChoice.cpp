@@ -1,6 +1,6 @@
 #include "tools/CameraChoice.h"
 
-#include "viewer/CameraRig.h"
+#include "viewer/input/CameraRig.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include "comparison/CompareOrders.h"
+#include "base/Error.h"
+#include "base/Parallel.h"
+#include "comparison/ComparePolicies.h"
 #include "comparison/HtmlReport.h"
-#include "io/AtomicFile.h"
-#include "radiosity/Parallel.h"
-#include "scenegraph/Error.h"
+#include "io/image/AtomicFile.h"
 #include "tools/CameraChoice.h"
 #include "tools/Commands.h"
 #include "tools/ComparisonJson.h"
@@ -26,10 +26,10 @@ namespace {
 
 struct CompareCommand {
     SolveSettings solve;
-    std::string output, json, camera, cutFrom, orders, dirty = "shafts";
+    std::string output, json, camera, cutFrom, policies, dirty = "shafts";
     double pan = 0;
     int width = 480, height = 0;
-    double looks = 1.25;
+    double growth = 1.25;
     int filmFrame = 0;
 };
 
@@ -68,8 +68,8 @@ ComparisonOptions optionsOf(const CompareCommand& command, const LoadedScene& lo
     if (options.meshing.patchSize == 0) options.meshing.patchSize = float(loaded.scene->patchSize);
     options.width = command.width;
     options.height = command.height;
-    options.growth = command.looks;
-    if (command.dirty == "perfect") options.dirty = DirtySet::perfect;
+    options.growth = command.growth;
+    if (command.dirty == "perfect") options.dirty = DirtySetKind::perfect;
     const FrameRange range = frameRange(command.solve.frames);
     options.filmFrame = command.filmFrame == 0 ? 0 : command.filmFrame - range.first - 1;
     if (options.filmFrame < 0 || options.filmFrame >= range.last - range.first)
@@ -82,17 +82,17 @@ ComparisonOptions optionsOf(const CompareCommand& command, const LoadedScene& lo
 }
 
 /// \param names separated by commas; empty: the usual ones
-std::vector<OrderUnderTest> chosenOrders(const std::string& names) {
-    std::vector<OrderUnderTest> known = allOrders();
-    if (names.empty()) return usualOrders();
-    std::vector<OrderUnderTest> chosen;
+std::vector<PolicyUnderTest> chosenPolicies(const std::string& names) {
+    std::vector<PolicyUnderTest> known = allPolicies();
+    if (names.empty()) return usualPolicies();
+    std::vector<PolicyUnderTest> chosen;
     std::istringstream list(names);
     for (std::string name; std::getline(list, name, ',');) {
         const auto found = std::find_if(known.begin(), known.end(),
-                                        [&](const auto& order) { return order.name == name; });
+                                        [&](const auto& policy) { return policy.name == name; });
         if (found == known.end()) {
             std::string all;
-            for (const auto& order : known) all += (all.empty() ? "" : ", ") + order.name;
+            for (const auto& policy : known) all += (all.empty() ? "" : ", ") + policy.name;
             throw CLI::ValidationError("--orders",
                                        fmt::format("no order '{}' (there are {})", name, all));
         }
@@ -135,7 +135,7 @@ ReportOptions reportOptions(const CompareCommand& command, const ComparisonResul
          fmt::format("{}, {}", result.elements, askedFor(command.solve.meshing.elementSize))},
         {"patches",
          fmt::format("{}, {}", result.patches, askedFor(command.solve.meshing.patchSize))},
-        {"lamps", std::to_string(result.lamps)},
+        {"lamps", std::to_string(result.lights)},
         {"light", solver.directOnly ? "direct only" : "direct and indirect"},
         {"visibility samples", std::to_string(solver.samples)},
         {"residual", solver.residual > 0 ? fmt::format("{}", solver.residual) : "default"},
@@ -165,10 +165,10 @@ void run(CompareCommand command) {
     if (command.height == 0)
         command.height = heightFor(placed, command.camera, command.solve.scene, command.width);
     const Playback playback = playbackOf(command, loaded);
-    const std::vector<OrderUnderTest> orders = chosenOrders(command.orders);
+    const std::vector<PolicyUnderTest> policies = chosenPolicies(command.policies);
     const ComparisonResult result =
-        compareOrders(playback, orders, optionsOf(command, loaded),
-                      [&](const char* phase, double done) { progress.show(phase, done); });
+        comparePolicies(playback, policies, optionsOf(command, loaded),
+                        [&](const char* phase, double done) { progress.show(phase, done); });
     progress.clear();
     const ReportOptions report = reportOptions(command, result);
     writeFileAtomically(command.json, comparisonJson(result, report));
@@ -177,7 +177,7 @@ void run(CompareCommand command) {
     const std::string unseen = whatIsNotSeen(result);
     if (!unseen.empty()) fmt::print(stderr, "{}: {}\n", command.solve.scene, unseen);
     if (seenEdits(result).empty()) return;
-    for (const OrderFigures& f : figuresOf(result))
+    for (const PolicyFigures& f : figuresOf(result))
         fmt::print(stderr, "{:<12} area {:.4f}, {} rays' worth to 10 % of the error, {} in all\n",
                    f.name, f.area, f.work10 < 0 ? "never" : fmt::format("{:.0f}", f.work10),
                    fmt::format("{:.0f}", f.work));
@@ -222,12 +222,12 @@ void addCompareCommand(CLI::App& app) {
                      "Of the pictures [pixels] (default: as the camera's film is shaped)")
         ->check(CLI::Range(16, 4096));
     compare
-        ->add_option("--looks", command->looks,
+        ->add_option("--looks", command->growth,
                      "The picture is looked at each time the work has grown by this factor")
         ->capture_default_str()
         ->check(CLI::Range(1.01, 10.0));
     compare->add_option(
-        "--orders", command->orders,
+        "--orders", command->policies,
         "Orders to compare, with commas: plain, importance, random (random2 ... random5),\n"
         "bound, geometry, oracle, or importance without one of its factors: no-change, no-look,\n"
         "no-contrast, no-size, no-frustum, no-occlusion, no-eccentricity, no-proximity\n"

@@ -25,18 +25,18 @@ Json orNull(double value) {
     return value < 0 ? Json() : Json(value);
 }
 
-Json orderJson(const OrderResult& order, const OrderFigures& figures,
-               const std::vector<double>& frames) {
+Json policyJson(const PolicyResult& policy, const PolicyFigures& figures,
+                const std::vector<double>& frames) {
     Json edits = Json::array();
-    for (std::size_t i = 0; i < order.frames.size(); ++i) {
+    for (std::size_t i = 0; i < policy.frames.size(); ++i) {
         Json samples = Json::array();
-        for (const ErrorSample& sample : order.frames[i]) samples.push_back(sampleJson(sample));
+        for (const ErrorSample& sample : policy.frames[i]) samples.push_back(sampleJson(sample));
         edits.push_back({{"frame", frames[i]},
-                         {"work", order.work[i]},
-                         {"seconds", order.seconds[i]},
+                         {"work", policy.work[i]},
+                         {"seconds", policy.seconds[i]},
                          {"samples", std::move(samples)}});
     }
-    return {{"order", order.name},
+    return {{"order", policy.name},
             {"area", orNull(figures.area)},
             {"work_to_10_percent", orNull(figures.work10)},
             {"work_to_1_percent", orNull(figures.work1)},
@@ -63,12 +63,12 @@ std::string comparisonJson(const ComparisonResult& result, const ReportOptions& 
     json["machine"] = factsJson(report.machine);
     json["elements"] = result.elements;
     json["patches"] = result.patches;
-    json["lamps"] = result.lamps;
+    json["lamps"] = result.lights;
     json["pixels_per_degree"] = result.pixelsPerDegree;
-    const std::vector<OrderFigures> figures = figuresOf(result);
+    const std::vector<PolicyFigures> figures = figuresOf(result);
     json["orders"] = Json::array();
-    for (std::size_t i = 0; i < result.orders.size(); ++i)
-        json["orders"].push_back(orderJson(result.orders[i], figures[i], result.frames));
+    for (std::size_t i = 0; i < result.policies.size(); ++i)
+        json["orders"].push_back(policyJson(result.policies[i], figures[i], result.frames));
     return json.dump(1) + "\n";
 }
 

@@ -1,10 +1,10 @@
-#include "io/UsdScene.h"
-#include "radiosity/LightAccount.h"
-#include "radiosity/LightShapes.h"
-#include "radiosity/NearestDrawn.h"
-#include "radiosity/Parallel.h"
+#include "base/Error.h"
+#include "base/Parallel.h"
+#include "io/usd/scene/UsdScene.h"
+#include "radiosity/mesh/LightShapes.h"
+#include "radiosity/query/LightAccount.h"
+#include "radiosity/query/NearestDrawn.h"
 #include "scenegraph/Camera.h"
-#include "scenegraph/Error.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Mesh.h"
 #include "scenegraph/Objects.h"
@@ -46,19 +46,19 @@ std::optional<glm::vec3> pointOf(const std::string& text) {
 }
 
 /// One line a lamp, in the units people compare: nits, lumens, and lux one metre in front.
-void printLamp(const std::string& path, const char* kind, Rgb nits, double area) {
+void printLight(const std::string& path, const char* kind, Rgb nits, double area) {
     const double y = luminance(nits);
     fmt::print("  {:<40} {:<6} {:>10.4g} nit {:>10.4g} lm {:>10.4g} lux at 1 m\n", path, kind, y,
                std::numbers::pi * y * area, y * area);
 }
 
-void printLamps(const PlacedScene& placed) {
+void printLights(const PlacedScene& placed) {
     for (const auto& light : placed.lights) {
         static constexpr const char* kKinds[] = {"rect", "disk", "sphere"};
         const Emitter emitter = lightEmitter(*light.node, light.toWorld);
         const bool sphere = emitter.kind == Emitter::Kind::sphere;
-        printLamp(light.path, kKinds[light.node->shape().index()], light.node->luminance(),
-                  emitter.area / (sphere ? 4 : 1)); // a sphere shows pi r^2, a quarter of its area
+        printLight(light.path, kKinds[light.node->shape().index()], light.node->luminance(),
+                   emitter.area / (sphere ? 4 : 1)); // a sphere shows pi r^2, a quarter of its area
     }
 }
 
@@ -89,7 +89,7 @@ void describeScene(const SolveSettings& command) {
     fmt::print("  {} objects, {} meshes ({} subdivision cages, {} emissive), {} faces, {} points\n",
                placed.objects.size(), placed.meshes.size(), cages, emissive, faces, points);
     fmt::print("  {} lamps\n", placed.lights.size());
-    printLamps(placed);
+    printLights(placed);
     fmt::print("  {} cameras\n", placed.cameras.size());
     for (const auto& camera : placed.cameras) fmt::print("  {}\n", camera.path);
     if (command.verbose)
@@ -118,14 +118,14 @@ void printRow(const std::string& name, Rgb unoccluded, Rgb arrives) {
 }
 
 /// What single objects take of a lamp. Those below 1 % of it share a line.
-void printLosses(const PatchSet& patches, const LampAccount& lamp) {
-    const double all = luminance(lamp.unoccluded);
+void printLosses(const PatchSet& patches, const EmitterAccount& light) {
+    const double all = luminance(light.unoccluded);
     const auto print = [&](const std::string& name, double lux) {
         fmt::print("    {:<64} {:>10.4g} {:>5.1f} %\n", name, lux, 100 * lux / all);
     };
     double rest = 0;
     std::size_t others = 0;
-    for (const LightLoss& loss : lamp.losses) {
+    for (const LightLoss& loss : light.losses) {
         const double lux = luminance(loss.lux);
         if (lux >= 0.01 * all)
             print("to " + nameOf(patches, loss.object), lux);
@@ -140,14 +140,14 @@ void printAccount(const SceneSolution& solution, const DrawnHit& at, bool direct
     fmt::print("\n  {:<44} {:>10} {:>10} {:>10}\n", "[lux]", "unoccluded", "arrives", "lost");
     Rgb unoccluded, arrives, indirect;
     std::vector<std::string> silent;
-    for (const LampAccount& lamp : accountForLight(patches, solution.solver().direct(), at)) {
-        unoccluded += lamp.unoccluded;
-        arrives += lamp.arrives;
-        if (luminance(lamp.unoccluded) > 0) {
-            printRow(lamp.path, lamp.unoccluded, lamp.arrives);
-            printLosses(patches, lamp);
+    for (const EmitterAccount& light : accountForLight(patches, solution.solver().direct(), at)) {
+        unoccluded += light.unoccluded;
+        arrives += light.arrives;
+        if (luminance(light.unoccluded) > 0) {
+            printRow(light.path, light.unoccluded, light.arrives);
+            printLosses(patches, light);
         } else {
-            silent.push_back(lamp.path);
+            silent.push_back(light.path);
         }
     }
     for (const std::string& path : silent)

@@ -1,6 +1,6 @@
 #include "tools/SceneSolution.h"
 
-#include "scenegraph/Error.h"
+#include "base/Error.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -58,14 +58,14 @@ void addSolveOptions(CLI::App& command, SolveSettings& settings) {
     command.add_flag("--direct-only", settings.solver.directOnly,
                      "Light straight from the emitters, no interreflection");
     command
-        .add_option("--order", settings.order,
+        .add_option("--order", settings.policy,
                     "What is worked on first after an edit: what the viewer gains most from\n"
                     "(importance), sender by sender (plain), or anything (random).\n"
                     "Changes what is right when, not what comes out (default: importance)")
         ->transform(CLI::CheckedTransformer(
-                        std::map<std::string, UpdateOrder>{{"importance", UpdateOrder::importance},
-                                                           {"plain", UpdateOrder::plain},
-                                                           {"random", UpdateOrder::random}})
+                        std::map<std::string, PolicyKind>{{"importance", PolicyKind::importance},
+                                                          {"plain", PolicyKind::plain},
+                                                          {"random", PolicyKind::random}})
                         .description("{importance,plain,random}"))
         ->type_name("NAME");
     command
@@ -88,12 +88,12 @@ void addSolveOptions(CLI::App& command, SolveSettings& settings) {
 
 void checkOutputs(const std::string& scene, const std::vector<std::string>& outputs) {
     namespace fs = std::filesystem;
-    const auto placeOf = [](const fs::path& path) {
+    const auto clusterOf = [](const fs::path& path) {
         std::error_code none; // a pipe given as a file, /dev/fd/63, has no canonical name
         const fs::path place = fs::weakly_canonical(path, none);
         return none ? path : place;
     };
-    std::vector<fs::path> taken{placeOf(scene)};
+    std::vector<fs::path> taken{clusterOf(scene)};
     for (const std::string& output : outputs) {
         if (output.empty() || output == "-") continue;
         const fs::path folder = fs::path(output).parent_path();
@@ -102,7 +102,7 @@ void checkOutputs(const std::string& scene, const std::vector<std::string>& outp
                                     output, folder.string()));
         if (fs::is_directory(output))
             throw Error(fmt::format("{}: error: can't write: is a folder (name a file)", output));
-        const fs::path place = placeOf(output);
+        const fs::path place = clusterOf(output);
         if (std::find(taken.begin(), taken.end(), place) != taken.end() &&
             fs::path(output) != "/dev/null")
             throw CLI::ValidationError(output, "would overwrite the scene or another result");
@@ -203,8 +203,8 @@ void SceneSolution::mesh(const MeshingOptions& meshing) {
         try {
             SolverOptions solving = settings_.solver;
             if (solving.residual == 0) solving.residual = loaded_.scene->residual;
-            if (loaded_.scene->order == "plain") solving.order = UpdateOrder::plain;
-            if (settings_.order) solving.order = *settings_.order;
+            if (loaded_.scene->policy == "plain") solving.policy = PolicyKind::plain;
+            if (settings_.policy) solving.policy = *settings_.policy;
             lit_ = std::make_unique<LitScene>(placed_, meshing, solving);
         } catch (const Error& error) {
             progress_.clear();

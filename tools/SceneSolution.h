@@ -1,8 +1,8 @@
 // What render and solve have in common: options, and the way from a file to a solution.
 #pragma once
 
-#include "io/UsdScene.h"
-#include "radiosity/LitScene.h"
+#include "io/usd/scene/UsdScene.h"
+#include "radiosity/transport/LitScene.h"
 #include "scenegraph/Objects.h"
 #include "tools/ProgressBar.h"
 
@@ -31,7 +31,7 @@ struct SolveSettings {
     bool fromScratch = false;
     MeshingOptions meshing;
     SolverOptions solver;
-    std::optional<UpdateOrder> order; ///< none: what the file asks for, or importance
+    std::optional<PolicyKind> policy; ///< none: what the file asks for, or importance
     unsigned threads = 0;
     std::string stats;
     bool verbose = false;

@@ -1,7 +1,7 @@
 #include "tools/SensorFile.h"
 
-#include "io/AtomicFile.h"
-#include "scenegraph/Error.h"
+#include "base/Error.h"
+#include "io/image/AtomicFile.h"
 
 #include <fmt/format.h>
 

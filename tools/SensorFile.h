@@ -1,8 +1,8 @@
 // Sensor lists and their values, as CSV.
 #pragma once
 
-#include "radiosity/PatchSet.h"
-#include "scenegraph/Rgb.h"
+#include "base/Rgb.h"
+#include "radiosity/mesh/PatchSet.h"
 
 #include <span>
 #include <string>

@@ -1,6 +1,6 @@
 #include "tools/Statistics.h"
 
-#include "io/AtomicFile.h"
+#include "io/image/AtomicFile.h"
 #include "tools/SceneSolution.h"
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include "tools/Commands.h"
 #include "tools/SceneSolution.h"
-#include "viewer/Viewer.h"
+#include "viewer/app/Viewer.h"
 
 #include <CLI/CLI.hpp>
 
@@ -22,9 +22,9 @@ void run(ViewCommand& command) {
     options.frame = command.solve.frame;
     options.light.meshing = command.solve.meshing;
     options.light.solving = command.solve.solver;
-    options.order = command.solve.order;
+    options.policy = command.solve.policy;
     options.light.threads = command.solve.threads;
-    options.said = [&](const std::vector<Diagnostic>& diagnostics) {
+    options.reported = [&](const std::vector<Diagnostic>& diagnostics) {
         if (!command.solve.quiet) reportDiagnostics(diagnostics, command.solve.verbose);
     };
     runViewer(options);

@@ -2,18 +2,18 @@
 
 #include "LoadScene.h"
 
-#include "radiosity/EmitterSender.h"
-#include "radiosity/RadiosityNode.h"
 #include "radiosity/process/LightingLink.h"
+#include "radiosity/process/RadiosityNode.h"
+#include "radiosity/rows/EmitterSender.h"
 #include "scenegraph/Frustum.h"
-#include "viewer/Arrangements.h"
-#include "viewer/InteractiveRenderer.h"
-#include "viewer/LampChoice.h"
-#include "viewer/LiveStage.h"
-#include "viewer/LiveVertices.h"
-#include "viewer/OffscreenContext.h"
-#include "viewer/ShownLight.h"
-#include "viewer/Walkthrough.h"
+#include "viewer/app/InteractiveRenderer.h"
+#include "viewer/gl/OffscreenContext.h"
+#include "viewer/input/Walkthrough.h"
+#include "viewer/preview/PreviewLightChoice.h"
+#include "viewer/preview/PreviewScene.h"
+#include "viewer/preview/RayPreview.h"
+#include "viewer/preview/SceneStates.h"
+#include "viewer/preview/ShownLight.h"
 
 #include <algorithm>
 #include <chrono>
@@ -31,7 +31,7 @@ constexpr float kSeen = 0.99999f; ///< of a lamp: nothing is in the way, up to r
 
 class Comparison {
 public:
-    Comparison(const std::string& scene, LiveBy by, float elementSize, glm::ivec2 size)
+    Comparison(const std::string& scene, PreviewMethod by, float elementSize, glm::ivec2 size)
         : walk_(loadScene(scene)), by_(by), size_(size),
           renderer_({.samples = 1, .precision = HdrTarget::Precision::single}) {
         options_.meshing = {.patchSize = float(walk_.scene().patchSize),
@@ -45,15 +45,16 @@ public:
 
     Consistency compare() {
         settle(); // meshes that shine are known when they are lit
-        for (const Lamp& lamp : lampsDrawable(*node_, by_)) lamps_.push_back(lamp.path);
-        const std::size_t atOnce = lampLimits(by_).most;
-        for (std::size_t first = 0; first < lamps_.size(); first += atOnce) {
-            const std::size_t end = std::min(first + atOnce, lamps_.size());
-            group_.assign(lamps_.begin() + std::ptrdiff_t(first),
-                          lamps_.begin() + std::ptrdiff_t(end));
+        for (const PreviewLight& source : previewableLights(*node_, by_))
+            lights_.push_back(source.path);
+        const std::size_t atOnce = previewLimits(by_).most;
+        for (std::size_t first = 0; first < lights_.size(); first += atOnce) {
+            const std::size_t end = std::min(first + atOnce, lights_.size());
+            group_.assign(lights_.begin() + std::ptrdiff_t(first),
+                          lights_.begin() + std::ptrdiff_t(end));
             compareGroup();
         }
-        Consistency result{lamps_.size(), differences_.size()};
+        Consistency result{lights_.size(), differences_.size()};
         if (differences_.empty()) return result;
         std::sort(differences_.begin(), differences_.end());
         for (const double difference : differences_)
@@ -73,7 +74,7 @@ private:
             node_->update();
             const RadiosityState& state = node_->state();
             const bool done = state.phase == RadiosityState::Phase::settled && state.complete &&
-                              state.lampsMarked && state.queued == 0;
+                              state.dirtyMarked && state.queued == 0;
             still = done ? still + 1 : 0;
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
@@ -88,30 +89,31 @@ private:
             const std::size_t vertices = objects[o].geometry->data().positions.size();
             for (std::size_t v = 0; v < vertices; ++v) to.direct.push_back(light(o, v));
             to.indirect.assign(vertices, Rgb());
-            to.factors.assign(vertices, LampFactors());
+            to.factors.assign(vertices, LightFactors());
             to.behind.assign(vertices, 0);
             to.blockRevisions.assign(objects[o].geometry->blockRevisions().size(), ++revision_);
             to.revision = revision_;
         }
     }
-    std::vector<Rgb> draw(const LiveLight& live) {
+    std::vector<Rgb> draw(const PreviewLighting& preview) {
         const View view = walk_.rig().view(size_.x, size_.y);
         DrawList list = listVisible(node_->lit(), Frustum(view.worldToClip()));
-        LiveVertices vertices(options_.solving.samples, [this] { return node_->patches(); });
-        const bool rays = by_ == LiveBy::rays && live.active();
+        RayPreview vertices(options_.solving.samples, [this] { return node_->patches(); });
+        const bool rays = by_ == PreviewMethod::rays && preview.active();
         if (rays)
-            vertices.update(live, [&](const LitGeometry& geometry) { return &shown_[&geometry]; });
+            vertices.update(preview,
+                            [&](const LitGeometry& geometry) { return &shown_[&geometry]; });
         for (DrawItem& item : list.items) {
             const ShownLight* const brought = rays ? vertices.shown(*item.geometry) : nullptr;
             item.shown = brought ? brought : &shown_[item.geometry];
         }
-        renderer_.drawScene(list, view, {}, size_.x, size_.y, rays ? LiveLight() : live);
+        renderer_.drawScene(list, view, {}, size_.x, size_.y, rays ? PreviewLighting() : preview);
         return renderer_.readLuminances();
     }
-    Rgb exitance(std::size_t lamp) const { return exitanceOf(node_->placed(), group_[lamp]); }
+    Rgb exitance(std::size_t source) const { return exitanceOf(node_->placed(), group_[source]); }
     /// Nothing is in the way of any of the lamps, as far as it shines there at all.
     using Senders = std::vector<std::vector<EmitterSender>>; ///< by lamp
-    bool sees(const LiveStage& stage, const Senders& senders, std::uint32_t object,
+    bool sees(const PreviewScene& stage, const Senders& senders, std::uint32_t object,
               std::size_t vertex) const {
         if (vertex >= stage.vertices(object)) return false; // something touches it
         const LitMeshData& data = node_->objects()[object].geometry->data();
@@ -119,40 +121,42 @@ private:
         for (std::size_t l = 0; l < senders.size(); ++l) {
             float all = 0;
             for (const EmitterSender& sender : senders[l]) all += sender.formFactor(receiver);
-            if (data.lamps[l].factor[vertex] < kSeen * all) return false;
+            if (data.lights[l].factor[vertex] < kSeen * all) return false;
         }
         return true;
     }
     /// As if the lamps had been dark before, so that all of their light is drawn live.
-    LiveLight live(const ArrangementPtr& now) const {
-        LiveLight live;
-        for (const LitObject& object : node_->objects()) live.objects.push_back({object.geometry});
-        for (std::size_t l = 0; l < group_.size(); ++l) live.lamps.push_back({exitance(l), true});
-        live.now = now;
-        auto dark = std::make_shared<Arrangement>(*now);
-        for (auto& lamp : dark->lamps) lamp.clear();
-        live.anchors.push_back({std::move(dark), 1, 0});
-        return live;
+    PreviewLighting preview(const SceneStatePtr& now) const {
+        PreviewLighting preview;
+        for (const LitObject& object : node_->objects())
+            preview.objects.push_back({object.geometry});
+        for (std::size_t l = 0; l < group_.size(); ++l)
+            preview.lights.push_back({exitance(l), true});
+        preview.now = now;
+        auto dark = std::make_shared<SceneState>(*now);
+        for (auto& source : dark->lights) source.clear();
+        preview.anchors.push_back({std::move(dark), 1, 0});
+        return preview;
     }
     void compareGroup() {
-        node_->setLiveLamps(group_);
+        node_->setPreviewLights(group_);
         settle();
-        const auto now = std::make_shared<const Arrangement>(arrangementOf(*node_, group_));
-        LiveStage stage(*node_->patches());
-        stage.stand(*now);
-        Senders senders(now->lamps.size());
+        const auto now = std::make_shared<const SceneState>(sceneStateOf(*node_, group_));
+        PreviewScene stage(*node_->patches());
+        stage.pose(*now);
+        Senders senders(now->lights.size());
         for (std::size_t l = 0; l < senders.size(); ++l)
-            for (const Emitter& emitter : now->lamps[l]) senders[l].emplace_back(emitter, 16, 16);
+            for (const Emitter& emitter : now->lights[l]) senders[l].emplace_back(emitter, 16, 16);
         show([&](std::uint32_t object, std::size_t vertex) {
             const LitMeshData& data = node_->objects()[object].geometry->data();
             Rgb sum;
             for (std::size_t l = 0; l < group_.size(); ++l)
-                sum = sum + exitance(l) * data.lamps[l].factor[vertex];
+                sum = sum + exitance(l) * data.lights[l].factor[vertex];
             return sum;
         });
         const std::vector<Rgb> exact = draw({});
         show([](std::uint32_t, std::size_t) { return Rgb(); });
-        const std::vector<Rgb> fast = draw(live(now));
+        const std::vector<Rgb> fast = draw(preview(now));
         show([&](std::uint32_t object, std::size_t vertex) {
             return Rgb(sees(stage, senders, object, vertex) ? 0.0f : 1.0f);
         });
@@ -166,12 +170,12 @@ private:
 
     OffscreenContext context_;
     Walkthrough walk_;
-    LiveBy by_;
+    PreviewMethod by_;
     glm::ivec2 size_;
     InteractiveRenderer renderer_;
     RadiosityOptions options_;
     std::shared_ptr<RadiosityNode> node_;
-    std::vector<std::string> lamps_, group_;
+    std::vector<std::string> lights_, group_;
     std::map<const LitGeometry*, ShownLight> shown_;
     std::uint64_t revision_ = 0;
     std::vector<double> differences_;
@@ -179,7 +183,8 @@ private:
 
 } // namespace
 
-Consistency consistency(const std::string& scene, LiveBy by, float elementSize, glm::ivec2 size) {
+Consistency consistency(const std::string& scene, PreviewMethod by, float elementSize,
+                        glm::ivec2 size) {
     return Comparison(scene, by, elementSize, size).compare();
 }
 

@@ -2,15 +2,15 @@
 
 #include "LoadScene.h"
 
-#include "io/UsdScene.h"
+#include "base/Error.h"
+#include "io/image/AutoExposure.h"
+#include "io/usd/scene/UsdScene.h"
 #include "radiosity/process/LightingLink.h"
-#include "scenegraph/Error.h"
 #include "scenegraph/Transform.h"
-#include "viewer/AutoExposure.h"
-#include "viewer/InteractiveRenderer.h"
-#include "viewer/OffscreenContext.h"
-#include "viewer/WalkLight.h"
-#include "viewer/Walkthrough.h"
+#include "viewer/app/InteractiveRenderer.h"
+#include "viewer/app/WalkLight.h"
+#include "viewer/gl/OffscreenContext.h"
+#include "viewer/input/Walkthrough.h"
 
 #include <epoxy/gl.h>
 
@@ -41,7 +41,7 @@ public:
           renderer_({.samples = 1, .precision = HdrTarget::Precision::single}) {
         if (!script.camera.empty()) walk_.goTo(script.camera, script.scene);
         makeLight();
-        for (const auto& place : walk_.loaded().addresses.places)
+        for (const auto& place : walk_.loaded().addresses.transforms)
             if (place.prim == script.object) thing_ = place.node;
         if (!thing_) throw Error(script.scene + ": there is no '" + script.object + "' to move");
         start_ = thing_->matrix();
@@ -110,8 +110,8 @@ private:
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
     }
-    void draw(const DrawList& list, const LiveLight& live = {}) {
-        renderer_.drawScene(list, view(), {}, options_.size.x, options_.size.y, live);
+    void draw(const DrawList& list, const PreviewLighting& preview = {}) {
+        renderer_.drawScene(list, view(), {}, options_.size.x, options_.size.y, preview);
     }
     std::vector<float> drawn() {
         std::vector<float> luminances;
@@ -133,11 +133,11 @@ private:
         walk_.advance(kFrame);
         light_->update(walk_, view());
         const Frustum frustum(view().worldToClip());
-        draw(light_->listVisible(frustum), light_->live());
+        draw(light_->listVisible(frustum), light_->preview());
         glFinish();
         if (times) times->add(since(begin), double(std::clock() - worked) / CLOCKS_PER_SEC);
         result_.frames.push_back({drawn(), {}});
-        result_.lamps = std::max(result_.lamps, light_->lampsDrawnLive());
+        result_.lights = std::max(result_.lights, light_->lightsPreviewed());
         poses_.push_back(thing_->matrix());
         std::this_thread::sleep_until(begin + std::chrono::duration<double>(kFrame));
     }
@@ -169,7 +169,7 @@ private:
         return int(std::lround(255 * std::pow(shown, 1 / 2.2)));
     }
     void compareFromScratch() {
-        draw(light_->listVisible(Frustum(view().worldToClip())), light_->live());
+        draw(light_->listVisible(Frustum(view().worldToClip())), light_->preview());
         const std::vector<float> after = drawn();
         light_.reset();
         makeLight();

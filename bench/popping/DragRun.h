@@ -3,7 +3,7 @@
 
 #include "PopFigures.h"
 
-#include "viewer/LightBlend.h"
+#include "viewer/preview/LightBlend.h"
 
 #include <glm/glm.hpp>
 
@@ -72,7 +72,7 @@ struct DragResult {
     double settledSeconds = 0; ///< until all light is settled, shown, and at rest
     std::string card;          ///< what drew, as OpenGL calls it
     std::size_t elements = 0;
-    std::size_t lamps = 0;            ///< drawn live
+    std::size_t lights = 0;           ///< drawn live
     FrameTimes idle, turning, motion; ///< when nothing moves, when the camera turns, in motion
     /// Bytes of light that are copied to the graphics card: a frame in motion, and all told from
     /// the release on.

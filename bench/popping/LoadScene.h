@@ -1,7 +1,7 @@
 // A scene of scenes/, read.
 #pragma once
 
-#include "viewer/SceneLoader.h"
+#include "viewer/input/SceneLoader.h"
 
 #include <string>
 

@@ -22,8 +22,8 @@
 #include "Consistency.h"
 #include "DragRun.h"
 
-#include "io/PngWriter.h"
-#include "scenegraph/Error.h"
+#include "base/Error.h"
+#include "io/image/PngWriter.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -132,19 +132,20 @@ void report(const DragScript& script, const char* variant, const DragResult& r) 
     std::fflush(stdout);
 }
 
-void reportConsistency(const std::string& scene, LiveBy by, float elementSize, glm::ivec2 size) {
+void reportConsistency(const std::string& scene, PreviewMethod by, float elementSize,
+                       glm::ivec2 size) {
     const Consistency found = consistency(scene, by, elementSize, size);
     std::printf("%-8s %s: %zu lamps, %zu pixels in no shadow: mean %.3f %%, median %.3f %%, 99 %% "
                 "of them %.3f %%, "
                 "most %.2f %%, above 1 %%: %.2f %%\n",
-                scene.c_str(), by == LiveBy::rays ? "rays" : "maps", found.lamps, found.pixels,
-                100 * found.mean, 100 * found.median, 100 * found.p99, 100 * found.most,
-                100 * found.beyond);
+                scene.c_str(), by == PreviewMethod::rays ? "rays" : "maps", found.lights,
+                found.pixels, 100 * found.mean, 100 * found.median, 100 * found.p99,
+                100 * found.most, 100 * found.beyond);
 }
 
 int run(int argc, char** argv) {
     std::string only;
-    LiveBy by = LiveBy::maps;
+    PreviewMethod by = PreviewMethod::maps;
     glm::ivec2 size{640, 360};
     float elementSize = 0;
     bool indirect = true, motion = false, consistent = false;
@@ -154,7 +155,7 @@ int run(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) {
         const std::string argument = argv[i];
         if (argument == "--rays")
-            by = LiveBy::rays;
+            by = PreviewMethod::rays;
         else if (argument == "--direct-only")
             indirect = false;
         else if (argument == "--motion")
@@ -187,7 +188,7 @@ int run(int argc, char** argv) {
         if (indirect) script.after = kAfterIndirect;
         for (const Variant& variant : kVariants) {
             const auto number = int(&variant - kVariants.data());
-            const char* const name = by == LiveBy::rays ? variant.byRays : variant.byMaps;
+            const char* const name = by == PreviewMethod::rays ? variant.byRays : variant.byMaps;
             if (!name || (variantWanted >= 0 && variantWanted != number)) continue;
             DragOptions options;
             options.motion = motion;
@@ -200,7 +201,7 @@ int run(int argc, char** argv) {
             const DragResult result = runDrag(script, options);
 
             std::printf("%s: %zu elements, %zu lamps drawn live, by %s\n", script.scene.c_str(),
-                        result.elements, result.lamps, result.card.c_str());
+                        result.elements, result.lights, result.card.c_str());
             report(script, name, result);
             if (!keep.empty())
                 keepFrames(result, options.size, keep + "/" + script.scene + std::to_string(number),

@@ -1,7 +1,7 @@
 #include "radiosity/process/LightingClient.h"
 
-#include "radiosity/process/Doorbell.h"
-#include "scenegraph/Error.h"
+#include "base/Error.h"
+#include "radiosity/process/memory/Doorbell.h"
 
 #include <algorithm>
 #include <chrono>
@@ -17,7 +17,7 @@ namespace penumbra {
 namespace {
 
 // Keys of messages that replace each other; those of edits are smaller, see keyOf().
-constexpr std::uint64_t kCameraKey = std::uint64_t(1) << 62, kLampsKey = kCameraKey + 1,
+constexpr std::uint64_t kCameraKey = std::uint64_t(1) << 62, kLightsKey = kCameraKey + 1,
                         kWorkKey = kCameraKey + 2;
 
 constexpr double kStart = 20;                           ///< a process has so long to begin [s]
@@ -94,8 +94,8 @@ void LightingClient::launch() {
         link_->start(control_, {options_.threads, options_.niceness});
         sendScene();
         if (hasCamera_) setCamera(camera_);
-        if (!lamps_.empty()) queue_.push_back({kLampsKey, lamps_, nullptr});
-        if (question_ != 0) watchWork(question_);
+        if (!lights_.empty()) queue_.push_back({kLightsKey, lights_, nullptr});
+        if (question_ != 0) watchDirty(question_);
     } catch (const Error& error) {
         failed(error.what());
     } catch (const std::bad_alloc&) {
@@ -108,7 +108,7 @@ void LightingClient::failed(const std::string& why) {
     control_.reset();
     ring_.reset();
     grantedRegion_.reset();
-    if (!std::exchange(saidFailure_, true))
+    if (!std::exchange(reportedFailure_, true))
         say("radiosity: " + why + "; starting anew, with the light that there is until then");
     ++restarts_;
     retryAt_ = seconds() + retryDelay_;
@@ -163,18 +163,18 @@ void LightingClient::setCamera(const View& view) {
     if (control_) queue(kCameraKey, std::move(body));
 }
 
-void LightingClient::setLiveLamps(const std::vector<std::string>& paths, std::uint32_t serial) {
-    ByteWriter body = messageOf(MessageKind::liveLamps);
+void LightingClient::setPreviewLights(const std::vector<std::string>& paths, std::uint32_t serial) {
+    ByteWriter body = messageOf(MessageKind::previewLights);
     body.put(serial);
     body.put(std::uint64_t(paths.size()));
     for (const std::string& path : paths) body.text(path);
-    lamps_ = body.bytes();
-    if (control_) queue(kLampsKey, std::move(body));
+    lights_ = body.bytes();
+    if (control_) queue(kLightsKey, std::move(body));
 }
 
-void LightingClient::watchWork(std::uint32_t question) {
+void LightingClient::watchDirty(std::uint32_t question) {
     question_ = question;
-    sendValue(kWorkKey, MessageKind::watchWork, question);
+    sendValue(kWorkKey, MessageKind::watchDirty, question);
 }
 
 void LightingClient::send(MessageKind kind, std::uint32_t value) {
@@ -255,7 +255,7 @@ void LightingClient::watch(double passed) {
     silence_ = std::exchange(beat_, beat) == beat ? silence_ + passed : 0;
     standstill_ = std::exchange(turns_, turns) == turns ? standstill_ + passed : 0;
     if (beat == 0 && link_->byHand()) return;
-    if (silence_ > (beat == 0 ? kStart : options_.patience))
+    if (silence_ > (beat == 0 ? kStart : options_.timeout))
         return failed("the process does not answer");
     if (standstill_ > kStandstill && status_.phase != WorkerStatus::meshing)
         failed("the process is stuck");
@@ -271,11 +271,11 @@ void LightingClient::readStatus() {
         status_.phase == WorkerStatus::settled && knowsEdits(status_.lit) && opened_ == granted_;
     if (lit) {
         unlitSince_ = 0;
-        saidFailure_ = false;
+        reportedFailure_ = false;
     }
     const std::string trouble =
         status_.phase == WorkerStatus::failed ? status_.trouble.text() : std::string();
-    if (std::exchange(saidTrouble_, trouble) != trouble && !trouble.empty())
+    if (std::exchange(reportedTrouble_, trouble) != trouble && !trouble.empty())
         say("radiosity: " + trouble);
 }
 
@@ -317,8 +317,8 @@ RadiosityState LightingClient::state() const {
     state.certificate = status_.certificate;
     state.meanRadiosity = status_.meanRadiosity;
     state.queued = queue_.size() + std::size_t(serial_ - std::min(serial_, status_.taken));
-    state.openBlocks = status_.openBlocks;
-    state.lampsMarked = control_ && knowsEdits(status_.marked);
+    state.dirtyBlocks = status_.dirtyBlocks;
+    state.dirtyMarked = control_ && knowsEdits(status_.marked);
     state.complete = control_ && knowsEdits(status_.complete) && unlitSince_ == 0;
     state.age = unlitSince_ == 0 ? 0 : seconds() - unlitSince_;
     state.restarts = restarts_;

@@ -1,13 +1,13 @@
 // The node's end of the conversation with its worker.
 #pragma once
 
-#include "radiosity/process/ControlBlock.h"
-#include "radiosity/process/GraphImage.h"
-#include "radiosity/process/LightStore.h"
+#include "base/Bounds.h"
 #include "radiosity/process/LightingLink.h"
 #include "radiosity/process/LightingTask.h"
 #include "radiosity/process/RadiosityState.h"
-#include "scenegraph/Bounds.h"
+#include "radiosity/process/memory/ControlBlock.h"
+#include "radiosity/process/snapshot/SceneSnapshot.h"
+#include "radiosity/process/store/LightStore.h"
 #include "scenegraph/Camera.h"
 
 #include <cstdint>
@@ -42,9 +42,9 @@ public:
     void invalidate(const Bounds& box);
     void setCamera(const View& view);
     void send(MessageKind kind, std::uint32_t value);
-    void setLiveLamps(const std::vector<std::string>& paths, std::uint32_t serial);
+    void setPreviewLights(const std::vector<std::string>& paths, std::uint32_t serial);
     /// Has open work published as an answer to a question of that number; 0: none any more.
-    void watchWork(std::uint32_t question);
+    void watchDirty(std::uint32_t question);
 
     /// To be called now and then: sends, looks after the worker, and at what it has to say.
     void turn();
@@ -84,7 +84,7 @@ private:
 
     bool running_ = false;  ///< is meant to be
     bool hopeless_ = false; ///< this scene can't be lit here
-    bool saidFailure_ = false;
+    bool reportedFailure_ = false;
     RegionPtr control_; ///< null: there is no worker
     std::optional<RingSender> ring_;
     std::vector<RegionPtr> sent_; ///< scenes on their way
@@ -93,8 +93,8 @@ private:
     std::uint64_t editSerial_ = 0; ///< of the last one that is no camera
     View camera_;
     bool hasCamera_ = false;
-    std::vector<std::byte> lamps_; ///< the last message about live lamps
-    std::uint32_t question_ = 0;   ///< the last one for open work
+    std::vector<std::byte> lights_; ///< the last message about live lamps
+    std::uint32_t question_ = 0;    ///< the last one for open work
 
     std::uint64_t granted_ = 0, opened_ = 0;
     RegionPtr grantedRegion_;
@@ -108,7 +108,7 @@ private:
     double unlitSince_ = 0; ///< steady clock [s]; 0: all is in the light
     double retryAt_ = 0, retryDelay_ = 0;
     unsigned restarts_ = 0;
-    std::string saidTrouble_;
+    std::string reportedTrouble_;
     std::vector<std::string> toSay_;
 };
 

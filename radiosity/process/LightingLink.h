@@ -1,7 +1,7 @@
 // How a RadiosityNode has its light computed: in a thread, or in a process.
 #pragma once
 
-#include "radiosity/process/Region.h"
+#include "radiosity/process/memory/Region.h"
 
 #include <filesystem>
 #include <memory>

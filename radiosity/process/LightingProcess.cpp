@@ -1,9 +1,9 @@
 #include "radiosity/process/LightingProcess.h"
 
-#include "radiosity/Parallel.h"
+#include "base/Error.h"
+#include "base/Parallel.h"
 #include "radiosity/process/LightingWorker.h"
-#include "radiosity/process/SharedRegions.h"
-#include "scenegraph/Error.h"
+#include "radiosity/process/memory/SharedRegions.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -46,9 +46,7 @@ public:
     Watch& operator=(const Watch&) = delete;
 
 private:
-    void leave() const {
-        _exit(0);
-    }
+    void leave() const { _exit(0); }
     pid_t viewer_;
     int handle_;
     std::jthread thread_;

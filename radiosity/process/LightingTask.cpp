@@ -4,10 +4,10 @@
 
 namespace penumbra {
 
-void write(ByteWriter& out, const LightingTask& task, const GraphImage& scene) {
+void write(ByteWriter& out, const LightingTask& task, const SceneSnapshot& scene) {
     // Named one by one: an option that is new does not compile before it is sent.
     const auto& [patchSize, elementSize, extent] = task.meshing;
-    const auto& [samples, residual, directOnly, order, detail, mostShots, rowMemory, flatPatches] =
+    const auto& [samples, residual, directOnly, policy, detail, mostShots, rowMemory, flatPatches] =
         task.solving;
     out.put(patchSize);
     out.put(elementSize);
@@ -15,7 +15,7 @@ void write(ByteWriter& out, const LightingTask& task, const GraphImage& scene) {
     out.put(std::int32_t(samples));
     out.put(residual);
     out.put(std::uint8_t(directOnly));
-    out.put(std::uint8_t(order));
+    out.put(std::uint8_t(policy));
     out.put(std::uint8_t(detail));
     out.put(mostShots);
     out.put(std::uint64_t(rowMemory));
@@ -36,17 +36,17 @@ std::optional<LightingTask> readLightingTask(ByteReader& in) {
     task.solving.samples = in.get<std::int32_t>();
     task.solving.residual = in.get<double>();
     task.solving.directOnly = in.get<std::uint8_t>() != 0;
-    const auto order = in.get<std::uint8_t>();
-    task.solving.order = UpdateOrder(order);
+    const auto policy = in.get<std::uint8_t>();
+    task.solving.policy = PolicyKind(policy);
     task.solving.detail = in.get<std::uint8_t>() != 0;
     task.solving.mostShots = in.get<std::uint64_t>();
     task.solving.rowMemory = in.get<std::uint64_t>();
     task.solving.flatPatches = in.get<std::uint64_t>();
     if (task.solving.samples < 1 || task.solving.samples > 64 ||
         !std::isfinite(task.solving.residual) || task.solving.residual < 0 ||
-        order > std::uint8_t(UpdateOrder::random))
+        policy > std::uint8_t(PolicyKind::random))
         return std::nullopt;
-    auto scene = readGraphImage(in);
+    auto scene = readSceneSnapshot(in);
     if (!scene) return std::nullopt;
     task.scene = std::move(*scene);
     return task;

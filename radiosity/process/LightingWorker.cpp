@@ -1,7 +1,7 @@
 #include "radiosity/process/LightingWorker.h"
 
-#include "radiosity/process/Doorbell.h"
-#include "scenegraph/Error.h"
+#include "base/Error.h"
+#include "radiosity/process/memory/Doorbell.h"
 #include "scenegraph/Objects.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kTurn = 0.008;            ///< [s]
 constexpr double kPromptTurn = 0.001;      ///< until something of an edit is published [s]
-constexpr double kBetweenLooks = 0.1;      ///< at the indirect light while it is relaxed [s]
+constexpr double kBetweenScans = 0.1;      ///< at the indirect light while it is relaxed [s]
 constexpr double kBetweenWork = 0.03;      ///< that open work is published [s]
 constexpr std::size_t kMostBlocks = 1024;  ///< published in one turn
 constexpr std::size_t kMostSums = 1 << 16; ///< of direct light in one turn [rays]
@@ -111,10 +111,10 @@ void LightingWorker::take(MessageKind kind, ByteReader& message) {
     case MessageKind::camera:
         viewer_.setCamera(message.get<View>());
         break;
-    case MessageKind::order: {
-        const auto order = message.get<std::uint32_t>();
-        if (order > std::uint32_t(UpdateOrder::random)) senseless("an order of work");
-        viewer_.setOrder(UpdateOrder(order));
+    case MessageKind::policy: {
+        const auto policy = message.get<std::uint32_t>();
+        if (policy > std::uint32_t(PolicyKind::random)) senseless("an order of work");
+        viewer_.setPolicy(PolicyKind(policy));
         break;
     }
     case MessageKind::grab: // what is in a hand is known by its moving
@@ -123,12 +123,12 @@ void LightingWorker::take(MessageKind kind, ByteReader& message) {
     case MessageKind::update:
         message.get<std::uint32_t>();
         break;
-    case MessageKind::watchWork:
+    case MessageKind::watchDirty:
         question_ = message.get<std::uint32_t>();
         nextWork_ = 0;
         break;
-    case MessageKind::liveLamps:
-        takeLamps(message);
+    case MessageKind::previewLights:
+        takeLights(message);
         break;
     default:
         message.fail();
@@ -142,19 +142,19 @@ void LightingWorker::takeScene(const std::string& name) {
     ByteReader reader(region->bytes());
     task_ = readLightingTask(reader);
     if (!task_) senseless("a scene");
-    viewer_.setOrder(task_->solving.order);
-    graph_ = std::make_unique<GraphCopy>(std::move(task_->scene));
+    viewer_.setPolicy(task_->solving.policy);
+    graph_ = std::make_unique<SceneReplica>(std::move(task_->scene));
     publisher_.reset();
     lit_.reset();
     edited_ = true;
 }
 
-void LightingWorker::takeLamps(ByteReader& message) {
-    lampSet_ = message.get<std::uint32_t>();
-    lamps_.resize(std::min(message.count(sizeof(std::uint64_t)), kMostLiveLamps));
-    for (std::string& path : lamps_) path = message.text();
-    viewer_.setWhole(!lamps_.empty());
-    if (publisher_) publisher_->setLiveLamps(lampSet_, lamps_);
+void LightingWorker::takeLights(ByteReader& message) {
+    previewSet_ = message.get<std::uint32_t>();
+    lights_.resize(std::min(message.count(sizeof(std::uint64_t)), kMostPreviewLights));
+    for (std::string& path : lights_) path = message.text();
+    viewer_.setWhole(!lights_.empty());
+    if (publisher_) publisher_->setPreviewLights(previewSet_, lights_);
     marked_ = false;
 }
 
@@ -173,7 +173,7 @@ void LightingWorker::followScene() {
     followed_ = status_.taken;
     pace_.taken(seconds());
     settled_ = complete_ = marked_ = shown_ = false;
-    nextLook_ = seconds() + kTurn; // its direct light comes first
+    nextScan_ = seconds() + kTurn; // its direct light comes first
     nextWork_ = 0;
     if (!graph_) return;
     if (!lit_) return build();
@@ -205,7 +205,7 @@ void LightingWorker::build() {
     objectFrames_.clear();
     for (const Object& object : placed.objects) objectFrames_.push_back(object.toWorld);
     publisher_ = std::make_unique<LightPublisher>(*lit_);
-    if (!lamps_.empty()) publisher_->setLiveLamps(lampSet_, lamps_);
+    if (!lights_.empty()) publisher_->setPreviewLights(previewSet_, lights_);
     directDone_ = false;
     requestStore();
 }
@@ -262,7 +262,7 @@ bool LightingWorker::work(double budget) {
 /// For those who watch: what is open now.
 void LightingWorker::showWork() {
     if (seconds() < nextWork_ || !publisher_->hasStore() || !mesh_.empty()) return;
-    publisher_->publishWork(question_);
+    publisher_->publishDirty(question_);
     nextWork_ = seconds() + kBetweenWork;
 }
 
@@ -274,19 +274,19 @@ void LightingWorker::solve(double budget) {
         directDone_ |= std::strcmp(phase, "direct light") != 0;
     };
     Solver& solver = lit_->solver();
-    viewer_.tell(solver, seconds());
+    viewer_.update(solver, seconds());
     bool done = false; // this much
     if (!settled_)
         done = settled_ = solver.stepUntilReady(budget, progress);
     else
         done = complete_ = solver.step(budget);
-    pace_.worked(seconds(), solver.direct().openKnown());
+    pace_.worked(seconds(), solver.direct().dirtyKnown());
     directDone_ |= settled_;
     if (!settled_) status_.phase = WorkerStatus::solving;
     if (directDone_) solver.sumUp(kMostSums); // the first light comes all at once
-    if (done || seconds() >= nextLook_) {
+    if (done || seconds() >= nextScan_) {
         publisher_->solverWorked(done);
-        nextLook_ = seconds() + kBetweenLooks;
+        nextScan_ = seconds() + kBetweenScans;
     } else {
         publisher_->directWorked();
     }
@@ -306,7 +306,7 @@ void LightingWorker::report() {
         status_.certificate = lit_->solver().certificate();
         status_.meanRadiosity = lit_->solver().meanRadiosity();
     }
-    status_.openBlocks = publisher_ ? std::uint32_t(publisher_->open()) : 0;
+    status_.dirtyBlocks = publisher_ ? std::uint32_t(publisher_->open()) : 0;
     control_.status.write(status_);
 }
 

@@ -1,13 +1,13 @@
 // The other side of a RadiosityNode: takes scenes and edits, gives light.
 #pragma once
 
-#include "radiosity/LitScene.h"
-#include "radiosity/process/ControlBlock.h"
 #include "radiosity/process/EditPace.h"
-#include "radiosity/process/GraphCopy.h"
-#include "radiosity/process/LightPublisher.h"
 #include "radiosity/process/LightingTask.h"
 #include "radiosity/process/ViewerAttention.h"
+#include "radiosity/process/memory/ControlBlock.h"
+#include "radiosity/process/snapshot/SceneReplica.h"
+#include "radiosity/process/store/LightPublisher.h"
+#include "radiosity/transport/LitScene.h"
 #include "scenegraph/Camera.h"
 
 #include <cstdint>
@@ -43,7 +43,7 @@ private:
     void receive();
     void take(MessageKind kind, ByteReader& message);
     void takeScene(const std::string& region);
-    void takeLamps(ByteReader& message);
+    void takeLights(ByteReader& message);
     void followScene();
     void build();
     void requestStore();
@@ -63,7 +63,7 @@ private:
     std::vector<std::byte> message_;
     std::uint32_t heard_ = 0; ///< what the doorbell said before the messages were looked at
 
-    std::unique_ptr<GraphCopy> graph_;
+    std::unique_ptr<SceneReplica> graph_;
     std::optional<LightingTask> task_; ///< its scene is in graph_
     std::unique_ptr<LitScene> lit_;
     std::unique_ptr<LightPublisher> publisher_;
@@ -72,8 +72,8 @@ private:
     ViewerAttention viewer_;
     std::uint32_t question_ = 0; ///< for open work; 0: nobody asks
     double nextWork_ = 0;        ///< when it is published again, steady clock [s]
-    std::uint32_t lampSet_ = 0;
-    std::vector<std::string> lamps_;
+    std::uint32_t previewSet_ = 0;
+    std::vector<std::string> lights_;
     bool marked_ = false; ///< stale blocks of live lamps are known, if not yet published
     bool shown_ = false;  ///< something was published since the last edit
     bool edited_ = false, stopped_ = false;
@@ -81,7 +81,7 @@ private:
     std::uint64_t followed_ = 0;              ///< the last message before the scene was followed
     bool settled_ = false, complete_ = false; ///< within the certificate; altogether
     bool directDone_ = false;                 ///< of the mesh as it is, once
-    double nextLook_ = 0;                     ///< at the indirect light, steady clock [s]
+    double nextScan_ = 0;                     ///< at the indirect light, steady clock [s]
 
     StoreRequest request_;
     StoreShape shape_;

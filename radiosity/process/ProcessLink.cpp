@@ -1,8 +1,8 @@
 #include "radiosity/process/ProcessLink.h"
 
-#include "radiosity/process/ControlBlock.h"
-#include "radiosity/process/SharedRegions.h"
-#include "scenegraph/Error.h"
+#include "base/Error.h"
+#include "radiosity/process/memory/ControlBlock.h"
+#include "radiosity/process/memory/SharedRegions.h"
 
 #include <algorithm>
 #include <array>

@@ -9,7 +9,7 @@ RadiosityOptions optionsOf(const Scene& scene) {
     options.solving.residual = scene.residual;
     if (scene.trigger == "onDemand") options.trigger = Trigger::onDemand;
     if (scene.trigger == "continuous") options.trigger = Trigger::continuous;
-    if (scene.order == "plain") options.solving.order = UpdateOrder::plain;
+    if (scene.policy == "plain") options.solving.policy = PolicyKind::plain;
     return options;
 }
 

@@ -1,8 +1,8 @@
 // What people may choose about a RadiosityNode.
 #pragma once
 
-#include "radiosity/BuildPatches.h"
-#include "radiosity/Solver.h"
+#include "radiosity/mesh/BuildPatches.h"
+#include "radiosity/transport/Solver.h"
 #include "scenegraph/Scene.h"
 
 #include <cstddef>
@@ -23,13 +23,11 @@ struct RadiosityOptions {
     unsigned threads = 0; ///< 0: one a core, but one is left to the renderer
     int niceness = 5;     ///< of a process, see nice(1)
     /// Nothing heard from the other side for so long: it hangs [s].
-    double patience = 2;
+    double timeout = 2;
     std::size_t mostMemory = std::size_t(4) << 30; ///< shared at most [bytes]
 };
 
 /// The defaults, and what the scene's file asks for.
 RadiosityOptions optionsOf(const Scene& scene);
-
-constexpr std::size_t kMostLiveLamps = 8;
 
 } // namespace penumbra

@@ -1,4 +1,4 @@
-#include "radiosity/Parallel.h"
+#include "base/Parallel.h"
 #include "radiosity/process/LightingLink.h"
 #include "radiosity/process/LightingWorker.h"
 

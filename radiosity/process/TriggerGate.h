@@ -1,8 +1,8 @@
 // Which edits are due.
 #pragma once
 
-#include "radiosity/process/GraphImage.h"
 #include "radiosity/process/RadiosityOptions.h"
+#include "radiosity/process/snapshot/SceneSnapshot.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -16,8 +16,8 @@ Attention attentionFor(const View& view, const std::optional<Bounds>& moved, int
     return attention;
 }
 
-void ViewerAttention::setOrder(UpdateOrder order) {
-    orderStale_ |= std::exchange(order_, order) != order;
+void ViewerAttention::setPolicy(PolicyKind policy) {
+    policyStale_ |= std::exchange(policy_, policy) != policy;
 }
 
 void ViewerAttention::setCamera(const View& view) {
@@ -35,15 +35,15 @@ void ViewerAttention::setWhole(bool whole) {
     stale_ |= std::exchange(whole_, whole) != whole;
 }
 
-void ViewerAttention::tell(Solver& solver, double now) {
+void ViewerAttention::update(Solver& solver, double now) {
     constexpr double kOften = 0.03; // [s]
-    if (std::exchange(orderStale_, false)) solver.setOrder(order_);
-    if (!stale_ || !camera_ || now - told_ < kOften) return;
+    if (std::exchange(policyStale_, false)) solver.setPolicy(policy_);
+    if (!stale_ || !camera_ || now - reported_ < kOften) return;
     Attention attention = attentionFor(*camera_, moved_);
     attention.whole = whole_;
     solver.attend(attention);
     stale_ = false;
-    told_ = now;
+    reported_ = now;
 }
 
 } // namespace penumbra

@@ -1,9 +1,9 @@
 // What a worker knows of the viewer, and tells its solver.
 #pragma once
 
-#include "importance/WorkValue.h"
-#include "radiosity/Solver.h"
-#include "scenegraph/Bounds.h"
+#include "base/Bounds.h"
+#include "importance/Priority.h"
+#include "radiosity/transport/Solver.h"
 #include "scenegraph/Camera.h"
 
 #include <optional>
@@ -15,27 +15,27 @@ namespace penumbra {
 /// nothing is ever done in an order that is older than two pictures.
 class ViewerAttention {
 public:
-    void setOrder(UpdateOrder order);
+    void setPolicy(PolicyKind policy);
     void setCamera(const View& view);
     /// Things were moved. \param box around them [m, world]; none: nothing was, but other edits
     void setMoved(const std::optional<Bounds>& box);
     /// Whether light is shown by whole blocks only, as it is while lamps are live.
     void setWhole(bool whole);
     /// The solver is another one: it knows nothing.
-    void solverIsNew() { orderStale_ = stale_ = true; }
+    void solverIsNew() { policyStale_ = stale_ = true; }
 
     /// \param now steady clock [s]
-    void tell(Solver& solver, double now);
+    void update(Solver& solver, double now);
 
 private:
     Attention attention() const;
 
-    UpdateOrder order_ = UpdateOrder::importance;
+    PolicyKind policy_ = PolicyKind::importance;
     std::optional<View> camera_;
     std::optional<Bounds> moved_;
     bool whole_ = false;
-    bool orderStale_ = true, stale_ = false;
-    double told_ = 0; ///< when [s]
+    bool policyStale_ = true, stale_ = false;
+    double reported_ = 0; ///< when [s]
 };
 
 /// How a picture of this view is looked at: the eye in the middle of it, or on what is moved.

@@ -15,7 +15,7 @@ TEST(MeanAdaptation, IsTheGeometricMean) {
     EXPECT_NEAR(meanAdaptation(std::vector<float>(1000, 42)), 42, 1e-3);
 }
 
-TEST(MeanAdaptation, IsHardlyMovedByALampInView) {
+TEST(MeanAdaptation, IsHardlyMovedByALightInView) {
     std::vector<float> room(10'000, 30);
     for (int i = 0; i < 50; ++i) room[std::size_t(i)] = 2400; // half a percent of the picture
     EXPECT_NEAR(meanAdaptation(room), 30, 1);
@@ -34,20 +34,20 @@ TEST(LocalAdaptation, LiesBetweenTheSurfaceAndThePicture) {
 TEST(Adaptation, InTheLightNearsWithTheConesTimeConstant) {
     // 63.2 % of the way after 0.1 s (Krawczyk et al. 2005); at 1000 nit rods do not count.
     Adaptation eye(1);
-    eye.look(1000, 0.1);
+    eye.adapt(1000, 0.1);
     EXPECT_NEAR((eye.luminance() - 1) / 999, 1 - std::exp(-1.0), 1e-3);
 }
 
 TEST(Adaptation, InTheDarkNearsWithTheRodsTimeConstant) {
     Adaptation eye(10);
-    eye.look(1e-4, 0.4);
+    eye.adapt(1e-4, 0.4);
     EXPECT_NEAR(eye.luminance() / 10, std::exp(-1.0), 1e-2);
 }
 
 TEST(Adaptation, DoesNotDependOnTheFrameRate) {
     Adaptation slow(5), fast(5);
-    slow.look(80, 0.2);
-    for (int frame = 0; frame < 40; ++frame) fast.look(80, 0.005);
+    slow.adapt(80, 0.2);
+    for (int frame = 0; frame < 40; ++frame) fast.adapt(80, 0.005);
     EXPECT_NEAR(slow.luminance(), fast.luminance(), 1e-9);
 }
 

@@ -117,7 +117,7 @@ TEST(VisibleDifference, IsWhereTheFaultIs) {
     EXPECT_LT(map.at(40, 200), 0.1);
 }
 
-TEST(VisibleDifference, SwallowsLampsAndBlackness) {
+TEST(VisibleDifference, SwallowsLightsAndBlackness) {
     Plane picture(64, 48, 0), other = picture;
     picture.at(10, 10) = 1e9f;
     for (float value : visibleDifference(picture, other, 5).values)

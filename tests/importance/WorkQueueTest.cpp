@@ -15,7 +15,7 @@ namespace {
 using testing::ElementsAre;
 using Ids = std::vector<std::uint64_t>;
 
-PlaceValue weight(double pixels) {
+ClusterPriority weight(double pixels) {
     return {pixels, 1, false};
 }
 
@@ -27,10 +27,10 @@ Ids takeAll(WorkQueue& queue, double now = 0) {
 
 TEST(WorkQueue, TakesTheMostValuableFirst) {
     WorkQueue queue;
-    queue.add({.place = 0, .id = 10, .worth = {.change = 1}});
-    queue.add({.place = 1, .id = 11, .worth = {.change = 3}});
-    queue.add({.place = 0, .id = 12, .worth = {.change = 2}});
-    queue.add({.place = 1, .id = 13, .worth = {.change = 2, .cost = 4}});
+    queue.add({.cluster = 0, .id = 10, .priority = {.change = 1}});
+    queue.add({.cluster = 1, .id = 11, .priority = {.change = 3}});
+    queue.add({.cluster = 0, .id = 12, .priority = {.change = 2}});
+    queue.add({.cluster = 1, .id = 13, .priority = {.change = 2, .cost = 4}});
     queue.rekey([](std::uint32_t) { return weight(1); });
     EXPECT_THAT(takeAll(queue), ElementsAre(11, 12, 10, 13));
 }
@@ -38,57 +38,57 @@ TEST(WorkQueue, TakesTheMostValuableFirst) {
 TEST(WorkQueue, OfEqualsTakesTheOldest) {
     WorkQueue queue;
     for (std::uint64_t id = 0; id < 6; ++id)
-        queue.add({.place = std::uint32_t(5 - id) % 3, .id = id, .worth = {.change = 1}});
+        queue.add({.cluster = std::uint32_t(5 - id) % 3, .id = id, .priority = {.change = 1}});
     queue.rekey([](std::uint32_t) { return weight(1); });
     EXPECT_THAT(takeAll(queue), ElementsAre(0, 1, 2, 3, 4, 5));
 }
 
 TEST(WorkQueue, FollowsTheViewerAtOnce) {
     WorkQueue queue;
-    for (std::uint32_t place = 0; place < 4; ++place)
+    for (std::uint32_t cluster = 0; cluster < 4; ++cluster)
         for (std::uint64_t i = 0; i < 2; ++i)
-            queue.add({.place = place, .id = 10 * place + i, .worth = {.change = 1}});
-    queue.rekey([](std::uint32_t place) { return weight(place); });
+            queue.add({.cluster = cluster, .id = 10 * cluster + i, .priority = {.change = 1}});
+    queue.rekey([](std::uint32_t cluster) { return weight(cluster); });
     EXPECT_EQ(queue.take(0)->id, 30u);
-    queue.rekey([](std::uint32_t place) { return weight(4.0 - place); });
+    queue.rekey([](std::uint32_t cluster) { return weight(4.0 - cluster); });
     EXPECT_THAT(takeAll(queue), ElementsAre(0, 1, 10, 11, 20, 21, 31));
 }
 
 TEST(WorkQueue, OnePlaceCanBeKeyedByItself) {
     WorkQueue queue;
-    for (std::uint32_t place = 0; place < 3; ++place)
-        queue.add({.place = place, .id = place, .worth = {.change = 1}});
-    queue.rekey([](std::uint32_t place) { return weight(3.0 - place); });
+    for (std::uint32_t cluster = 0; cluster < 3; ++cluster)
+        queue.add({.cluster = cluster, .id = cluster, .priority = {.change = 1}});
+    queue.rekey([](std::uint32_t cluster) { return weight(3.0 - cluster); });
     queue.rekey(0, weight(0.5));
     EXPECT_THAT(takeAll(queue), ElementsAre(1, 2, 0));
 }
 
 TEST(WorkQueue, WorkThatComesAfterTheViewerMovedIsWorthWhatItIsNow) {
     WorkQueue queue;
-    queue.add({.place = 0, .id = 0, .worth = {.change = 1}});
-    queue.add({.place = 1, .id = 1, .worth = {.change = 1}});
-    queue.rekey([](std::uint32_t place) { return weight(place == 1 ? 9 : 1); });
+    queue.add({.cluster = 0, .id = 0, .priority = {.change = 1}});
+    queue.add({.cluster = 1, .id = 1, .priority = {.change = 1}});
+    queue.rekey([](std::uint32_t cluster) { return weight(cluster == 1 ? 9 : 1); });
     EXPECT_EQ(queue.take(0)->id, 1u); // nothing is open at place 1 now
-    queue.rekey([](std::uint32_t place) { return weight(place == 1 ? 0.5 : 1); });
-    queue.add({.place = 1, .id = 2, .worth = {.change = 1}});
-    queue.add({.place = 7, .id = 3, .worth = {.change = 1.5}});
+    queue.rekey([](std::uint32_t cluster) { return weight(cluster == 1 ? 0.5 : 1); });
+    queue.add({.cluster = 1, .id = 2, .priority = {.change = 1}});
+    queue.add({.cluster = 7, .id = 3, .priority = {.change = 1.5}});
     EXPECT_THAT(takeAll(queue), ElementsAre(3, 0, 2));
 }
 
 TEST(WorkQueue, WorkAddedLaterTakesItsRank) {
     WorkQueue queue;
-    queue.add({.place = 0, .id = 0, .worth = {.change = 1}});
-    queue.add({.place = 0, .id = 1, .worth = {.change = 3}});
+    queue.add({.cluster = 0, .id = 0, .priority = {.change = 1}});
+    queue.add({.cluster = 0, .id = 1, .priority = {.change = 3}});
     queue.rekey([](std::uint32_t) { return weight(1); });
     EXPECT_EQ(queue.take(0)->id, 1u);
-    queue.add({.place = 0, .id = 2, .worth = {.change = 2}});
+    queue.add({.cluster = 0, .id = 2, .priority = {.change = 2}});
     EXPECT_THAT(takeAll(queue), ElementsAre(2, 0));
 }
 
 TEST(WorkQueue, RanksATaskAnewWithoutMakingItYounger) {
     WorkQueue queue;
-    const auto first = queue.add({.place = 0, .id = 0, .worth = {.change = 1}, .since = 1});
-    queue.add({.place = 1, .id = 1, .worth = {.change = 2}, .since = 2});
+    const auto first = queue.add({.cluster = 0, .id = 0, .priority = {.change = 1}, .since = 1});
+    queue.add({.cluster = 1, .id = 1, .priority = {.change = 2}, .since = 2});
     queue.rekey([](std::uint32_t) { return weight(1); });
     queue.rank(first, {.change = 3});
     EXPECT_EQ(queue.oldest(9), 1);
@@ -98,7 +98,7 @@ TEST(WorkQueue, RanksATaskAnewWithoutMakingItYounger) {
 TEST(WorkQueue, WhatIsChosenToBeLookedAtComesBackWhereItBelongs) {
     WorkQueue queue;
     for (std::uint64_t id = 0; id < 3; ++id)
-        queue.add({.place = 0, .id = id, .worth = {.change = float(9 - id)}});
+        queue.add({.cluster = 0, .id = id, .priority = {.change = float(9 - id)}});
     queue.rekey([](std::uint32_t) { return weight(1); });
     const auto looked = queue.choose(0);
     EXPECT_EQ(looked->task.id, 0u);
@@ -110,20 +110,20 @@ TEST(WorkQueue, WhatIsChosenToBeLookedAtComesBackWhereItBelongs) {
 
 TEST(WorkQueue, CountsChangesByTheShareOfThePlaceThatChanges) {
     WorkQueue queue;
-    queue.add({.place = 0, .id = 0, .worth = {.change = 4, .share = 0.25f}});
-    queue.add({.place = 0, .id = 1, .worth = {.change = 4, .share = 0.5f}});
-    queue.add({.place = 1, .id = 2, .worth = {.change = 4, .share = 0.125f}});
+    queue.add({.cluster = 0, .id = 0, .priority = {.change = 4, .share = 0.25f}});
+    queue.add({.cluster = 0, .id = 1, .priority = {.change = 4, .share = 0.5f}});
+    queue.add({.cluster = 1, .id = 2, .priority = {.change = 4, .share = 0.125f}});
     queue.rekey([](std::uint32_t) { return weight(1); });
     EXPECT_THAT(takeAll(queue), ElementsAre(1, 0, 2));
 }
 
 /// What an overdue test needs: much work that is worth more coming all the time.
 struct Dragging {
-    WorkQueue queue{{.patience = 100, .reserve = 0.25}};
+    WorkQueue queue{{.aging = 100, .reserve = 0.25}};
     double done = 0, now = 0; ///< cost
 
     void keepBusy(std::uint64_t id) {
-        queue.add({.place = 1, .id = id, .worth = {.change = 10}, .since = now});
+        queue.add({.cluster = 1, .id = id, .priority = {.change = 10}, .since = now});
         queue.rekey(1, weight(100));
     }
 };
@@ -132,13 +132,13 @@ TEST(WorkQueue, NothingStarvesWhileNewWorkIsWorthMore) {
     Dragging drag;
     constexpr double kHidden = 40; // tasks of cost 1 that nobody sees
     for (std::uint64_t id = 0; id < kHidden; ++id)
-        drag.queue.add({.place = 0, .id = id, .worth = {.change = 1}, .since = 0});
+        drag.queue.add({.cluster = 0, .id = id, .priority = {.change = 1}, .since = 0});
     drag.queue.rekey([](std::uint32_t) { return weight(1e-3); });
     double lastHidden = 0;
     for (std::uint64_t id = 1000; drag.now < 1000; ++id) {
         drag.keepBusy(id);
         const auto task = drag.queue.take(drag.now);
-        drag.now += task->worth.cost;
+        drag.now += task->priority.cost;
         if (task->id < kHidden) {
             EXPECT_GE(drag.now, 100); // not before their time
             lastHidden = drag.now;
@@ -153,12 +153,12 @@ TEST(WorkQueue, WorkThatIsRankedAgainAndAgainIsDoneInTime) {
     // Dragging without end: hidden work is told of the drag each time, and keeps its age.
     Dragging drag;
     const auto hidden =
-        drag.queue.add({.place = 0, .id = 7, .worth = {.change = 1}, .since = drag.now});
+        drag.queue.add({.cluster = 0, .id = 7, .priority = {.change = 1}, .since = drag.now});
     drag.queue.rekey([](std::uint32_t) { return weight(1e-3); });
     for (std::uint64_t id = 1000; drag.now < 1000; ++id) {
         drag.keepBusy(id);
         const auto task = drag.queue.take(drag.now);
-        drag.now += task->worth.cost;
+        drag.now += task->priority.cost;
         if (task->id == 7) break;
         drag.queue.rank(hidden, {.change = float(id % 3)});
     }
@@ -166,23 +166,23 @@ TEST(WorkQueue, WorkThatIsRankedAgainAndAgainIsDoneInTime) {
     EXPECT_LE(drag.now, 100 + 1 / 0.25 + 2);
 }
 
-TEST(WorkQueue, PatienceChangesNoOrderBeforeItEnds) {
-    WorkQueue patient, fair{{.patience = 50, .reserve = 0.5}};
-    for (WorkQueue* queue : {&patient, &fair}) {
+TEST(WorkQueue, AgingChangesNoPriorityBeforeItSetsIn) {
+    WorkQueue unaged, fair{{.aging = 50, .reserve = 0.5}};
+    for (WorkQueue* queue : {&unaged, &fair}) {
         for (std::uint64_t id = 0; id < 30; ++id)
-            queue->add({.place = std::uint32_t(id % 7),
+            queue->add({.cluster = std::uint32_t(id % 7),
                         .id = id,
-                        .worth = {.change = float(id * 13 % 11)}});
-        queue->rekey([](std::uint32_t place) { return weight(place + 1); });
+                        .priority = {.change = float(id * 13 % 11)}});
+        queue->rekey([](std::uint32_t cluster) { return weight(cluster + 1); });
     }
-    EXPECT_EQ(takeAll(patient, 49), takeAll(fair, 49));
+    EXPECT_EQ(takeAll(unaged, 49), takeAll(fair, 49));
 }
 
 TEST(WorkQueue, KnowsItsOldestWork) {
     WorkQueue queue;
     EXPECT_EQ(queue.oldest(7), 7);
-    queue.add({.place = 0, .id = 0, .worth = {.change = 9}, .since = 1});
-    queue.add({.place = 0, .id = 1, .worth = {.change = 1}, .since = 3});
+    queue.add({.cluster = 0, .id = 0, .priority = {.change = 9}, .since = 1});
+    queue.add({.cluster = 0, .id = 1, .priority = {.change = 1}, .since = 3});
     queue.rekey([](std::uint32_t) { return weight(1); });
     EXPECT_EQ(queue.oldest(7), 1);
     queue.take(7);
@@ -192,23 +192,23 @@ TEST(WorkQueue, KnowsItsOldestWork) {
 
 TEST(WorkQueue, WhatGainsSoMuchIsWorthThatPerCost) {
     WorkQueue queue;
-    queue.rekey([](std::uint32_t place) { return PlaceValue{2.0 + place, 0.3, false}; });
+    queue.rekey([](std::uint32_t cluster) { return ClusterPriority{2.0 + cluster, 0.3, false}; });
     const auto add = [&](double gain, double cost) {
-        return queue.add({.place = 1, .id = 0, .worth = queue.worthOf(1, gain, cost)});
+        return queue.add({.cluster = 1, .id = 0, .priority = queue.priorityFor(1, gain, cost)});
     };
     EXPECT_NEAR(queue.value(add(6, 4)), 1.5, 1e-5);
     EXPECT_NEAR(queue.value(add(1e-3, 4)), 2.5e-4, 1e-9);
     EXPECT_GT(queue.value(add(0, 4)), 0) << "nothing is ever worth nothing";
     const WorkQueue::Handle seen = add(6, 4);
-    queue.rekey([](std::uint32_t) { return PlaceValue{30, 0.3, false}; });
+    queue.rekey([](std::uint32_t) { return ClusterPriority{30, 0.3, false}; });
     EXPECT_NEAR(queue.value(seen), 15, 1e-4) << "ten times the pixels";
 }
 
 TEST(WorkQueue, WhatIsDoneInPartStaysOpenWithItsAge) {
-    WorkQueue queue({.patience = 100, .reserve = 0.25});
+    WorkQueue queue({.aging = 100, .reserve = 0.25});
     queue.rekey([](std::uint32_t) { return weight(1); });
-    queue.add({.place = 0, .id = 7, .worth = {.change = 9}, .since = 1});
-    queue.add({.place = 0, .id = 8, .worth = {.change = 5}, .since = 3});
+    queue.add({.cluster = 0, .id = 7, .priority = {.change = 9}, .since = 1});
+    queue.add({.cluster = 0, .id = 8, .priority = {.change = 5}, .since = 3});
     queue.finishPart(*queue.choose(4), 1, {.change = 1});
     EXPECT_EQ(queue.size(), 2u);
     EXPECT_EQ(queue.oldest(4), 1);
@@ -224,7 +224,7 @@ RC_GTEST_PROP(WorkQueue, TakesWhatASortedListWouldHaveFirst, ()) {
     };
     WorkQueue queue;
     std::vector<Open> list;
-    std::map<std::uint32_t, PlaceValue> values;
+    std::map<std::uint32_t, ClusterPriority> values;
     const auto draw = [](int most) { return *rc::gen::inRange(0, most); };
     std::uint64_t age = 0;
     const int steps = 20 + draw(150);
@@ -232,27 +232,27 @@ RC_GTEST_PROP(WorkQueue, TakesWhatASortedListWouldHaveFirst, ()) {
         const int what = draw(8);
         if (what < 4) {
             const WorkQueue::Task task{
-                .place = std::uint32_t(draw(6)),
+                .cluster = std::uint32_t(draw(6)),
                 .id = age,
-                .worth = {.change = float(draw(5)), .cost = float(1 + draw(3))}};
+                .priority = {.change = float(draw(5)), .cost = float(1 + draw(3))}};
             queue.add(task);
             list.push_back({task, age++});
         } else if (what == 4) {
             for (std::uint32_t p = 0; p < 6; ++p) values[p] = weight(draw(4));
-            queue.rekey([now = values](std::uint32_t place) { return now.at(place); });
+            queue.rekey([now = values](std::uint32_t cluster) { return now.at(cluster); });
         } else if (what == 5) {
-            const auto place = std::uint32_t(draw(6));
-            values[place] = weight(draw(4));
-            queue.rekey(place, values[place]);
+            const auto cluster = std::uint32_t(draw(6));
+            values[cluster] = weight(draw(4));
+            queue.rekey(cluster, values[cluster]);
         } else {
             const auto task = queue.take(0);
             RC_ASSERT(task.has_value() == !list.empty());
             if (!task) continue;
             const auto better = [&](const Open& a, const Open& b) {
-                const double va =
-                    workValue(values[a.task.place], a.task.worth.change, a.task.worth.cost);
-                const double vb =
-                    workValue(values[b.task.place], b.task.worth.change, b.task.worth.cost);
+                const double va = priorityOf(values[a.task.cluster], a.task.priority.change,
+                                             a.task.priority.cost);
+                const double vb = priorityOf(values[b.task.cluster], b.task.priority.change,
+                                             b.task.priority.cost);
                 return va != vb ? va > vb : a.age < b.age;
             };
             const auto best = std::min_element(list.begin(), list.end(), better);

@@ -1,6 +1,6 @@
 // What is drawn is as sure as what patches send: the vertices of a solution that stopped early lie
 // as near to those of one that went on as the two certificates say.
-#include "io/UsdScene.h"
+#include "io/usd/scene/UsdScene.h"
 #include "tests/support/Scenes.h"
 
 #include <gtest/gtest.h>

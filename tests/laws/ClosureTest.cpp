@@ -1,5 +1,5 @@
 // Laws that form factors obey whatever the geometry: closure, additivity, reciprocity.
-#include "radiosity/FormFactor.h"
+#include "radiosity/rows/FormFactor.h"
 #include "tests/scenegraph/RandomParts.h"
 #include "tests/support/Scenes.h"
 

@@ -12,7 +12,7 @@ namespace {
 struct PaintedRoom {
     std::shared_ptr<Material> walls = paint({0.7f, 0.5f, 0.3f}), black = paint(Rgb()),
                               panel = paint(Rgb(0.2f), Rgb(5));
-    std::shared_ptr<Light> lamp = std::make_shared<Light>("light", RectShape{0.6f, 0.4f}, Rgb(10));
+    std::shared_ptr<Light> light = std::make_shared<Light>("light", RectShape{0.6f, 0.4f}, Rgb(10));
     std::shared_ptr<Light> off = std::make_shared<Light>("light", SphereShape{0.1f}, Rgb());
     Scene scene = sceneOf(
         {object("room", boxData({-1, -1, -1}, {1, 1, 1}, true, walls)),
@@ -21,7 +21,7 @@ struct PaintedRoom {
                      "mesh", boxData({-0.5f, -0.3f, -1}, {0.1f, 0.4f, -0.2f}, false, black))}),
          object("screen", floorData(0.3f, 0.9f, -0.5f, 0.5f, 0.1f)),
          object("panel", floorData(-0.9f, -0.6f, -0.5f, 0.5f, -0.9f, panel)),
-         placed("lamp", moved(0, 0, 0.99), {lamp}), placed("off", moved(0.6, 0.6, -0.5), {off})});
+         placed("lamp", moved(0, 0, 0.99), {light}), placed("off", moved(0.6, 0.6, -0.5), {off})});
 };
 
 class EditCost : public testing::Test {
@@ -47,23 +47,23 @@ protected:
     LitScene lit{placeScene(room.scene), {.patchSize = 0.4f, .elementSize = 0.2f}, {}};
 };
 
-TEST_F(EditCost, DimmingSwitchingAndRecolouringALampTraceNoRay) {
-    room.lamp->setLuminance(Rgb(3));
+TEST_F(EditCost, DimmingSwitchingAndRecolouringALightTraceNoRay) {
+    room.light->setLuminance(Rgb(3));
     expectNoRay("dimmed");
-    room.lamp->setLuminance({3, 9, 1});
+    room.light->setLuminance({3, 9, 1});
     expectNoRay("recoloured");
-    room.lamp->setLuminance(Rgb());
+    room.light->setLuminance(Rgb());
     expectNoRay("switched off");
-    room.lamp->setLuminance(Rgb(10));
+    room.light->setLuminance(Rgb(10));
     expectNoRay("switched on again");
 }
 
-TEST_F(EditCost, SwitchingOnALampThatNeverShoneTracesNoRay) {
+TEST_F(EditCost, SwitchingOnALightThatNeverShoneTracesNoRay) {
     room.off->setLuminance({1, 20, 40});
     expectNoRay("a lamp that was loaded dark");
 }
 
-TEST_F(EditCost, AnEmittingSurfaceIsDimmedAndSwitchedLikeALamp) {
+TEST_F(EditCost, AnEmittingSurfaceIsDimmedAndSwitchedLikeALight) {
     room.panel->setEmission({1, 2, 3});
     expectNoRay("dimmed");
     room.panel->setEmission(Rgb());

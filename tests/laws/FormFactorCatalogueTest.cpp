@@ -1,10 +1,10 @@
 // Closed form factors against the analytic cases of tests/data/formfactors (Howell's catalogue, and
 // integrals whose inner part is exact; each case says where its number comes from).
-#include "io/UsdScene.h"
-#include "radiosity/BuildPatches.h"
-#include "radiosity/EmitterSender.h"
-#include "radiosity/FormFactor.h"
-#include "radiosity/RayScene.h"
+#include "io/usd/scene/UsdScene.h"
+#include "radiosity/mesh/BuildPatches.h"
+#include "radiosity/rays/RayScene.h"
+#include "radiosity/rows/EmitterSender.h"
+#include "radiosity/rows/FormFactor.h"
 #include "scenegraph/Objects.h"
 #include "tests/support/Reference.h"
 
@@ -217,17 +217,17 @@ TEST(FormFactorCatalogue, DirectLightInTheEmptyBoxIsTheClosedForm) {
     const BuiltPatches built =
         buildPatches(placeScene(*loaded.scene), {.patchSize = 2, .elementSize = 2});
     ASSERT_EQ(built.patches.emitters.size(), 1u);
-    const Emitter& lamp = built.patches.emitters[0];
-    const EmitterSender sender(lamp, 16, 16);
+    const Emitter& light = built.patches.emitters[0];
+    const EmitterSender sender(light, 16, 16);
     for (const auto& row : readCsv(dataFile("formfactors/emptybox_direct_analytic.csv"))) {
         const auto number = [&](const char* column) { return std::stof(row.at(column)); };
         const float factor = sender.formFactor(
             {{number("x"), number("y"), number("z")}, {number("nx"), number("ny"), number("nz")}});
         const float expected = number("form_factor_to_lamp");
         EXPECT_NEAR(factor, expected, kTolerance * expected);
-        EXPECT_NEAR(factor * lamp.exitance.r, number("Edir_r"), kTolerance * number("Edir_r"));
-        EXPECT_NEAR(factor * lamp.exitance.g, number("Edir_g"), kTolerance * number("Edir_g"));
-        EXPECT_NEAR(factor * lamp.exitance.b, number("Edir_b"), kTolerance * number("Edir_b"));
+        EXPECT_NEAR(factor * light.exitance.r, number("Edir_r"), kTolerance * number("Edir_r"));
+        EXPECT_NEAR(factor * light.exitance.g, number("Edir_g"), kTolerance * number("Edir_g"));
+        EXPECT_NEAR(factor * light.exitance.b, number("Edir_b"), kTolerance * number("Edir_b"));
     }
 }
 

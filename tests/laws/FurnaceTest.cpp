@@ -1,6 +1,6 @@
 // The furnace: in a closed cavity of which every part emits E and reflects rho, the radiosity is
 // B = E/(1 - rho) everywhere, whatever the cavity's shape. Here E = 1 (see `doc` in the files).
-#include "io/UsdScene.h"
+#include "io/usd/scene/UsdScene.h"
 #include "scenegraph/Mesh.h"
 #include "tests/support/Reference.h"
 #include "tests/support/Scenes.h"
@@ -82,7 +82,7 @@ TEST(Furnace, WithAnObjectInsideIsEvenlyBrightOnTheObjectToo) {
     EXPECT_NEAR(sum / solution.patches().area, 2, 0.03);
 }
 
-TEST(IntegratingSphere, IsEvenlyLitAwayFromItsLamp) {
+TEST(IntegratingSphere, IsEvenlyLitAwayFromItsLight) {
     // H = c M/(1 - 0.6 (1 - c)), c = (1 - cos 45)/2 the cap's share, M = 10 pi: 9.43033 for the
     // smooth sphere (formfactors.csv, integrating_sphere_H). The file's facets have a little less
     // area: half a percent in the mean, more where facets meet the cap.
@@ -92,8 +92,8 @@ TEST(IntegratingSphere, IsEvenlyLitAwayFromItsLamp) {
     for (const Element& element : solution.patches().elements) {
         const Vertex& vertex = solution.patches().vertices[element.vertices[0]];
         const bool outside = glm::dot(vertex.receiver.normal, vertex.position) > 0;
-        const bool lamp = solution.patches().materials[element.material].reflectance.g == 0;
-        if (outside || lamp) continue;
+        const bool source = solution.patches().materials[element.material].reflectance.g == 0;
+        if (outside || source) continue;
         const double size = elementArea(solution.patches(), element);
         const double light = elementMean(element, solution.lighting).g;
         EXPECT_NEAR(light, 9.4303300207, 0.03 * 9.43);

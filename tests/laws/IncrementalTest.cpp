@@ -125,7 +125,7 @@ TEST(Incremental, EqualsFromScratchWhereARayGrazesSomethingAtItsVeryBeginning) {
     EXPECT_EQ(differsAfterOverlappingEdits(overlapping, kSeed, 13), "") << overlapping.said;
 }
 
-TEST(Incremental, EqualsFromScratchWhereNoLampShines) {
+TEST(Incremental, EqualsFromScratchWhereNoLightShines) {
     // What is lit is found last then, after the rows of what light may come to reach.
     constexpr std::uint32_t kSeed = 2163954167;
     FollowedRoom followed(kSeed);

@@ -1,10 +1,10 @@
 // Light in whole rooms against an independent path tracer (tests/data/*_truth.csv), which Radiance
 // confirms to 0.04 %: the bounds that people are promised, as drawn and gathered.
-#include "io/UsdAnimation.h"
-#include "io/UsdScene.h"
-#include "radiosity/Contact.h"
-#include "radiosity/LitSurface.h"
-#include "radiosity/PointGather.h"
+#include "io/usd/scene/UsdAnimation.h"
+#include "io/usd/scene/UsdScene.h"
+#include "radiosity/mesh/Contact.h"
+#include "radiosity/query/LitSurface.h"
+#include "radiosity/query/PointGather.h"
 #include "tests/support/Reference.h"
 #include "tests/support/Scenes.h"
 

@@ -19,7 +19,7 @@ struct RoomWithABox {
     Scene scene =
         sceneOf({object("room", boxData({-1, -1, 0}, {1, 1, 2}, true, paint({0.7f, 0.6f, 0.5f}))),
                  box, object("board", boxData({0.5f, -0.5f, 0.4f}, {0.9f, 0.5f, 0.5f}, false)),
-                 ceilingLamp({0, 0, 1.99f}, 0.8f, 0.6f, {10, 9, 8})});
+                 ceilingLight({0, 0, 1.99f}, 0.8f, 0.6f, {10, 9, 8})});
     glm::dmat4 here = glm::rotate(moved(0.1, 0.4, 0), 0.3, {0, 0, 1});
     glm::dmat4 there =
         glm::rotate(moved(0.4, -0.3, 0), 1.1, {0, 0, 1}); // below the board, and in it

@@ -10,7 +10,7 @@ namespace penumbra {
 namespace {
 
 TEST(Find, NodesAlongAPathAreThoseOfItsNames) {
-    const auto bulb = lamp("Bulb");
+    const auto bulb = light("Bulb");
     const auto place = make("Bulb", {bulb});
     const auto arm = make("Arm", {square("Rod"), place});
     const Group root("");

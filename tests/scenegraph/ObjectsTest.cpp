@@ -38,7 +38,7 @@ TEST(Objects, WhatStandsBesideAllTransformsBelongsToTheRoot) {
 TEST(Objects, ATransformThatDirectlyHoldsGeometryBeginsAnObject) {
     const PlacedScene scene =
         placeScene(sceneOf({placed("table", moved(1, 0, 0), {square("top")}),
-                            placed("lamp", moved(0, 3, 0), {lamp("bulb")}),
+                            placed("lamp", moved(0, 3, 0), {light("bulb")}),
                             placed("shelf", moved(2, 0, 0), {make("boards", {square("board")})})}));
     EXPECT_THAT(objectPaths(scene), ElementsAre("/table", "/lamp", "/shelf"));
     EXPECT_EQ(scene.objects.at(0).toWorld, moved(1, 0, 0));
@@ -86,7 +86,7 @@ TEST(Objects, WithoutGeometryAreNotListed) {
 }
 
 TEST(Objects, HiddenThingsAreNotPlaced) {
-    const auto off = make<Switch>("off", {square("mesh"), lamp("lamp")});
+    const auto off = make<Switch>("off", {square("mesh"), light("lamp")});
     off->setVisible(false);
     const PlacedScene scene = placeScene(sceneOf({placed("object", moved(0, 0, 0), {off})}));
     EXPECT_THAT(scene.objects, IsEmpty());
@@ -116,7 +116,7 @@ TEST(Objects, CamerasAreListedWithTheirPlace) {
 TEST(Objects, BoundsHoldMeshesAndLightsInTheWorld) {
     const PlacedScene scene =
         placeScene(sceneOf({placed("table", moved(10, 0, 0), {square("top")}),
-                            placed("lamp", moved(0, 5, 0), {lamp("bulb", SphereShape{0.5f})})}));
+                            placed("lamp", moved(0, 5, 0), {light("bulb", SphereShape{0.5f})})}));
     EXPECT_EQ(scene.bounds.lower, glm::vec3(-0.5f, -1, -0.5f));
     EXPECT_EQ(scene.bounds.upper, glm::vec3(11, 5.5f, 0.5f));
 }

@@ -1,7 +1,7 @@
 // Random numbers, points and frames of a room's size, for RapidCheck.
 #pragma once
 
-#include "scenegraph/Bounds.h"
+#include "base/Bounds.h"
 
 #include <glm/glm.hpp>
 #include <glm/gtc/matrix_transform.hpp>

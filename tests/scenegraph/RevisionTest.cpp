@@ -46,8 +46,8 @@ TEST(Revision, OfATransformRisesWhenItMoves) {
 }
 
 TEST(Revision, OfALightRisesWhenItIsDimmed) {
-    const auto light = lamp("key");
-    EXPECT_TRUE(raises(*light, [&] { light->setLuminance(Rgb(50)); }));
+    const auto source = light("key");
+    EXPECT_TRUE(raises(*source, [&] { source->setLuminance(Rgb(50)); }));
 }
 
 TEST(Revision, OfACameraRisesWithItsLens) {

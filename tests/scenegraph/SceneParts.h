@@ -34,7 +34,7 @@ inline std::shared_ptr<Mesh> square(std::string name) {
     return polygon(std::move(name), {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}});
 }
 
-inline std::shared_ptr<Light> lamp(std::string name, LightShape shape = RectShape{}) {
+inline std::shared_ptr<Light> light(std::string name, LightShape shape = RectShape{}) {
     return std::make_shared<Light>(std::move(name), shape, Rgb(100));
 }
 

@@ -42,7 +42,7 @@ Recorder walk(const Scene& scene) {
 TEST(Visitor, ReachesEveryKindOfLeafInOrder) {
     const auto camera = std::make_shared<Camera>("camera", Lens());
     const auto lit = std::make_shared<LitGeometry>("lit", ObjectId{0}, LitMeshData());
-    const Scene scene = sceneOf({square("mesh"), make("group", {lamp("lamp"), camera}), lit});
+    const Scene scene = sceneOf({square("mesh"), make("group", {light("lamp"), camera}), lit});
     EXPECT_THAT(walk(scene).paths, ElementsAre("/mesh", "/group/lamp", "/group/camera", "/lit"));
 }
 
@@ -74,7 +74,7 @@ TEST(Visitor, TheOuterTransformIsAppliedLast) {
 }
 
 TEST(Visitor, ASwitchHidesAllThatIsBelowIt) {
-    const auto hidden = make<Switch>("lights", {make("row", {lamp("a"), lamp("b")})});
+    const auto hidden = make<Switch>("lights", {make("row", {light("a"), light("b")})});
     const Scene scene = sceneOf({hidden, square("floor")});
     EXPECT_EQ(walk(scene).paths.size(), 3u);
     hidden->setVisible(false);

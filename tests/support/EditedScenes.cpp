@@ -83,8 +83,8 @@ void EditableRoom::addThings() {
     head->add(placed("housing", moved(0, 0, 0.06), {block({0.26f, 0.26f, 0.1f}, newPaint())}));
     addThing("lamp", {head}, {0.13, 0.13, 0.11});
     addThing("bulb", {newLight(SphereShape{0.06f}, 60)}, glm::dvec3(0.06));
-    shining_.push_back(paint(Rgb(0.3f), {6, 4, 2}));
-    addThing("glow", {block({0.3f, 0.2f, 0.1f}, shining_.back())}, {0.15, 0.1, 0.05});
+    emissive_.push_back(paint(Rgb(0.3f), {6, 4, 2}));
+    addThing("glow", {block({0.3f, 0.2f, 0.1f}, emissive_.back())}, {0.15, 0.1, 0.05});
     // Below frames that stretch: what is movable in them is rigid in the world all the same.
     addThing("halved", {block({0.75f, 0.5f, 0.5f}, newPaint())}, {0.1875, 0.125, 0.125},
              stretched(0.5, 0.5, 0.5));
@@ -202,7 +202,7 @@ std::string EditableRoom::editColour() {
         lights_[below(lights_.size())]->setLuminance(below(3) == 0 ? Rgb() : any(1, 40));
         return "luminance; ";
     case 1: // never dark: from scratch it would be no emitter at all
-        shining_[below(shining_.size())]->setEmission(any(0.1, 20));
+        emissive_[below(emissive_.size())]->setEmission(any(0.1, 20));
         return "emission; ";
     default:
         paints_[below(paints_.size())]->setReflectance(below(6) == 0 ? Rgb() : any(0, 0.85));

@@ -1,7 +1,7 @@
 // Random rooms and random edits.
 #pragma once
 
-#include "radiosity/LitScene.h"
+#include "radiosity/transport/LitScene.h"
 #include "tests/support/Scenes.h"
 
 #include <cstdint>
@@ -33,7 +33,7 @@ private:
         glm::dmat4 frame;                 ///< of its parent, a stretch
         glm::dvec3 half;                  ///< half its size when it stands upright [m]
         glm::dmat4 place{1.0}, home{1.0}; ///< rigid, in the world
-        bool shines = false;
+        bool emits = false;
     };
     std::shared_ptr<Material> newPaint();
     std::shared_ptr<Light> newLight(LightShape shape, float nits);
@@ -54,7 +54,7 @@ private:
     std::vector<Thing> things_;
     std::shared_ptr<Transform> table_; ///< fixed: an edit of it meshes anew
     std::vector<std::shared_ptr<Light>> lights_;
-    std::vector<std::shared_ptr<Material>> paints_, shining_;
+    std::vector<std::shared_ptr<Material>> paints_, emissive_;
 };
 
 } // namespace penumbra

@@ -1,7 +1,7 @@
 // The comparison of two lit scenes of the same things.
 #pragma once
 
-#include "radiosity/LitScene.h"
+#include "radiosity/transport/LitScene.h"
 
 #include <string>
 

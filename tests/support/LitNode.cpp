@@ -1,6 +1,6 @@
 #include "tests/support/LitNode.h"
 
-#include "radiosity/LitScene.h"
+#include "radiosity/transport/LitScene.h"
 
 #include <algorithm>
 #include <chrono>
@@ -74,7 +74,7 @@ std::string describe(RadiosityNode& node) {
     const RadiosityState& state = node.state();
     std::ostringstream out;
     out << "phase " << int(state.phase) << " (" << state.task << " " << state.progress << "), held "
-        << state.held << ", queued " << state.queued << ", open blocks " << state.openBlocks
+        << state.held << ", queued " << state.queued << ", open blocks " << state.dirtyBlocks
         << ", age " << state.age << ", restarts " << state.restarts << ", blocks taken "
         << state.blocksTaken;
     for (const std::string& message : node.takeMessages()) out << "\n" << message;
@@ -131,13 +131,13 @@ RadiosityOptions LitRoom::smallRoomOptions() {
 }
 
 LitRoom::LitRoom(std::unique_ptr<LightingLink> link, const RadiosityOptions& wanted,
-                 const LightShape& lamp, double lampHeight)
-    : options(wanted), light(std::make_shared<Light>("light", lamp, Rgb(100))),
+                 const LightShape& source, double lightHeight)
+    : options(wanted), light(std::make_shared<Light>("light", source, Rgb(100))),
       node(std::make_shared<RadiosityNode>("lit", wanted, std::move(link))) {
     node->add(
         object("room", boxData(glm::vec3(-2, -2, 0), glm::vec3(2, 2, 2.5f), true, wallPaint)));
     node->add(box);
-    node->add(placed("lamp", moved(0, 0, lampHeight), {light}));
+    node->add(placed("lamp", moved(0, 0, lightHeight), {light}));
 }
 
 } // namespace penumbra

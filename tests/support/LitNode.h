@@ -1,8 +1,8 @@
 // What tests ask of a RadiosityNode: that it gets somewhere, and that its light is right.
 #pragma once
 
-#include "radiosity/RadiosityNode.h"
 #include "radiosity/process/LightingLink.h"
+#include "radiosity/process/RadiosityNode.h"
 #include "tests/support/Scenes.h"
 
 #include <functional>
@@ -27,7 +27,7 @@ std::string differenceFromScratch(const RadiosityNode& node, const RadiosityOpti
 struct LitRoom {
     explicit LitRoom(std::unique_ptr<LightingLink> link = makeThreadLink(),
                      const RadiosityOptions& wanted = smallRoomOptions(),
-                     const LightShape& lamp = RectShape{0.5f, 0.5f}, double lampHeight = 2.4);
+                     const LightShape& source = RectShape{0.5f, 0.5f}, double lightHeight = 2.4);
     static RadiosityOptions smallRoomOptions();
     std::string difference() const { return differenceFromScratch(*node, options); }
 

@@ -1,8 +1,8 @@
 // The reference data in tests/data, and the error by which solutions are judged.
 #pragma once
 
-#include "radiosity/PatchSet.h"
-#include "scenegraph/Rgb.h"
+#include "base/Rgb.h"
+#include "radiosity/mesh/PatchSet.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Small scenes made by hand, and the way from a scene to its light.
 #pragma once
 
-#include "radiosity/LitScene.h"
+#include "radiosity/transport/LitScene.h"
 #include "scenegraph/Material.h"
 #include "tests/scenegraph/SceneParts.h"
 
@@ -79,7 +79,7 @@ inline NodePtr object(const std::string& name, MeshData data) {
 }
 
 /// A lamp of luminance 1 nit that shines down from `centre`.
-inline NodePtr ceilingLamp(glm::vec3 centre, float width, float height, Rgb nits = Rgb(1.0f)) {
+inline NodePtr ceilingLight(glm::vec3 centre, float width, float height, Rgb nits = Rgb(1.0f)) {
     return placed("lamp", moved(centre.x, centre.y, centre.z),
                   {std::make_shared<Light>("light", RectShape{width, height}, nits)});
 }

@@ -34,7 +34,7 @@ protected:
     /// The program leaves out the faces or the mesh, says so, and goes on with the rest.
     void expectSkipped(const std::string& name, const std::string& attributes,
                        const std::string& warning) {
-        const Outcome outcome = solve(here.write(name, meshUnderLamp(attributes)));
+        const Outcome outcome = solve(here.write(name, meshUnderLight(attributes)));
         EXPECT_EQ(outcome.exitCode, 0) << name << ": " << outcome.err;
         EXPECT_THAT(outcome.err, testing::ContainsRegex(warning)) << name;
         EXPECT_LE(lineCount(outcome.err), 3u) << outcome.err;
@@ -124,9 +124,9 @@ TEST_F(BadInput, FacesWithoutAreaAreLeftOutAndCounted) {
 
 TEST_F(BadInput, AFaceThatIsNotPlanarIsLitAllTheSame) {
     const Outcome outcome = solve(here.write(
-        "saddle.usda", meshUnderLamp("point3f[] points = [(-1, -1, 0.5), (1, -1, 0), (1, 1, 0.5), "
-                                     "(-1, 1, 0)]\n" +
-                                     kOneFace)));
+        "saddle.usda", meshUnderLight("point3f[] points = [(-1, -1, 0.5), (1, -1, 0), (1, 1, 0.5), "
+                                      "(-1, 1, 0)]\n" +
+                                      kOneFace)));
     EXPECT_EQ(outcome.exitCode, 0);
     EXPECT_EQ(lineCount(outcome.err), 1u) << outcome.err; // the summary
 }
@@ -158,8 +158,8 @@ TEST_F(BadInput, HugeAndTinyScenesAreLitOrRefusedButDoNotCrash) {
         const Outcome outcome = runPenumbra(
             {"solve",
              here.write("size.usda",
-                        meshUnderLamp("point3f[] points = [(0, 0, 0), (" + s + ", 0, 0), (" + s +
-                                      ", " + s + ", 0), (0, " + s + ", 0)]\n" + kOneFace))},
+                        meshUnderLight("point3f[] points = [(0, 0, 0), (" + s + ", 0, 0), (" + s +
+                                       ", " + s + ", 0), (0, " + s + ", 0)]\n" + kOneFace))},
             {.cpuSeconds = 30});
         EXPECT_TRUE(outcome.exitCode == 0 || outcome.exitCode == 1) << size << outcome.exitCode;
         EXPECT_THAT(outcome.err, testing::Not(IsEmpty()));

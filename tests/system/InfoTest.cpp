@@ -38,17 +38,17 @@ std::vector<double> figures(const std::string& text, const std::string& words) {
     return numbers;
 }
 
-TEST_F(InfoAt, NamesTheSurfaceTheLampsAndWhatArrives) {
+TEST_F(InfoAt, NamesTheSurfaceTheLightsAndWhatArrives) {
     const Outcome info = at("0.4,0.4,0");
     EXPECT_EQ(info.exitCode, 0) << info.err;
     for (const char* word : {"on / (what belongs to no object)", "0 mm away", "facing (0, 0, 1)",
                              "/Lamp", "indirect light"})
         EXPECT_THAT(info.out, HasSubstr(word));
-    const auto lamp = figures(info.out, "/Lamp/Lamp");
-    ASSERT_EQ(lamp.size(), 4u) << info.out; // unoccluded, arrives, lost, percent
-    EXPECT_GT(lamp[0], 1);
-    EXPECT_EQ(lamp[1], lamp[0]);
-    EXPECT_EQ(lamp[2], 0);
+    const auto light = figures(info.out, "/Lamp/Lamp");
+    ASSERT_EQ(light.size(), 4u) << info.out; // unoccluded, arrives, lost, percent
+    EXPECT_GT(light[0], 1);
+    EXPECT_EQ(light[1], light[0]);
+    EXPECT_EQ(light[2], 0);
     const auto direct = figures(info.out, "direct light, all lamps"),
                indirect = figures(info.out, "indirect light"),
                together = figures(info.out, "together");
@@ -70,11 +70,11 @@ def Cube "Board"
 )");
     const Outcome info = at("0.6,0.6,0", {"--element-size", "0.05", "--direct-only"});
     EXPECT_EQ(info.exitCode, 0) << info.err;
-    const auto lamp = figures(info.out, "/Lamp/Lamp"), board = figures(info.out, "to /Board");
-    ASSERT_TRUE(lamp.size() == 4 && board.size() == 2) << info.out;
-    EXPECT_EQ(lamp[1], 0);
-    EXPECT_EQ(lamp[2], lamp[0]);
-    EXPECT_EQ(board[0], lamp[0]);
+    const auto light = figures(info.out, "/Lamp/Lamp"), board = figures(info.out, "to /Board");
+    ASSERT_TRUE(light.size() == 4 && board.size() == 2) << info.out;
+    EXPECT_EQ(light[1], 0);
+    EXPECT_EQ(light[2], light[0]);
+    EXPECT_EQ(board[0], light[0]);
     EXPECT_EQ(board[1], 100);
     EXPECT_THAT(info.out, Not(HasSubstr("indirect")));
 }

@@ -113,7 +113,7 @@ def Camera "Eye"
 )";
 }
 
-std::string meshUnderLamp(const std::string& attributes) {
+std::string meshUnderLight(const std::string& attributes) {
     return R"(#usda 1.0
 (
     metersPerUnit = 1

@@ -44,7 +44,7 @@ std::size_t lineCount(const std::string& text);
 /// A small room in USD text: walls, a box, a lamp and a camera.
 std::string smallRoom();
 /// A layer with one mesh, whose attributes are given as text, and a lamp above it.
-std::string meshUnderLamp(const std::string& attributes);
+std::string meshUnderLight(const std::string& attributes);
 /// Options that keep solving below a second.
 std::vector<std::string> coarse();
 

@@ -116,14 +116,14 @@ TEST(RadiosityProcess, LightsAndFollowsLikeAThread) {
 TEST(RadiosityProcess, SaysWhatIsOpenIfAsked) {
     LitRoom room(processLink());
     ASSERT_TRUE(updateUntilSettled(*room.node)) << describe(*room.node);
-    EXPECT_TRUE(room.node->openWork().empty());
-    room.node->watchWork(true);
+    EXPECT_TRUE(room.node->dirtyBlocks().empty());
+    room.node->watchDirty(true);
     EXPECT_TRUE(updateUntil(*room.node, [&] {
-        const auto work = room.node->openWork();
+        const auto work = room.node->dirtyBlocks();
         return !work.empty() && !work[0].empty();
     })) << describe(*room.node);
-    room.node->watchWork(false);
-    EXPECT_TRUE(room.node->openWork().empty());
+    room.node->watchDirty(false);
+    EXPECT_TRUE(room.node->dirtyBlocks().empty());
 }
 
 TEST(RadiosityProcess, NamesOfSharedMemoryAreThereForAMomentAndForNobodyElse) {
@@ -147,7 +147,7 @@ TEST(RadiosityProcess, KilledOrStoppedAtAnyMomentItIsReplacedAndTheLightIsTheSam
     const char* const wanted = std::getenv("PENUMBRA_KILLS");
     const int kills = wanted ? std::atoi(wanted) : 100;
     RadiosityOptions options = LitRoom::smallRoomOptions();
-    options.patience = 0.3;
+    options.timeout = 0.3;
     LitRoom room(processLink(), options);
     std::mt19937 random(1);
     FrameCost cost;

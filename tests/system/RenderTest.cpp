@@ -71,10 +71,11 @@ TEST_F(Render, GivesTheSameFileOnOneThreadAndOnTwo) {
 }
 
 TEST_F(Render, FramesASceneWithoutACameraAndSaysSo) {
-    room = here.write(
-        "bare.usda", meshUnderLamp("int[] faceVertexCounts = [4]\nint[] faceVertexIndices = [0, 1, "
-                                   "2, 3]\npoint3f[] points = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), "
-                                   "(-1, 1, 0)]"));
+    room =
+        here.write("bare.usda",
+                   meshUnderLight("int[] faceVertexCounts = [4]\nint[] faceVertexIndices = [0, 1, "
+                                  "2, 3]\npoint3f[] points = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), "
+                                  "(-1, 1, 0)]"));
     const Outcome outcome = render("a.exr");
     EXPECT_EQ(outcome.exitCode, 0);
     EXPECT_THAT(outcome.err, HasSubstr("no camera in the file"));

@@ -45,14 +45,14 @@ bool settle(RadiosityNode& node, SteppedLink& link) {
 
 /// Whether what is said of open work is about the blocks that there are, in numbers that can be.
 bool soundWork(const RadiosityNode& node) {
-    const auto work = node.openWork();
+    const auto work = node.dirtyBlocks();
     for (std::size_t o = 0; o < work.size() && o < node.objects().size(); ++o) {
         const auto& geometry = node.objects()[o].geometry;
         if (geometry && !work[o].empty() && work[o].size() != geometry->blockRevisions().size())
             return false;
-        for (const BlockWork& block : work[o])
-            if (!(block.worth >= 0) || !std::isfinite(block.worth) ||
-                block.kind > BlockWork::Kind::lamps)
+        for (const DirtyStatus& block : work[o])
+            if (!(block.priority >= 0) || !std::isfinite(block.priority) ||
+                block.kind > DirtyStatus::Kind::lights)
                 return false;
     }
     return true;
@@ -67,8 +67,8 @@ TEST(FuzzedSegment, NoByteOfItCanCrashOrHangEitherSide) {
     options.meshing = {.patchSize = 2, .elementSize = 1};
     options.mostMemory = 10 << 20; // what a mad worker asks for is not to be had
     LitRoom room(std::move(owned), options);
-    room.node->setLiveLamps({"/lamp/light"});
-    room.node->watchWork(true);
+    room.node->setPreviewLights({"/lamp/light"});
+    room.node->watchDirty(true);
     ASSERT_TRUE(settle(*room.node, link)) << describe(*room.node);
     Mutator mutator(1);
     unsigned restarts = 0;
@@ -78,7 +78,7 @@ TEST(FuzzedSegment, NoByteOfItCanCrashOrHangEitherSide) {
         if (done % 3 == 0) room.box->setMatrix(moved(0.1 * double(mutator.below(10)), 0, 0));
         link.step();
         room.node->update();
-        if (done % 100 == 50) room.node->watchWork(false), room.node->watchWork(true);
+        if (done % 100 == 50) room.node->watchDirty(false), room.node->watchDirty(true);
         EXPECT_TRUE(soundWork(*room.node));
         if (room.node->state().restarts == restarts && done % 50 != 0) continue;
         // It was noticed, or it may be that nothing goes on any more: then people start it anew.

@@ -11,7 +11,7 @@ GraphEdit pose(std::uint32_t node, double x) {
     matrix[3][0] = x;
     return SetMatrix{node, matrix};
 }
-double placeOf(const GraphEdit& edit) {
+double clusterOf(const GraphEdit& edit) {
     return std::get<SetMatrix>(edit).matrix[3][0];
 }
 
@@ -36,7 +36,7 @@ TEST(TriggerGate, ImplicitHoldsBackWhatIsInSomeonesHand) {
     gate.release(1);
     const auto due = gate.takeDue();
     ASSERT_EQ(due.size(), 1u);
-    EXPECT_EQ(placeOf(due[0]), 4); // of its poses the last
+    EXPECT_EQ(clusterOf(due[0]), 4); // of its poses the last
     EXPECT_EQ(gate.held(), 0u);
 }
 
@@ -49,7 +49,7 @@ TEST(TriggerGate, OnDemandHoldsBackAllButWhatThereIs) {
     ASSERT_EQ(gate.takeDue().size(), 1u); // the children
     const auto all = gate.takeAll();
     ASSERT_EQ(all.size(), 2u);
-    EXPECT_EQ(placeOf(all[0]), 2);
+    EXPECT_EQ(clusterOf(all[0]), 2);
     EXPECT_TRUE(gate.takeAll().empty());
 }
 

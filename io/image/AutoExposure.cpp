@@ -1,0 +1,42 @@
+#include "io/image/AutoExposure.h"
+
+#include "io/image/PngWriter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace penumbra {
+
+void AutoExposure::measure(std::span<const float> luminances) {
+    const bool dark = std::none_of(luminances.begin(), luminances.end(),
+                                   [](float y) { return y > 0 && std::isfinite(y); });
+    if (dark) return;
+    const double measured = std::log2(chooseExposure(luminances).middleGrey);
+    if (!target_) current_ = measured;
+    target_ = measured;
+}
+
+void AutoExposure::advance(double seconds, bool held) {
+    if (!target_ || held || fixed_) return;
+    const double tau = *target_ > current_ ? kBrighterSeconds : kDarkerSeconds;
+    current_ = *target_ + (current_ - *target_) * std::exp(-std::max(0.0, seconds) / tau);
+}
+
+float AutoExposure::uncompensated() const {
+    return fixed_ ? *fixed_ : float(std::exp2(current_));
+}
+
+float AutoExposure::middleGrey() const {
+    return uncompensated() * std::exp2(-compensation_);
+}
+
+void AutoExposure::fix(std::optional<float> middleGrey) {
+    if (fixed_ && !middleGrey) current_ = std::log2(double(*fixed_));
+    fixed_ = middleGrey;
+}
+
+bool AutoExposure::settled() const {
+    return fixed_ || !target_ || std::abs(current_ - *target_) < 0.01;
+}
+
+} // namespace penumbra

@@ -1,0 +1,29 @@
+// A root layer with its sublayers.
+#pragma once
+
+#include "io/usd/layer/UsdLayer.h"
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace penumbra {
+
+/// A layer in its place in a stack.
+struct UsdStackedLayer {
+    std::shared_ptr<const UsdLayer> layer;
+    UsdLayerOffset offset; ///< its times to those of the root layer
+};
+
+/// Reads `root` and, depth first, all its sublayers: strongest first. Times are mapped through the
+/// offsets and the ratio of timeCodesPerSecond. A sublayer that is missing, unreadable or part of a
+/// cycle is warned of and left out, as OpenUSD does; only the root layer's own faults are thrown.
+/// Asset paths are relative to the layer that has them.
+std::vector<UsdStackedLayer> readUsdLayerStack(const std::filesystem::path& root,
+                                               const UsdLayerLimits& limits,
+                                               Diagnostics& diagnostics);
+
+/// The layer's timeCodesPerSecond, else its framesPerSecond, else 24.
+double timeCodesPerSecond(const UsdLayer& layer);
+
+} // namespace penumbra

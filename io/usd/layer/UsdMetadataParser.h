@@ -1,0 +1,34 @@
+// Metadata: the parentheses after a layer's header, a prim's name or a property.
+#pragma once
+
+#include "io/usd/layer/UsdLayer.h"
+
+#include <optional>
+
+namespace penumbra {
+
+/// Each reads a whole block; the cursor stands at its '('. Keys that OpenUSD knows are checked for
+/// their type; others are kept as text. A bare string is stored under `comment`.
+void parseLayerMetadata(UsdScanner& scanner, UsdLayer& layer);
+void parsePrimMetadata(UsdScanner& scanner, UsdPrimSpec& prim);
+void parsePropertyMetadata(UsdScanner& scanner, UsdDictionary& metadata);
+
+/// `prepend`, `add`, ... as list operation; nothing for any other word.
+std::optional<UsdListOp> usdListOpNamed(std::string_view word);
+
+/// Adds an edit: an explicit one replaces all others, another kind replaces an explicit one and one
+/// of its own kind.
+template <class Item>
+void addListEdit(UsdListEdits<Item>& edits, UsdListOp op, std::vector<Item> items) {
+    std::erase_if(edits, [op](const UsdListEdit<Item>& e) {
+        return op == UsdListOp::explicitly || e.op == UsdListOp::explicitly || e.op == op;
+    });
+    edits.push_back({op, std::move(items)});
+}
+
+/// Reads `<path>` and makes it absolute; fails if it is malformed.
+std::string parseUsdPath(UsdScanner& scanner, const std::string& owner);
+/// Paths of a relationship or connection: None, one, or a bracketed list without repeats.
+std::vector<std::string> parseUsdTargets(UsdScanner& scanner, const std::string& owner);
+
+} // namespace penumbra

@@ -1,0 +1,24 @@
+// Attribute and relationship statements.
+#pragma once
+
+#include "io/usd/layer/UsdLayer.h"
+
+#include <string>
+#include <unordered_map>
+
+namespace penumbra {
+
+/// The properties of the prim body that is being read, found by name.
+struct UsdPropertyTable {
+    std::vector<UsdProperty>& properties;
+    std::unordered_map<std::string, std::size_t>& indexOf;
+};
+
+/// Reads one statement: a declaration, value, timeSamples, connection, relationship or (skipped
+/// with a warning; format 1.1 only) spline. Statements about one name add up; the last value wins;
+/// another type under the same name is an error. \param owner absolute path of the prim, for
+/// relative paths
+void parseUsdProperty(UsdScanner& scanner, const UsdPropertyTable& table, const std::string& owner,
+                      int formatMinor, Diagnostics& diagnostics);
+
+} // namespace penumbra

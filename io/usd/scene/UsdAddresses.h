@@ -1,0 +1,48 @@
+// Where in a file the nodes of a scene come from: what it takes to write about them.
+#pragma once
+
+#include "scenegraph/Camera.h"
+#include "scenegraph/Light.h"
+#include "scenegraph/Material.h"
+#include "scenegraph/Transform.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace penumbra {
+
+/// The prims of what can be edited in a loaded scene.
+struct UsdAddresses {
+    struct TransformAddress {
+        std::shared_ptr<Transform> node;
+        std::string prim;
+    };
+    struct Choice {
+        std::shared_ptr<Switch> node;
+        std::string prim;
+    };
+    struct LightAddress {
+        std::shared_ptr<Light> light;   ///< one of
+        std::shared_ptr<Material> tube; ///< the two, of a CylinderLight
+        std::string prim;
+    };
+    struct Paint {
+        std::shared_ptr<Material> material;
+        std::string shader;              ///< of a Material prim; empty: it has none
+        std::vector<std::string> meshes; ///< then those that are painted with it alone
+    };
+    struct Eye {
+        std::shared_ptr<Camera> node;
+        std::string prim;
+    };
+
+    std::vector<TransformAddress> transforms;
+    std::vector<Choice> choices;
+    std::vector<LightAddress> lights;
+    std::vector<Paint> paints;
+    std::vector<Eye> eyes;
+    std::string defaultPrim; ///< its name; empty: none
+};
+
+} // namespace penumbra

@@ -1,0 +1,14 @@
+// UsdGeomCamera.
+#pragma once
+
+#include "io/usd/layer/UsdAttributes.h"
+#include "io/usd/layer/UsdDiagnostic.h"
+#include "scenegraph/Camera.h"
+
+namespace penumbra {
+
+/// The lens of a Camera prim; the standard one, with a warning, if its focal length or an aperture
+/// is not positive.
+Lens usdLens(const UsdAttributes& camera, Diagnostics& diagnostics);
+
+} // namespace penumbra

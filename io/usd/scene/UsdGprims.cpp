@@ -1,0 +1,165 @@
+#include "io/usd/scene/UsdGprims.h"
+
+#include "io/usd/layer/UsdNumber.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace penumbra {
+
+namespace {
+
+constexpr int kSegments = 32;
+constexpr int kHalfRings = 8; // from pole to equator
+constexpr double kPi = std::numbers::pi;
+
+void addFace(UsdPolygons& p, std::initializer_list<std::int32_t> corners) {
+    p.counts.push_back(std::int32_t(corners.size()));
+    p.indices.insert(p.indices.end(), corners);
+}
+
+// A circle of kSegments points about Z; returns the index of its first one.
+std::int32_t addRing(UsdPolygons& p, double radius, double z) {
+    const auto first = std::int32_t(p.points.size());
+    for (int i = 0; i < kSegments; ++i) {
+        const double phi = 2 * kPi * i / kSegments;
+        p.points.emplace_back(float(radius * std::cos(phi)), float(radius * std::sin(phi)),
+                              float(z));
+    }
+    return first;
+}
+
+void joinRings(UsdPolygons& p, std::int32_t lower, std::int32_t upper) {
+    for (std::int32_t i = 0; i < kSegments; ++i) {
+        const std::int32_t j = (i + 1) % kSegments;
+        addFace(p, {lower + i, lower + j, upper + j, upper + i});
+    }
+}
+
+// Triangles from a ring to a point above (or, turned round, below) it.
+void joinPole(UsdPolygons& p, std::int32_t ring, double z, bool above) {
+    const auto pole = std::int32_t(p.points.size());
+    p.points.emplace_back(0.0f, 0.0f, float(z));
+    for (std::int32_t i = 0; i < kSegments; ++i) {
+        const std::int32_t j = (i + 1) % kSegments;
+        if (above)
+            addFace(p, {ring + i, ring + j, pole});
+        else
+            addFace(p, {ring + j, ring + i, pole});
+    }
+}
+
+void addCap(UsdPolygons& p, std::int32_t ring, bool above) {
+    p.counts.push_back(kSegments);
+    for (std::int32_t i = 0; i < kSegments; ++i)
+        p.indices.push_back(ring + (above ? i : kSegments - 1 - i));
+}
+
+void makeCube(UsdPolygons& p, double size) {
+    const float h = float(size / 2);
+    for (int i = 0; i < 8; ++i)
+        p.points.emplace_back(i & 1 ? h : -h, i & 2 ? h : -h, i & 4 ? h : -h);
+    addFace(p, {0, 2, 3, 1});
+    addFace(p, {4, 5, 7, 6});
+    addFace(p, {0, 1, 5, 4});
+    addFace(p, {2, 6, 7, 3});
+    addFace(p, {0, 4, 6, 2});
+    addFace(p, {1, 3, 7, 5});
+}
+
+// Two half spheres, `height` apart: a capsule, or with height 0 a sphere.
+void makeCapsule(UsdPolygons& p, double radius, double height) {
+    std::int32_t previous = -1;
+    for (int i = -kHalfRings + 1; i <= kHalfRings - 1; ++i) {
+        const double latitude = 0.5 * kPi * i / kHalfRings;
+        const double r = radius * std::cos(latitude);
+        const double z = radius * std::sin(latitude);
+        const std::int32_t ring = addRing(p, r, z + (i > 0 ? height / 2 : -height / 2));
+        if (previous < 0)
+            joinPole(p, ring, -radius - height / 2, false);
+        else
+            joinRings(p, previous, ring);
+        previous = ring;
+        if (i != 0 || height == 0) continue;
+        const std::int32_t upper = addRing(p, r, height / 2);
+        joinRings(p, ring, upper);
+        previous = upper;
+    }
+    joinPole(p, previous, radius + height / 2, true);
+}
+
+void makeCylinder(UsdPolygons& p, double radius, double height) {
+    const std::int32_t lower = addRing(p, radius, -height / 2);
+    const std::int32_t upper = addRing(p, radius, height / 2);
+    joinRings(p, lower, upper);
+    addCap(p, lower, false);
+    addCap(p, upper, true);
+}
+
+void makeCone(UsdPolygons& p, double radius, double height) {
+    const std::int32_t base = addRing(p, radius, -height / 2);
+    joinPole(p, base, height / 2, true);
+    addCap(p, base, false);
+}
+
+// Axis X: width along Z, length along Y. Axis Y: width X, length Z. Axis Z: width X, length Y.
+void makePlane(UsdPolygons& p, double width, double length, char axis) {
+    const float w = float(width / 2);
+    const float l = float(length / 2);
+    if (axis == 'X')
+        p.points = {{0, -l, w}, {0, -l, -w}, {0, l, -w}, {0, l, w}};
+    else if (axis == 'Y')
+        p.points = {{-w, 0, l}, {w, 0, l}, {w, 0, -l}, {-w, 0, -l}};
+    else
+        p.points = {{-w, -l, 0}, {w, -l, 0}, {w, l, 0}, {-w, l, 0}};
+    addFace(p, {0, 1, 2, 3});
+}
+
+// What was made about Z is turned to another axis by exchanging coordinates cyclically.
+void turnToAxis(UsdPolygons& p, char axis) {
+    for (glm::vec3& v : p.points) {
+        if (axis == 'X') v = {v.z, v.x, v.y};
+        if (axis == 'Y') v = {v.y, v.z, v.x};
+    }
+}
+
+} // namespace
+
+bool isUsdGprim(std::string_view typeName) {
+    constexpr std::array<std::string_view, 6> kTypes{"Cube", "Sphere",  "Cylinder",
+                                                     "Cone", "Capsule", "Plane"};
+    return std::find(kTypes.begin(), kTypes.end(), typeName) != kTypes.end();
+}
+
+UsdPolygons makeUsdGprim(const UsdAttributes& prim, Diagnostics& diagnostics) {
+    const std::string& type = prim.prim().typeName;
+    bool usable = true;
+    const auto size = [&](std::string_view name, double fallback) {
+        const double value = prim.number(name, fallback);
+        usable = usable && std::isfinite(roundToFloat(value)) && value > 0;
+        return value;
+    };
+    const std::string axisName = prim.text("axis", "Z");
+    const char axis = axisName.size() == 1 ? axisName[0] : 'Z';
+    UsdPolygons p;
+    if (type == "Cube") makeCube(p, size("size", 2));
+    if (type == "Sphere") makeCapsule(p, size("radius", 1), 0);
+    if (type == "Cylinder") makeCylinder(p, size("radius", 1), size("height", 2));
+    if (type == "Cone") makeCone(p, size("radius", 1), size("height", 2));
+    if (type == "Capsule") makeCapsule(p, size("radius", 0.5), size("height", 1));
+    if (type == "Plane") makePlane(p, size("width", 2), size("length", 2), axis);
+    if (type != "Plane" && type != "Cube" && type != "Sphere") turnToAxis(p, axis);
+    if (!usable) {
+        diagnostics.warn(prim.prim().location(), "a " + type + " without size left out");
+        return {};
+    }
+    p.kept.assign(p.counts.size(), 1);
+    p.doubleSided = prim.flag("doubleSided", type == "Plane");
+    p.leftHanded = prim.text("orientation", "rightHanded") == "leftHanded";
+    return p;
+}
+
+} // namespace penumbra

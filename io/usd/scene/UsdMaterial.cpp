@@ -1,0 +1,149 @@
+#include "io/usd/scene/UsdMaterial.h"
+
+#include "io/usd/layer/UsdPath.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace penumbra {
+
+namespace {
+
+constexpr int kMaxConnections = 64; // of a chain; also ends cycles
+
+float finiteOrZero(double v) {
+    return std::isfinite(v) ? float(v) : 0.0f;
+}
+
+} // namespace
+
+const UsdSurface& UsdMaterials::at(const std::string& path) {
+    const auto [entry, isNew] = surfaces_.try_emplace(path);
+    if (!isNew) return entry->second;
+    const UsdPrim* prim = stage_.find(path);
+    if (prim && prim->typeName == "Material")
+        entry->second = make(*prim);
+    else
+        diagnostics_.warn(prim ? prim->location() : SourceLocation{stage_.rootLayer().file, 0, 0},
+                          "material binding to <" + path + ">, which is no material");
+    return entry->second;
+}
+
+const std::shared_ptr<Material>& UsdMaterials::neutral() {
+    if (!neutral_) neutral_ = std::make_shared<Material>("neutral");
+    return neutral_;
+}
+
+UsdSurface UsdMaterials::make(const UsdPrim& prim) {
+    UsdSurface surface;
+    const UsdPrim* shader = previewSurface(prim);
+    if (!shader) return surface;
+    const bool specularWorkflow = number(*shader, "inputs:useSpecularWorkflow", 0) != 0;
+    const double metallic = std::clamp(number(*shader, "inputs:metallic", 0), 0.0, 1.0);
+    const double opacity = std::clamp(number(*shader, "inputs:opacity", 1), 0.0, 1.0);
+    const double threshold = number(*shader, "inputs:opacityThreshold", 0);
+    const Rgb diffuse = colour(*shader, "inputs:diffuseColor", Rgb(0.18f), Rgb(0.5f));
+    const Rgb emission = colour(*shader, "inputs:emissiveColor", Rgb(), Rgb());
+    surface.invisible = opacity == 0 || opacity < threshold;
+    if (surface.invisible)
+        diagnostics_.warn(prim.location(), "fully transparent surface left out");
+    else if (opacity < 1 && threshold == 0)
+        diagnostics_.warn(prim.location(), "transparency ignored: the surface blocks light");
+    const double cover = (threshold > 0 ? 1 : opacity) * (specularWorkflow ? 1 : 1 - metallic);
+    surface.material = std::make_shared<Material>(prim.name);
+    surface.shader = shader->path;
+    surface.material->setReflectance(diffuse * float(cover));
+    surface.material->setEmission(
+        {std::max(emission.r, 0.0f), std::max(emission.g, 0.0f), std::max(emission.b, 0.0f)});
+    return surface;
+}
+
+// Follows outputs:surface, through node graphs, to the shader behind it.
+const UsdPrim* UsdMaterials::previewSurface(const UsdPrim& material) {
+    const UsdPrim* prim = &material;
+    std::string output = "outputs:surface";
+    for (int i = 0; i < kMaxConnections && prim; ++i) {
+        if (prim->typeName == "Shader") {
+            const std::string id = UsdAttributes(*prim, time_).text("info:id", "");
+            if (id == "UsdPreviewSurface") return prim;
+            diagnostics_.warn(prim->location(), "shader '" + id + "' not understood");
+            return nullptr;
+        }
+        const auto sources = UsdStage::targets(*prim, output);
+        if (sources.empty()) break;
+        output = usdPropertyPart(sources.front());
+        prim = stage_.find(usdPrimPart(sources.front()));
+    }
+    diagnostics_.warn(material.location(), "material without a surface that is understood");
+    return nullptr;
+}
+
+UsdMaterials::Input UsdMaterials::input(const UsdPrim& shader, const std::string& name) {
+    const UsdPrim* prim = &shader;
+    std::string attribute = name;
+    for (int i = 0; i < kMaxConnections; ++i) {
+        const auto sources = UsdStage::targets(*prim, attribute);
+        if (sources.empty()) return {UsdAttributes(*prim, time_).numbers(attribute), false};
+        const UsdPrim* source = stage_.find(usdPrimPart(sources.front()));
+        const std::string property(usdPropertyPart(sources.front()));
+        if (!source) {
+            diagnostics_.warn(UsdStage::location(*prim, attribute),
+                              "connection to <" + sources.front() + ">, which is not there");
+            return {UsdAttributes(*prim, time_).numbers(attribute), false};
+        }
+        if (source->typeName == "Shader" && property.starts_with("outputs:"))
+            return textureFallback(*source, property, name);
+        prim = source;
+        attribute = property;
+    }
+    diagnostics_.warn(shader.location(), "connections run in a circle");
+    return {};
+}
+
+// A shader's output is not computed: only a texture's authored fallback stands in for it.
+UsdMaterials::Input UsdMaterials::textureFallback(const UsdPrim& shader, const std::string& output,
+                                                  const std::string& name) {
+    const bool radiometric = name == "inputs:diffuseColor" || name == "inputs:emissiveColor" ||
+                             name == "inputs:opacity" || name == "inputs:metallic";
+    if (radiometric)
+        diagnostics_.warn(shader.location(), "texture or computed colour replaced by a constant");
+    auto fallback = UsdAttributes(shader, time_).tuple("inputs:fallback", 4);
+    if (fallback.empty()) return {{}, true};
+    constexpr std::string_view kChannels = "rgba";
+    const std::string channel = output.substr(std::string_view("outputs:").size());
+    const std::size_t at = channel.size() == 1 ? kChannels.find(channel) : std::string_view::npos;
+    if (at != std::string_view::npos) return {{fallback[at]}, true};
+    fallback.resize(3);
+    return {std::move(fallback), true};
+}
+
+double UsdMaterials::number(const UsdPrim& shader, const std::string& name, double fallback) {
+    const Input found = input(shader, name);
+    return found.value.size() == 1 && std::isfinite(found.value[0]) ? found.value[0] : fallback;
+}
+
+Rgb UsdMaterials::colour(const UsdPrim& shader, const std::string& name, Rgb fallback,
+                         Rgb ifTexture) {
+    const Input found = input(shader, name);
+    if (found.value.size() == 3)
+        return {finiteOrZero(found.value[0]), finiteOrZero(found.value[1]),
+                finiteOrZero(found.value[2])};
+    return found.texture ? ifTexture : fallback;
+}
+
+UsdBinding usdMaterialBinding(const UsdPrim& prim, Diagnostics& diagnostics) {
+    for (const UsdOpinion& opinion : prim.opinions)
+        for (const UsdProperty& p : opinion.spec->properties)
+            if (p.name.starts_with("material:binding:collection"))
+                diagnostics.warn(opinion.layer->location(p.where), "collection binding ignored");
+    for (const char* name : {"material:binding:full", "material:binding"}) {
+        const auto targets = UsdStage::targets(prim, name);
+        if (targets.empty()) continue;
+        const UsdValue* strength = UsdStage::metadata(prim, name, "bindMaterialAs");
+        const std::string* text = strength ? strength->text() : nullptr;
+        return {targets.front(), text && *text == "strongerThanDescendants"};
+    }
+    return {};
+}
+
+} // namespace penumbra

@@ -1,0 +1,39 @@
+// A mesh node from checked polygons and what the prim says about its surface.
+#pragma once
+
+#include "io/usd/scene/UsdMaterial.h"
+#include "io/usd/scene/UsdPolygons.h"
+
+#include <optional>
+
+namespace penumbra {
+
+/// What a gprim gets from its ancestors.
+struct UsdInherited {
+    std::string material;             ///< path of the bound material; empty: none
+    bool materialIsStronger = false;  ///< an ancestor's binding overrules those below
+    std::optional<Rgb> displayColour; ///< constant primvar
+};
+
+/// Makes the mesh of a gprim; null, with a warning, if no face is left. Each face takes the first
+/// of
+///
+/// 1. the material of the GeomSubset it is in,
+/// 2. the material bound to the prim (`inherited` already accounts for it),
+/// 3. primvars:displayColor: constant, uniform, or the mean of the face's corners,
+/// 4. the neutral material.
+///
+/// \param lightOf  luminance to add if the mesh is a light (MeshLightAPI): the material's own glow
+/// tints it,
+///                 if there is one
+NodePtr makeUsdMesh(const UsdStage& stage, const UsdAttributes& prim, UsdPolygons polygons,
+                    const UsdInherited& inherited, UsdMaterials& materials,
+                    const std::optional<Rgb>& lightOf, Diagnostics& diagnostics);
+
+/// The prim's own displayColor if it is constant: what it hands down to its descendants.
+std::optional<Rgb> usdConstantColour(const UsdAttributes& prim);
+
+/// Sum of the kept faces' areas under a linear map (polygons by their Newell normals).
+double areaOf(const UsdPolygons& polygons, const glm::dmat3& toWorld);
+
+} // namespace penumbra

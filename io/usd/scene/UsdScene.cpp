@@ -1,0 +1,340 @@
+#include "io/usd/scene/UsdScene.h"
+
+#include "io/usd/layer/UsdStage.h"
+#include "io/usd/scene/UsdCamera.h"
+#include "io/usd/scene/UsdGprims.h"
+#include "io/usd/scene/UsdLight.h"
+#include "io/usd/scene/UsdMaterial.h"
+#include "io/usd/scene/UsdMesh.h"
+#include "io/usd/scene/UsdTracks.h"
+#include "io/usd/scene/UsdXform.h"
+#include "scenegraph/Camera.h"
+#include "scenegraph/Mesh.h"
+#include "scenegraph/Transform.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+
+namespace penumbra {
+
+namespace {
+
+template <std::size_t N>
+bool isOneOf(std::string_view word, const std::array<std::string_view, N>& words) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+// Prims that are no part of the picture, nor is anything below them.
+bool isData(std::string_view type) {
+    constexpr std::array<std::string_view, 10> kTypes{
+        "Material",      "Shader",    "NodeGraph",   "GeomSubset", "RenderSettings",
+        "RenderProduct", "RenderVar", "LightFilter", "Backdrop",   "SkelAnimation"};
+    return isOneOf(type, kTypes);
+}
+
+// Things with a shape that we can't show.
+bool isUnsupportedShape(std::string_view type) {
+    constexpr std::array<std::string_view, 9> kTypes{"BasisCurves", "NurbsCurves", "HermiteCurves",
+                                                     "NurbsPatch",  "Points",      "TetMesh",
+                                                     "Volume",      "SkelRoot",    "Skeleton"};
+    return isOneOf(type, kTypes);
+}
+
+bool isXformable(std::string_view type) {
+    return type == "Xform" || type == "Mesh" || type == "Camera" || type == "PointInstancer" ||
+           isUsdGprim(type) || isUsdAreaLight(type) || isUsdLightWithoutArea(type) ||
+           isUnsupportedShape(type);
+}
+
+// What a prim hands down to those below it.
+struct Place {
+    std::shared_ptr<Group> container; // takes the children's nodes; null: nothing below is loaded
+    glm::dmat4 toWorld{1.0};          // column vectors, scene units
+    UsdInherited inherited;
+    bool drawn = true; // purpose
+};
+
+class SceneBuilder {
+public:
+    SceneBuilder(UsdStage& stage, UsdTime time, UsdTracks& tracks, UsdAddresses& addresses)
+        : stage_(stage), tracks_(tracks), addresses_(addresses), time_(time),
+          warnings_(stage.diagnostics()), materials_(stage, time, warnings_),
+          places_(stage.prims().size()) {}
+
+    void build(std::shared_ptr<Group> root) {
+        places_[0].container = std::move(root);
+        for (std::size_t i = 1; i < stage_.prims().size(); ++i) add(i);
+        tracks_.addMaterials(materials_);
+        notePaints();
+    }
+
+private:
+    void add(std::size_t index) {
+        const UsdPrim& prim = stage_.prims()[index];
+        const Place& parent = places_[prim.parent];
+        if (!parent.container || !prim.defined || prim.abstract || isData(prim.typeName)) return;
+        const UsdAttributes attributes(prim, time_);
+        if (usdHidden(attributes) && !comesAndGoes(prim)) return;
+        if (prim.typeName == "PointInstancer") {
+            warnings_.warn(prim.location(), "PointInstancer not supported yet: left out");
+            return;
+        }
+        Place place = clusterOf(attributes, parent);
+        const auto transform = makeTransform(attributes, parent, place);
+        const NodePtr leaf = place.drawn ? makeLeaf(attributes, place) : nullptr;
+        if (leaf && isUsdAreaLight(prim.typeName)) tracks_.addLight(leaf, prim, place.toWorld);
+        if (const auto camera = std::dynamic_pointer_cast<Camera>(leaf))
+            tracks_.addCamera(camera, prim);
+        if (leaf) noteLeaf(leaf, prim);
+        attach(prim, parent, place, transform, leaf);
+        places_[index] = std::move(place);
+    }
+
+    Place clusterOf(const UsdAttributes& attributes, const Place& parent) {
+        Place place;
+        place.toWorld = parent.toWorld;
+        place.inherited = parent.inherited;
+        place.drawn = parent.drawn;
+        const std::string purpose = attributes.text("purpose", "");
+        if (!purpose.empty()) place.drawn = purpose == "default" || purpose == "render";
+        if (!purpose.empty() && !place.drawn && purpose != "proxy" && purpose != "guide")
+            warnings_.warn(attributes.location("purpose"), "prim of unknown purpose left out");
+        const UsdBinding binding = usdMaterialBinding(attributes.prim(), warnings_);
+        if (!binding.path.empty() && !parent.inherited.materialIsStronger) {
+            place.inherited.material = binding.path;
+            place.inherited.materialIsStronger = binding.strongerThanDescendants;
+        }
+        if (const auto colour = usdConstantColour(attributes))
+            place.inherited.displayColour = colour;
+        return place;
+    }
+
+    // Whether the animation hides it and shows it: it becomes a Switch.
+    static bool comesAndGoes(const UsdPrim& prim) { return UsdStage::animated(prim, "visibility"); }
+
+    // A Transform if the prim has, or may get, a place of its own; else null. What comes and goes
+    // is movable, for only movable objects can be hidden without meshing the scene anew.
+    std::shared_ptr<Transform> makeTransform(const UsdAttributes& attributes, const Place& parent,
+                                             Place& place) {
+        const UsdPrim& prim = attributes.prim();
+        UsdLocalTransform local;
+        if (isXformable(prim.typeName)) local = usdLocalTransform(attributes, warnings_);
+        const bool movable =
+            local.animated || comesAndGoes(prim) || attributes.flag("penumbra:movable", false);
+        if (prim.typeName != "Xform" && !local.authored && !movable) return nullptr;
+        if (local.resetsStack) local.matrix = relativeToParent(local, parent.toWorld);
+        auto transform = std::make_shared<Transform>(prim.name);
+        transform->setMatrix(local.matrix);
+        transform->setMovable(movable);
+        place.toWorld = parent.toWorld * local.matrix;
+        tracks_.addTransform(transform, prim, parent.toWorld);
+        addresses_.transforms.push_back({transform, prim.path});
+        return transform;
+    }
+
+    NodePtr makeLeaf(const UsdAttributes& attributes, const Place& place) {
+        const UsdPrim& prim = attributes.prim();
+        const std::string& type = prim.typeName;
+        if (type == "Mesh") return makeMesh(attributes, place);
+        if (isUsdGprim(type))
+            return makeUsdMesh(stage_, attributes, makeUsdGprim(attributes, warnings_),
+                               place.inherited, materials_, std::nullopt, warnings_);
+        if (isUsdAreaLight(type)) return makeUsdLight(attributes, place.toWorld, warnings_);
+        if (type == "Camera")
+            return std::make_shared<Camera>(prim.name, usdLens(attributes, warnings_));
+        if (isUsdLightWithoutArea(type) || isUnsupportedShape(type))
+            warnings_.warn(prim.location(), type + " not supported yet: left out");
+        else if (!type.empty() && type != "Scope" && type != "Xform")
+            warnings_.warn(prim.location(), "unknown type '" + type + "' taken as a group");
+        return nullptr;
+    }
+
+    NodePtr makeMesh(const UsdAttributes& attributes, const Place& place) {
+        const UsdPrim& prim = attributes.prim();
+        if (UsdStage::animated(prim, "points"))
+            warnings_.warn(attributes.location("points"), "animated points are held");
+        UsdPolygons polygons = readUsdPolygons(attributes, warnings_);
+        std::optional<Rgb> light;
+        if (UsdStage::hasApi(prim, "MeshLightAPI")) {
+            const double area = areaOf(polygons, glm::dmat3(place.toWorld));
+            light = usdLightLuminance(attributes, area, warnings_);
+        }
+        return makeUsdMesh(stage_, attributes, std::move(polygons), place.inherited, materials_,
+                           light, warnings_);
+    }
+
+    bool hasChildren(const UsdPrim& prim) const {
+        return std::any_of(prim.children.begin(), prim.children.end(), [&](std::uint32_t child) {
+            return !isData(stage_.prims()[child].typeName);
+        });
+    }
+
+    void attach(const UsdPrim& prim, const Place& parent, Place& place,
+                const std::shared_ptr<Transform>& transform, const NodePtr& leaf) {
+        const bool below = hasChildren(prim);
+        if (leaf && !transform && !below) {
+            parent.container->add(leaf);
+            return;
+        }
+        const bool structure = prim.typeName == "Xform" || !isXformable(prim.typeName);
+        if (!leaf && !below && !structure) return; // left out
+        place.container = transform;
+        if (!transform) place.container = std::make_shared<Group>(prim.name);
+        if (leaf) place.container->add(leaf);
+        parent.container->add(comesAndGoes(prim) ? makeSwitch(prim, place) : place.container);
+    }
+
+    NodePtr makeSwitch(const UsdPrim& prim, const Place& place) {
+        auto choice = std::make_shared<Switch>(prim.name);
+        choice->add(place.container);
+        choice->setVisible(!usdHidden(UsdAttributes(prim, time_)));
+        tracks_.addSwitch(choice, prim);
+        addresses_.choices.push_back({choice, prim.path});
+        return choice;
+    }
+
+    // Where a leaf comes from; its paint is noted when all materials are known.
+    void noteLeaf(const NodePtr& leaf, const UsdPrim& prim) {
+        if (const auto camera = std::dynamic_pointer_cast<Camera>(leaf))
+            addresses_.eyes.push_back({camera, prim.path});
+        if (const auto light = std::dynamic_pointer_cast<Light>(leaf))
+            addresses_.lights.push_back({light, nullptr, prim.path});
+        const auto mesh = std::dynamic_pointer_cast<Mesh>(leaf);
+        if (!mesh) return;
+        if (isUsdAreaLight(prim.typeName))
+            addresses_.lights.push_back({nullptr, mesh->materialOf(0), prim.path});
+        else
+            painted_.push_back({mesh, prim.path, UsdStage::hasApi(prim, "MeshLightAPI")});
+    }
+
+    void notePaints() {
+        std::unordered_map<const Material*, std::size_t> known;
+        for (const auto& [path, surface] : materials_.made()) {
+            if (!surface.material) continue;
+            known[surface.material.get()] = addresses_.paints.size();
+            addresses_.paints.push_back({surface.material, surface.shader, {}});
+        }
+        const std::size_t shaders = addresses_.paints.size();
+        for (const auto& [mesh, path, isLight] : painted_)
+            for (const auto& material : mesh->data().materials) {
+                const auto [entry, isNew] =
+                    known.try_emplace(material.get(), addresses_.paints.size());
+                if (isNew) addresses_.paints.push_back({material, {}, {}});
+                const bool alone = mesh->data().materials.size() == 1 && !isLight;
+                if (entry->second >= shaders && alone)
+                    addresses_.paints[entry->second].meshes.push_back(path);
+            }
+    }
+
+    UsdStage& stage_;
+    UsdTracks& tracks_;
+    UsdAddresses& addresses_;
+    UsdTime time_;
+    Diagnostics& warnings_;
+    UsdMaterials materials_;
+    std::vector<Place> places_;
+
+    struct Painted {
+        std::shared_ptr<Mesh> mesh;
+        std::string path;
+        bool isLight;
+    };
+    std::vector<Painted> painted_;
+};
+
+std::optional<double> layerNumber(const UsdLayer& layer, std::string_view key) {
+    const UsdValue* value = find(layer.metadata, key);
+    const auto numbers = value ? value->numbers() : std::vector<double>{};
+    if (numbers.size() != 1 || !std::isfinite(numbers[0])) return std::nullopt;
+    return numbers[0];
+}
+
+// Units, axes and frames of the whole scene.
+void readStageMetadata(const UsdLayer& layer, Scene& scene, Diagnostics& warnings) {
+    const SourceLocation where{layer.file, 0, 0};
+    scene.metersPerUnit = layerNumber(layer, "metersPerUnit").value_or(0.01);
+    if (!(scene.metersPerUnit > 0)) {
+        warnings.warn(where, "metersPerUnit is not positive: 0.01 is used");
+        scene.metersPerUnit = 0.01;
+    }
+    const UsdValue* axis = find(layer.metadata, "upAxis");
+    const std::string up = axis && axis->text() ? *axis->text() : "Y";
+    if (up == "Z") scene.upAxis = UpAxis::z;
+    if (up != "Y" && up != "Z") warnings.warn(where, "upAxis is neither Y nor Z: Y is used");
+    scene.startTimeCode = layerNumber(layer, "startTimeCode").value_or(0);
+    scene.endTimeCode = layerNumber(layer, "endTimeCode").value_or(scene.startTimeCode);
+    scene.timeCodesPerSecond = timeCodesPerSecond(layer);
+}
+
+/// A positive number; 0: the prim says none.
+double positive(const UsdPrim& prim, std::string_view name, const char* what,
+                Diagnostics& warnings) {
+    const UsdAttributes attributes(prim, std::nullopt);
+    const double number = attributes.number(name, 0);
+    if (number > 0 && std::isfinite(number)) return number;
+    if (UsdStage::property(prim, name))
+        warnings.warn(attributes.location(name), std::string(what) + " ignored: not positive");
+    return 0;
+}
+
+/// One of some words; empty: the prim says none of them.
+std::string word(const UsdPrim& prim, std::string_view name,
+                 std::initializer_list<std::string_view> words, Diagnostics& warnings) {
+    const UsdAttributes attributes(prim, std::nullopt);
+    const std::string text = attributes.text(name, "");
+    if (std::find(words.begin(), words.end(), text) != words.end()) return text;
+    if (!UsdStage::property(prim, name)) return {};
+    std::string known;
+    for (std::string_view one : words) known += (known.empty() ? "" : ", ") + std::string(one);
+    warnings.warn(attributes.location(name), "'" + text + "' is none of " + known);
+    return {};
+}
+
+// What the default prim says about the scene as a whole; unlike metadata of a layer this reaches
+// the layers above it.
+void readDefaultPrim(const UsdStage& stage, Scene& scene, Diagnostics& warnings) {
+    const UsdValue* name = find(stage.rootLayer().metadata, "defaultPrim");
+    const UsdPrim* prim = name && name->text() ? stage.find("/" + *name->text()) : nullptr;
+    if (!prim) return;
+    const double unit = scene.metersPerUnit;
+    scene.patchSize = unit * positive(*prim, "penumbra:patchSize", "patch size", warnings);
+    scene.elementSize = unit * positive(*prim, "penumbra:elementSize", "element size", warnings);
+    scene.residual = positive(*prim, "penumbra:residual", "residual", warnings);
+    scene.trigger =
+        word(*prim, "penumbra:trigger", {"implicit", "onDemand", "continuous"}, warnings);
+    scene.policy = word(*prim, "penumbra:order", {"importance", "plain"}, warnings);
+}
+
+} // namespace
+
+LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& options) {
+    const auto stage =
+        std::make_shared<UsdStage>(UsdStage::open(file, {.fileBytes = options.maxFileBytes}));
+    LoadedScene loaded;
+    loaded.scene = std::make_shared<Scene>();
+    Scene& scene = *loaded.scene;
+    scene.name = file.stem().string();
+    readStageMetadata(stage->rootLayer(), scene, stage->diagnostics());
+    readDefaultPrim(*stage, scene, stage->diagnostics());
+    if (scene.metersPerUnit != 1) {
+        auto toMetres = std::make_shared<Transform>("");
+        glm::dmat4 scale(scene.metersPerUnit);
+        scale[3][3] = 1;
+        toMetres->setMatrix(scale);
+        scene.root = toMetres;
+    }
+    const UsdTime time =
+        options.time ? options.time : layerNumber(stage->rootLayer(), "startTimeCode");
+    const auto tracks = std::make_shared<UsdTracks>(stage);
+    if (const UsdValue* name = find(stage->rootLayer().metadata, "defaultPrim"))
+        if (name->text()) loaded.addresses.defaultPrim = *name->text();
+    SceneBuilder(*stage, time, *tracks, loaded.addresses).build(scene.root);
+    loaded.files = stage->files();
+    if (!tracks->empty()) loaded.animation = tracks;
+    loaded.diagnostics = stage->diagnostics().take();
+    return loaded;
+}
+
+} // namespace penumbra

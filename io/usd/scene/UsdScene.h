@@ -1,0 +1,56 @@
+// Loading a scene: USD text to the scene graph.
+#pragma once
+
+#include "io/usd/layer/UsdDiagnostic.h"
+#include "io/usd/scene/UsdAddresses.h"
+#include "io/usd/scene/UsdAnimation.h"
+#include "scenegraph/Scene.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace penumbra {
+
+struct LoadOptions {
+    /// Time code at which the scene is read; none: the file's startTimeCode, or, if it has none,
+    /// the attributes' defaults.
+    std::optional<double> time;
+    std::uintmax_t maxFileBytes = std::uintmax_t(2) << 30; ///< of one layer
+};
+
+struct LoadedScene {
+    std::shared_ptr<Scene> scene;
+    std::shared_ptr<UsdAnimation> animation; ///< plays the file's time samples; null: nothing moves
+    std::vector<Diagnostic> diagnostics;     ///< what was not understood or left out; see summary()
+    UsdAddresses addresses;                  ///< where in the file the nodes come from
+    std::vector<std::filesystem::path> files; ///< all layers that were read, the file itself first
+};
+
+/// Reads a USD text file as a scene graph. Below the root everything is in metres, in the file's
+/// own axes: if its unit is another, the root is a Transform that scales.
+///
+/// | USD | scene graph |
+/// |---|---|
+/// | Xform | Transform |
+/// | Scope, prims without or of unknown type | Group |
+/// | Mesh, Cube, Sphere, Cylinder, Cone, Capsule, Plane | Mesh |
+/// | RectLight, DiskLight, SphereLight | Light |
+/// | CylinderLight | Mesh, emitting |
+/// | Camera | Camera |
+/// | Material with a UsdPreviewSurface | Material, shared |
+///
+/// Each node carries its prim's name, so that paths are those of the file. A mesh, light or camera
+/// with xformOps of its own becomes a Transform that holds the node under the same name. What is
+/// inactive, invisible, abstract, only `over`, or of purpose proxy or guide is left out. A
+/// Transform is movable if its ops change with time or `bool penumbra:movable` says so. The default
+/// prim's `double penumbra:patchSize` and `penumbra:elementSize`, in units of the file, `double
+/// penumbra:residual`, and the tokens `penumbra:trigger` and `penumbra:order` become members of
+/// Scene.
+///
+/// Throws SceneFileError if the file can't be read at all.
+LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& options = {});
+
+} // namespace penumbra

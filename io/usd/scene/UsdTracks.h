@@ -1,0 +1,72 @@
+// The nodes of a loaded scene whose prims have time samples.
+#pragma once
+
+#include "io/usd/layer/UsdAttributes.h"
+#include "io/usd/layer/UsdStage.h"
+#include "io/usd/scene/UsdAnimation.h"
+#include "io/usd/scene/UsdMaterial.h"
+#include "scenegraph/Camera.h"
+#include "scenegraph/Light.h"
+#include "scenegraph/Transform.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace penumbra {
+
+/// Whether a prim's visibility says that it and all below it is hidden.
+bool usdHidden(const UsdAttributes& attributes);
+
+/// Remembers which prim each changing node came from, and reads those prims again at other times.
+class UsdTracks : public UsdAnimation {
+public:
+    explicit UsdTracks(std::shared_ptr<const UsdStage> stage) : stage_(std::move(stage)) {}
+    void setTime(double timeCode) override;
+    bool empty() const;
+
+    /// Each remembers a node if its prim changes with time. Frames as in makeUsdLight().
+    void addTransform(std::shared_ptr<Transform> node, const UsdPrim& prim,
+                      const glm::dmat4& parentToWorld);
+    /// \param node hides what `prim` became; always remembered
+    void addSwitch(std::shared_ptr<Switch> node, const UsdPrim& prim);
+    /// \param node a Light, or the Mesh that stands for a CylinderLight
+    void addLight(const NodePtr& node, const UsdPrim& prim, const glm::dmat4& toWorld);
+    void addCamera(std::shared_ptr<Camera> node, const UsdPrim& prim);
+    /// The materials that were made, those that change.
+    void addMaterials(const UsdMaterials& materials);
+
+private:
+    struct TransformTrack {
+        std::shared_ptr<Transform> node;
+        const UsdPrim* prim;
+        glm::dmat4 parentToWorld;
+    };
+    struct LightTrack {
+        std::shared_ptr<Light> light;   ///< or
+        std::shared_ptr<Material> tube; ///< the material of a CylinderLight's mesh
+        const UsdPrim* prim;
+        glm::dmat4 toWorld;
+    };
+    struct SwitchTrack {
+        std::shared_ptr<Switch> node;
+        const UsdPrim* prim;
+    };
+    struct CameraTrack {
+        std::shared_ptr<Camera> node;
+        const UsdPrim* prim;
+    };
+    struct MaterialTrack {
+        std::shared_ptr<Material> material;
+        std::string path;
+    };
+
+    std::shared_ptr<const UsdStage> stage_; // the prims live in it
+    std::vector<TransformTrack> transforms_;
+    std::vector<SwitchTrack> switches_;
+    std::vector<LightTrack> lights_;
+    std::vector<CameraTrack> cameras_;
+    std::vector<MaterialTrack> materials_;
+};
+
+} // namespace penumbra

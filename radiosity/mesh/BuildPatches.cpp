@@ -1,0 +1,320 @@
+#include "radiosity/mesh/BuildPatches.h"
+
+#include "base/Error.h"
+#include "radiosity/mesh/Contact.h"
+#include "radiosity/mesh/LightShapes.h"
+#include "radiosity/mesh/PatchAssembly.h"
+#include "radiosity/mesh/SurfaceMesh.h"
+#include "radiosity/mesh/Tessellation.h"
+#include "scenegraph/Light.h"
+#include "scenegraph/Mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace penumbra {
+
+namespace {
+
+/// A mesh of the scene, or the shape of a light, in the stretched frame of its object.
+struct Surface {
+    SurfaceMesh mesh;
+    ObjectId object;
+    std::string path;
+    const Light* light = nullptr;
+    glm::dmat4 toShape{1.0};
+};
+
+std::uint64_t keyOf(const std::string& path) { // FNV-1a, 64 bits
+    std::uint64_t key = 0xcbf29ce484222325ull;
+    for (const char c : path) key = (key ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
+    return key;
+}
+
+void listObjects(const PlacedScene& scene, PatchSet& out) {
+    for (const Object& object : scene.objects) {
+        ObjectPart part;
+        part.path = object.path;
+        part.key = keyOf(object.path);
+        part.movable = object.movable;
+        part.present = object.visible;
+        if (object.movable) {
+            const Placement placement = placementOf(object.toWorld);
+            part.pose = placement.pose;
+            part.stretch = placement.stretch;
+        }
+        out.objects.push_back(std::move(part));
+    }
+    out.rayMeshes.resize(out.objects.size());
+}
+
+/// The surfaces, object by object.
+std::vector<Surface> placeSurfaces(const PlacedScene& scene, const PatchSet& set,
+                                   std::vector<MeshData>& lightMeshes) {
+    const auto toShape = [&](const auto& placed) {
+        const ObjectPart& part = set.objects[placed.object.value];
+        return part.movable ? glm::dmat4(part.stretch) * placed.toObject : placed.toWorld;
+    };
+    std::vector<Surface> surfaces;
+    for (const Placed<Mesh>& mesh : scene.meshes)
+        surfaces.push_back(
+            {placeSurface(mesh.node->data(), toShape(mesh)), mesh.object, mesh.path, nullptr, {}});
+    lightMeshes.reserve(scene.lights.size()); // the surfaces point into it
+    for (const Placed<Light>& light : scene.lights) {
+        lightMeshes.push_back(lightShapeMesh(*light.node));
+        surfaces.push_back({placeSurface(lightMeshes.back(), toShape(light)), light.object,
+                            light.path, light.node, toShape(light)});
+    }
+    std::stable_sort(surfaces.begin(), surfaces.end(),
+                     [](const Surface& a, const Surface& b) { return a.object < b.object; });
+    return surfaces;
+}
+
+const Material& materialOf(const SurfaceMesh& mesh, const SurfaceFace& face) {
+    const MeshData& data = *mesh.data;
+    return *data.materials[data.faceMaterial.empty() ? 0 : data.faceMaterial[face.source]];
+}
+
+bool emits(const Surface& surface, const SurfaceFace& face) {
+    return surface.light || materialOf(surface.mesh, face).emissive();
+}
+
+/// Decides which sides there are. Lamps count even when they are dark.
+void chooseAllSides(std::vector<Surface>& surfaces, BuiltPatches& built) {
+    const PatchSet& set = built.patches;
+    std::vector<glm::vec3> lights; // a point a hair in front of every emitting face [world]
+    std::vector<std::vector<const SurfaceMesh*>> siblings(set.objects.size());
+    for (const Surface& surface : surfaces) siblings[surface.object.value].push_back(&surface.mesh);
+    for (const Surface& surface : surfaces) {
+        built.enclosures.addSurface(surface.mesh, siblings[surface.object.value], surface.object);
+        for (const SurfaceFace& face : surface.mesh.faces) {
+            if (!emits(surface, face)) continue;
+            glm::vec3 middle(0);
+            const auto corners = surface.mesh.cornersOf(face);
+            for (std::uint32_t corner : corners)
+                middle += surface.mesh.points[corner] / float(corners.size());
+            const glm::dvec3 normal = newellNormal(surface.mesh.points, corners);
+            const double size = std::sqrt(glm::length(normal));
+            const glm::vec3 point = middle + glm::vec3(1e-3 * size * glm::normalize(normal));
+            built.enclosures.addLight(point, surface.object);
+            lights.push_back(set.objects[surface.object.value].pose.point(point));
+        }
+    }
+    for (Surface& surface : surfaces) {
+        const Pose& pose = set.objects[surface.object.value].pose;
+        std::vector<glm::vec3> inFrame;
+        for (glm::vec3 light : lights) inFrame.push_back(pose.inverse(light));
+        chooseSides(surface.mesh, inFrame, siblings[surface.object.value]);
+    }
+    built.enclosuresLit = built.enclosures.lit(set);
+}
+
+double litArea(const std::vector<Surface>& surfaces) {
+    double area = 0;
+    for (const Surface& surface : surfaces)
+        for (const SurfaceFace& face : surface.mesh.faces)
+            area +=
+                0.5 * glm::length(newellNormal(surface.mesh.points, surface.mesh.cornersOf(face)));
+    return area;
+}
+
+/// Collects emissive polygons as emitters. Small ones that lie close together, like the faces of a
+/// bulb, are one; large ones are cut, so that each is seen mildly by most of what it lights.
+class EmitterCollector {
+public:
+    EmitterCollector(const Surface& surface, double emissiveArea, BuiltPatches& built)
+        : surface_(surface), small_(2 * built.patches.patchSize),
+          large_(std::max(4 * built.patches.patchSize, float(std::sqrt(emissiveArea / 32)))),
+          sources_(built.emitterSources), out_(built.patches) {}
+
+    void add(const Material& material, const std::vector<glm::vec3>& outline) {
+        if (outline.size() != 4) return addPiece(material, outline);
+        const auto parts = [&](float a, float b) {
+            return std::max(1, int(std::ceil(std::max(a, b) / large_ - 1e-3f)));
+        };
+        const auto& q = outline;
+        const int nu = parts(glm::distance(q[0], q[1]), glm::distance(q[3], q[2]));
+        const int nv = parts(glm::distance(q[0], q[3]), glm::distance(q[1], q[2]));
+        const auto at = [&](int i, int j) {
+            const float s = float(i) / float(nu), t = float(j) / float(nv);
+            return glm::mix(glm::mix(q[0], q[1], s), glm::mix(q[3], q[2], s), t);
+        };
+        for (int j = 0; j < nv; ++j)
+            for (int i = 0; i < nu; ++i)
+                addPiece(material, {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+
+private:
+    void addPiece(const Material& material, std::vector<glm::vec3> outline) {
+        constexpr std::size_t kMostPolygons = 64;
+        const double area = polygonArea(outline);
+        if (!(area > 0)) return;
+        Group& group = groups_[&material];
+        Bounds grown = group.bounds;
+        for (glm::vec3 point : outline) grown.add(point);
+        const bool fits =
+            group.count > 0 && group.count < kMostPolygons && grown.diagonal() <= small_;
+        if (!fits) {
+            group = {out_.emitters.size(), 0, {}};
+            for (glm::vec3 point : outline) group.bounds.add(point);
+            Emitter emitter;
+            emitter.exitance = std::numbers::pi_v<float> * material.emission();
+            emitter.object = surface_.object;
+            emitter.path = surface_.path;
+            out_.emitters.push_back(std::move(emitter));
+            sources_.push_back({&material, nullptr});
+        } else {
+            group.bounds = grown;
+        }
+        ++group.count;
+        Emitter& emitter = out_.emitters[group.emitter];
+        emitter.area += area;
+        emitter.polygons.push_back(std::move(outline));
+    }
+
+    struct Group {
+        std::size_t emitter = 0, count = 0;
+        Bounds bounds;
+    };
+    const Surface& surface_;
+    float small_, large_; ///< [m]
+    std::vector<LightSource>& sources_;
+    PatchSet& out_;
+    std::map<const Material*, Group> groups_;
+};
+
+void addEmitters(const Surface& surface, const Tessellation& tessellation, BuiltPatches& built) {
+    if (surface.light) {
+        Emitter emitter = lightEmitter(*surface.light, surface.toShape);
+        if (!(emitter.area > 0)) return;
+        emitter.object = surface.object;
+        emitter.path = surface.path;
+        built.patches.emitters.push_back(std::move(emitter));
+        built.emitterSources.push_back({nullptr, surface.light});
+        return;
+    }
+    const SurfaceMesh& mesh = surface.mesh;
+    double area = 0;
+    for (const SurfaceFace& face : mesh.faces)
+        if (materialOf(mesh, face).emissive())
+            area += 0.5 * glm::length(newellNormal(mesh.points, mesh.cornersOf(face)));
+    EmitterCollector collector(surface, area, built);
+    if (!mesh.subdivided()) {
+        for (const SurfaceFace& face : mesh.faces) {
+            if (!materialOf(mesh, face).emissive()) continue;
+            std::vector<glm::vec3> outline;
+            for (std::uint32_t corner : mesh.cornersOf(face))
+                outline.push_back(mesh.points[corner]);
+            collector.add(materialOf(mesh, face), outline);
+        }
+        return;
+    }
+    for (const Cell& cell : tessellation.cells) {
+        const Material& material = materialOf(mesh, mesh.faces[cell.face]);
+        if (!material.emissive()) continue;
+        const auto first = tessellation.outline.begin() + cell.firstCorner;
+        collector.add(material, {first, first + cell.cornerCount});
+    }
+}
+
+/// Notes the faces that may hide a room from the next.
+void addWalls(const Surface& surface, PatchSet& set) {
+    if (set.objects[surface.object.value].movable || surface.mesh.subdivided()) return;
+    const double least = 4.0 * set.patchSize * set.patchSize; // [m^2]
+    for (const SurfaceFace& face : surface.mesh.faces) {
+        const auto corners = surface.mesh.cornersOf(face);
+        const glm::dvec3 normal = newellNormal(surface.mesh.points, corners);
+        if (0.5 * glm::length(normal) < least) continue;
+        Wall wall;
+        wall.object = surface.object;
+        wall.normal = glm::vec3(glm::normalize(normal));
+        bool flat = true;
+        for (std::uint32_t corner : corners) {
+            wall.outline.push_back(surface.mesh.points[corner]);
+            const glm::vec3 d = wall.outline.back() - wall.outline[0];
+            flat &= std::abs(glm::dot(wall.normal, d)) <= 1e-6f * set.extent;
+        }
+        if (flat) set.walls.push_back(std::move(wall));
+    }
+}
+
+/// Stops before a slip of a digit fills the memory or overflows the ray tracer's single precision.
+void refuseTooMuch(const PatchSet& set, double area) {
+    constexpr double kWidest = 1e7; // [m]
+    constexpr double kMostElements = 5e7;
+    if (!(set.bounds.diagonal() < kWidest))
+        throw Error("the scene is more than 10,000 km wide (check its points and metersPerUnit)");
+    const double elements = area / (double(set.elementSize) * set.elementSize);
+    if (elements > kMostElements)
+        throw Error("this would make some " + std::to_string(std::int64_t(elements / 1e6)) +
+                    " million elements (choose a larger --element-size)");
+}
+
+} // namespace
+
+float defaultPatchSize(double area) {
+    constexpr double kRoom =
+        0.5; // in a larger building people stand as near to things as in a room
+    const double size = std::sqrt(std::max(area, 1e-12) / 1650.0);
+    return float(size <= kRoom ? size : std::max(kRoom, std::sqrt(area / 6000.0)));
+}
+
+BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& options) {
+    BuiltPatches built;
+    PatchSet& out = built.patches;
+    listObjects(scene, out);
+    std::vector<MeshData> lightMeshes;
+    std::vector<Surface> surfaces = placeSurfaces(scene, out, lightMeshes);
+    chooseAllSides(surfaces, built);
+    std::size_t skipped = 0;
+    for (const Surface& surface : surfaces) {
+        const Pose& pose = out.objects[surface.object.value].pose;
+        for (glm::vec3 point : surface.mesh.points) out.bounds.add(pose.point(point));
+        if (!surface.light) {
+            skipped += surface.mesh.skipped;
+            out.polygons += surface.mesh.used;
+        }
+    }
+    out.patchSize = options.patchSize > 0 ? options.patchSize : defaultPatchSize(litArea(surfaces));
+    out.elementSize = options.elementSize > 0 ? options.elementSize : out.patchSize / 8;
+    out.patchSize = std::max(out.patchSize, out.elementSize);
+    out.extent = options.extent > 0 ? options.extent : out.bounds.diagonal();
+    refuseTooMuch(out, litArea(surfaces));
+    out.skin = skinOf(out.extent);
+
+    for (const Surface& surface : surfaces) addWalls(surface, out);
+    PatchAssembly assembly(out);
+    for (const Surface& surface : surfaces) {
+        bool understood = true;
+        const Tessellation tessellation =
+            tessellate(surface.mesh, out.patchSize, out.elementSize, understood);
+        if (!understood)
+            built.warnings.push_back(
+                surface.path + ": OpenSubdiv refuses this cage; its polygons are used as they are");
+        assembly.add(surface.mesh, tessellation, surface.object);
+        Range& emitters = out.objects[surface.object.value].emitters;
+        if (emitters.count == 0) emitters.first = std::uint32_t(out.emitters.size());
+        addEmitters(surface, tessellation, built);
+        emitters.count = std::uint32_t(out.emitters.size()) - emitters.first;
+    }
+    assembly.finish();
+    for (const auto& [material, emits] : assembly.materialSources()) {
+        built.materialSources.push_back({material, nullptr});
+        built.materialEmits.push_back(emits);
+        for (const Surface& surface : surfaces)
+            if (surface.light && surface.mesh.data->materials[0].get() == material)
+                built.materialSources.back() = {nullptr, surface.light};
+    }
+    if (skipped > 0)
+        built.warnings.push_back(std::to_string(skipped) +
+                                 " faces without area or with too many corners were left out");
+    const bool dark = std::all_of(out.emitters.begin(), out.emitters.end(),
+                                  [](const Emitter& e) { return maxChannel(e.exitance) <= 0; });
+    if (dark)
+        built.warnings.push_back("the scene has no light: nothing emits, everything will be black");
+    return built;
+}
+
+} // namespace penumbra

@@ -1,0 +1,58 @@
+// From the scene graph to flat arrays.
+#pragma once
+
+#include "radiosity/mesh/Enclosure.h"
+#include "radiosity/mesh/PatchSet.h"
+#include "scenegraph/Objects.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace penumbra {
+
+class Light;
+class Material;
+
+struct MeshingOptions {
+    float patchSize =
+        0; ///< longest edge of a patch [m]; 0: follows the scene, see defaultPatchSize()
+    float elementSize = 0; ///< longest edge of an element [m]; 0: an eighth of a patch
+    float extent = 0; ///< diagonal of the scene that rounding errors are judged by [m]; 0: its own
+};
+
+/// The sizes that a scene was meshed with. A scene in which things have moved is meshed alike with
+/// these, but perhaps not with sizes that follow the scene.
+inline MeshingOptions sizesOf(const PatchSet& set) {
+    return {set.patchSize, set.elementSize, set.extent};
+}
+
+/// The node that a colour or an exitance was taken from; one of the two. Owned by the scene.
+struct LightSource {
+    const Material* material = nullptr;
+    const Light* light = nullptr;
+};
+
+/// A patch set, where it comes from, and what was noticed on the way.
+struct BuiltPatches {
+    PatchSet patches;
+    std::vector<LightSource> materialSources; ///< one a material
+    std::vector<std::uint8_t> materialEmits;  ///< 0: the back of an emitting surface, or no light
+    std::vector<LightSource> emitterSources;  ///< one an emitter
+    Enclosures enclosures;
+    std::vector<bool> enclosuresLit;   ///< as it was decided, see Enclosures::lit()
+    std::vector<std::string> warnings; ///< one line each, for people
+};
+
+/// Meshes `scene`: surfaces are cut into patches and elements, corners of the fixed part that lie
+/// under or inside of another piece of it are told from those that lie free, lamps become emitters.
+/// Movable objects are meshed as if nothing touched them; a Coverage sees to what they touch.
+/// \throws Error if the scene is too wide to trace rays in, or would make too many elements
+BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& options = {});
+
+/// sqrt(area / 1650), so that a room has some thousand patches whether it is half a metre wide or
+/// ten; beyond half a metre the number grows before the size does, up to sqrt(area / 6000). \param
+/// area of all surfaces [m^2]
+float defaultPatchSize(double area);
+
+} // namespace penumbra

@@ -1,0 +1,239 @@
+#include "radiosity/mesh/Contact.h"
+
+#include "base/Parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace penumbra {
+
+namespace {
+
+/// Receivers keep this share of the way to the middle of their elements away from edges, where a
+/// neighbouring wall begins.
+constexpr float kPullIn = 0.02f;
+/// Something this close above a point, in units of the element's size, covers it.
+constexpr float kCover = 0.05f;
+/// Steps of the search for the end of the free way from the middle to a corner.
+constexpr int kBisections = 6;
+/// Points a side that are tried when neither the middle nor a corner of an element is free.
+constexpr int kGrid = 5;
+
+} // namespace
+
+ContactResolver::Result ContactResolver::examine(const Element& element) const {
+    Result result;
+    const Frame frame = frameOf(element);
+    const float cover = coverDistance(frame.size, skin_);
+    std::array<glm::vec3, 4> corner;
+    std::array<bool, 4> cornerFree{};
+    for (std::size_t i = 0; i < frame.count; ++i) {
+        corner[i] = cornerOf(element, i);
+        cornerFree[i] = isFree(corner[i], frame.normal, cover);
+    }
+    glm::vec3 anchor = frame.middle + skin_ * frame.normal;
+    result.free = isFree(anchor, frame.normal, cover);
+    for (std::size_t i = 0; !result.free && i < frame.count; ++i)
+        if (cornerFree[i]) anchor = corner[i], result.free = true;
+    for (int i = 0; !result.free && i < kGrid * kGrid;
+         ++i) { // a slit between things that lie on it
+        const glm::vec3 p =
+            pointOf(element, (float(i % kGrid) + 0.5f) / kGrid, (float(i / kGrid) + 0.5f) / kGrid) +
+            skin_ * frame.normal;
+        if (isFree(p, frame.normal, cover)) anchor = p, result.free = true;
+    }
+    if (!result.free) return result;
+    for (std::size_t i = 0; i < frame.count; ++i) {
+        if (cornerFree[i] && (corner[i] == anchor || !rays_.occluded(anchor, corner[i]))) continue;
+        result.moved[i] = true;
+        result.position[i] = endOfWay(anchor, corner[i], frame.normal, cover);
+    }
+    return result;
+}
+
+glm::vec3 ContactResolver::cornerOf(const Element& element, std::size_t i) const {
+    const Frame frame = frameOf(element);
+    return glm::mix(vertex(element, i).position, frame.middle, kPullIn) + skin_ * frame.normal;
+}
+
+ContactResolver::Frame ContactResolver::frameOf(const Element& element) const {
+    Frame frame;
+    frame.count = element.isTriangle() ? 3 : 4;
+    for (std::size_t i = 0; i < frame.count; ++i) {
+        frame.middle += vertex(element, i).position / float(frame.count);
+        frame.normal += vertex(element, i).receiver.normal;
+    }
+    frame.normal = glm::normalize(frame.normal);
+    for (std::size_t i = 0; i < frame.count; ++i)
+        frame.size = std::max(frame.size, glm::distance(frame.middle, vertex(element, i).position));
+    return frame;
+}
+
+/// Bilinear; of a triangle, whose last two corners are the same, it is a point of the triangle too.
+glm::vec3 ContactResolver::pointOf(const Element& element, float s, float t) const {
+    return glm::mix(glm::mix(vertex(element, 0).position, vertex(element, 1).position, s),
+                    glm::mix(vertex(element, 3).position, vertex(element, 2).position, s), t);
+}
+
+glm::vec3 ContactResolver::endOfWay(glm::vec3 from, glm::vec3 to, glm::vec3 normal,
+                                    float cover) const {
+    float free = 0, covered = 1;
+    for (int i = 0; i < kBisections; ++i) {
+        const float t = 0.5f * (free + covered);
+        const glm::vec3 p = glm::mix(from, to, t);
+        (!rays_.occluded(from, p) && isFree(p, normal, cover) ? free : covered) = t;
+    }
+    return glm::mix(from, to, 0.98f * free);
+}
+
+Fans fansOf(const std::vector<Element>& elements, std::size_t vertexCount) {
+    Fans fans;
+    fans.first.resize(vertexCount + 1);
+    const auto forEachCorner = [&](auto visit) {
+        for (std::uint32_t e = 0; e < elements.size(); ++e)
+            for (std::uint32_t k = 0; k < (elements[e].isTriangle() ? 3u : 4u); ++k)
+                visit(elements[e].vertices[k], 4 * e + k);
+    };
+    forEachCorner([&](std::uint32_t v, std::uint32_t) { ++fans.first[v + 1]; });
+    for (std::size_t v = 0; v < vertexCount; ++v) fans.first[v + 1] += fans.first[v];
+    fans.corners.resize(fans.first.back());
+    std::vector<std::uint32_t> next(fans.first.begin(), fans.first.end() - 1);
+    forEachCorner([&](std::uint32_t v, std::uint32_t corner) { fans.corners[next[v]++] = corner; });
+    return fans;
+}
+
+namespace {
+
+/// A wall may stand exactly where elements meet: then no corner is covered, but elements on its two
+/// sides must not share theirs.
+void partAtWalls(const RayScene& rays, const ContactResolver& resolver,
+                 std::span<const std::uint8_t> fixed, const std::vector<Element>& elements,
+                 const Fans& fans, std::vector<ContactResolver::Result>& results) {
+    parallelFor(fans.first.size() - 1, 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+            bool anchored = false;
+            glm::vec3 anchor(0);
+            for (std::uint32_t i = fans.first[v]; i < fans.first[v + 1]; ++i) {
+                const std::uint32_t e = fans.corners[i] / 4, k = fans.corners[i] % 4;
+                ContactResolver::Result& result = results[e];
+                if (!fixed[e] || !result.free || result.moved[k]) continue;
+                const glm::vec3 corner = resolver.cornerOf(elements[e], k);
+                if (!anchored) {
+                    anchor = corner;
+                    anchored = true;
+                } else if (rays.occluded(anchor, corner)) {
+                    result.moved[k] = true; // each (element, corner) belongs to one vertex: no race
+                    result.position[k] = corner;
+                }
+            }
+        }
+    });
+}
+
+/// Moves the receivers of shared vertices towards the mean middle of their elements: not at all
+/// inside of a surface, a hair inwards at its border.
+void pullReceiversIn(float skin, const std::vector<Element>& elements, const Fans& fans,
+                     const std::vector<ContactResolver::Result>& results,
+                     std::vector<Vertex>& vertices) {
+    parallelFor(vertices.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+            glm::vec3 sum(0);
+            float count = 0;
+            for (std::uint32_t i = fans.first[v]; i < fans.first[v + 1]; ++i) {
+                const std::uint32_t e = fans.corners[i] / 4;
+                if (!results[e].free || results[e].moved[fans.corners[i] % 4]) continue;
+                const std::size_t corners = elements[e].isTriangle() ? 3 : 4;
+                for (std::size_t k = 0; k < corners; ++k)
+                    sum += vertices[elements[e].vertices[k]].position / float(corners);
+                count += 1;
+            }
+            Vertex& vertex = vertices[v];
+            const glm::vec3 middle = count > 0 ? sum / count : vertex.position;
+            vertex.receiver.position =
+                glm::mix(vertex.position, middle, kPullIn) + skin * vertex.receiver.normal;
+        }
+    });
+}
+
+/// Gives every moved corner a vertex of its own.
+void makePrivate(const std::vector<ContactResolver::Result>& results,
+                 std::vector<Element>& elements, std::vector<Vertex>& vertices) {
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+        Element& element = elements[e];
+        const std::size_t corners = element.isTriangle() ? 3 : 4;
+        for (std::size_t k = 0; k < corners; ++k) {
+            if (!results[e].moved[k]) continue;
+            Vertex own = vertices[element.vertices[k]];
+            own.receiver.position = results[e].position[k];
+            element.vertices[k] = std::uint32_t(vertices.size());
+            vertices.push_back(own);
+        }
+        if (corners == 3) element.vertices[3] = element.vertices[2];
+    }
+}
+
+} // namespace
+
+float skinOf(float extent) {
+    return std::max(1e-5f * extent, 1e-7f);
+}
+
+float coverDistance(float elementSize, float skin) {
+    return std::max(kCover * elementSize, 4 * skin);
+}
+
+Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point, glm::vec3 normal,
+          float cover, ObjectId* by) {
+    // Not quite along the normal, so as not to run along edges that stand on the surface.
+    const glm::vec3 direction = normal + glm::vec3(0.0123f, 0.0234f, -0.0171f);
+    std::vector<RayHit> hits;
+    rays.all(point, direction, hits);
+    // Inside of a solid is what is left once more than it is entered.
+    std::vector<std::pair<ObjectId, int>> left;
+    Lie lie = Lie::free;
+    for (const RayHit& hit : hits) {
+        if (hit.distance < cover) {
+            if (by && (lie == Lie::free || *by < hit.object)) *by = hit.object;
+            lie = Lie::covered;
+        }
+        if (!meshes[hit.object.value].solid[hit.triangle]) continue;
+        const int side = glm::dot(hit.normal, direction) > 0 ? 1 : -1;
+        const auto known = std::find_if(left.begin(), left.end(),
+                                        [&](const auto& l) { return l.first == hit.object; });
+        if (known == left.end())
+            left.emplace_back(hit.object, side);
+        else
+            known->second += side;
+    }
+    for (const auto& [object, times] : left) {
+        if (times <= 0) continue;
+        if (by && (lie != Lie::buried || *by < object)) *by = object;
+        lie = Lie::buried;
+    }
+    return lie;
+}
+
+std::vector<std::uint8_t> resolveContacts(const RayScene& rays, std::span<const RayMesh> meshes,
+                                          float skin, std::span<const std::uint8_t> fixed,
+                                          std::vector<Element>& elements,
+                                          std::vector<Vertex>& vertices) {
+    std::vector<ContactResolver::Result> results(elements.size());
+    const ContactResolver resolver(rays, meshes, skin, vertices);
+    parallelFor(elements.size(), 4096, [&](std::size_t first, std::size_t last) {
+        for (std::size_t e = first; e < last; ++e)
+            if (fixed[e])
+                results[e] = resolver.examine(elements[e]);
+            else
+                results[e].free = true;
+    });
+    const Fans fans = fansOf(elements, vertices.size());
+    partAtWalls(rays, resolver, fixed, elements, fans, results);
+    pullReceiversIn(skin, elements, fans, results, vertices);
+    makePrivate(results, elements, vertices);
+    std::vector<std::uint8_t> free(elements.size());
+    for (std::size_t e = 0; e < elements.size(); ++e) free[e] = results[e].free;
+    return free;
+}
+
+} // namespace penumbra

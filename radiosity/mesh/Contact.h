@@ -1,0 +1,97 @@
+// Where surfaces touch: which corners of an element lie free, and where their light is to be taken.
+#pragma once
+
+#include "radiosity/mesh/PatchSet.h"
+#include "radiosity/rays/RayScene.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace penumbra {
+
+/// A corner that is covered by another object (the floor under a cabinet, the wall behind a shelf)
+/// or that lies beyond one (the floor on the other side of a partition) must lend neither its
+/// darkness nor its light to the element's free part. Such an element gets a corner of its own
+/// instead: drawn at the same place, lit where the way from the element's free middle ends.
+///
+/// Changes `elements` to use such private vertices, which are appended to `vertices`, and moves
+/// every receiver clear of the edges of its surface.
+/// \param skin    how far receivers hover over the surface [m]
+/// \param fixed   1: elements to look at; others are taken to be free
+/// \return        for each element whether any of it is free
+std::vector<std::uint8_t> resolveContacts(const RayScene& rays, std::span<const RayMesh> meshes,
+                                          float skin, std::span<const std::uint8_t> fixed,
+                                          std::vector<Element>& elements,
+                                          std::vector<Vertex>& vertices);
+
+/// How a point that hovers over a surface lies.
+enum class Lie {
+    free,
+    covered, ///< by something nearer than the distance that was asked for
+    buried   ///< inside of something solid
+};
+/// \param cover [m], see coverDistance()
+/// \param by set to the object that covers the point or that it is buried in; the last of several
+Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point, glm::vec3 normal,
+          float cover, ObjectId* by = nullptr);
+
+/// How far receivers hover over their surfaces in a scene with that diagonal [m].
+float skinOf(float extent);
+
+/// Something this close above a surface with elements of this size counts as lying on it [m].
+float coverDistance(float elementSize, float skin);
+
+/// Looks at single elements.
+class ContactResolver {
+public:
+    ContactResolver(const RayScene& rays, std::span<const RayMesh> meshes, float skin,
+                    const std::vector<Vertex>& vertices)
+        : rays_(rays), meshes_(meshes), skin_(skin), vertices_(vertices) {}
+
+    /// Where the corners' light is to be taken.
+    struct Result {
+        bool free = false;                   ///< whether any of the element is
+        std::array<bool, 4> moved{};         ///< corners that can't take it where they lie
+        std::array<glm::vec3, 4> position{}; ///< of those [m, world]
+        friend bool operator==(const Result&, const Result&) = default;
+    };
+    Result examine(const Element& element) const;
+
+    /// Where corner i of an element receives light if it is not shared: a hair inside of the
+    /// element [m, world].
+    glm::vec3 cornerOf(const Element& element, std::size_t i) const;
+
+private:
+    struct Frame {
+        std::size_t count = 4;
+        glm::vec3 middle{0}, normal{0};
+        float size = 0; ///< from the middle to the farthest corner
+    };
+    Frame frameOf(const Element& element) const;
+    glm::vec3 pointOf(const Element& element, float s, float t) const;
+    const Vertex& vertex(const Element& element, std::size_t i) const {
+        return vertices_[element.vertices[i]];
+    }
+    bool isFree(glm::vec3 p, glm::vec3 normal, float cover) const {
+        return lieOf(rays_, meshes_, p, normal, cover) == Lie::free;
+    }
+    glm::vec3 endOfWay(glm::vec3 from, glm::vec3 to, glm::vec3 normal, float cover) const;
+
+    const RayScene& rays_;
+    std::span<const RayMesh> meshes_;
+    float skin_;
+    const std::vector<Vertex>& vertices_;
+};
+
+/// The corners of elements that meet at each vertex: element * 4 + corner, vertex by vertex.
+struct Fans {
+    std::vector<std::uint32_t> first, corners;
+    std::span<const std::uint32_t> at(std::size_t vertex) const {
+        return std::span(corners).subspan(first[vertex], first[vertex + 1] - first[vertex]);
+    }
+};
+Fans fansOf(const std::vector<Element>& elements, std::size_t vertexCount);
+
+} // namespace penumbra

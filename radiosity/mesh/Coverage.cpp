@@ -1,0 +1,264 @@
+#include "radiosity/mesh/Coverage.h"
+
+#include "base/Parallel.h"
+#include "radiosity/rays/Shaft.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace penumbra {
+
+namespace {
+
+const ContactResolver::Result kFree{true, {}, {}};
+
+void makeUnique(std::vector<std::uint32_t>& items) {
+    std::sort(items.begin(), items.end());
+    items.erase(std::unique(items.begin(), items.end()), items.end());
+}
+
+} // namespace
+
+Coverage::Coverage(PatchSet& set, const RayScene& rays)
+    : set_(set), rays_(rays), resolver_(rays, set.rayMeshes, set.skin, set.vertices),
+      shared_(set.uncoveredElements), fans_(fansOf(shared_, set.vertices.size())),
+      nodePatches_(set) {
+    orderElements();
+
+    std::vector<std::uint32_t> near;
+    for (std::uint32_t o = 0; o < set_.objects.size(); ++o) {
+        const ObjectPart& part = set_.objects[o];
+        if (!part.movable || !part.present) continue;
+        collectNear(boundsOf(set_, {o}), near);
+        for (std::uint32_t e = part.elements.first; e < part.elements.end(); ++e) near.push_back(e);
+    }
+    Change change;
+    refresh(std::move(near), change);
+}
+
+void Coverage::orderElements() {
+    // Patches lie along a curve; elements that no patch owns keep their place behind the others.
+    for (std::uint32_t o = 0; o < set_.objects.size(); ++o) {
+        const ObjectPart& part = set_.objects[o];
+        const std::size_t first = order_.size();
+        for (std::uint32_t p = part.patches.first; p < part.patches.end(); ++p) {
+            const Patch& patch = set_.patches[p];
+            order_.insert(order_.end(), set_.patchElements.begin() + patch.firstElement,
+                          set_.patchElements.begin() + patch.firstElement + patch.elementCount);
+        }
+        for (std::size_t i = first; i < order_.size(); i += kChunk) {
+            chunkFirst_.push_back(std::uint32_t(i));
+            chunkObject_.push_back({o});
+        }
+    }
+    chunkFirst_.push_back(std::uint32_t(order_.size()));
+    places_.assign(std::vector<Bounds>(chunkObject_.size()));
+    for (std::size_t c = 0; c < chunkObject_.size(); ++c) updateChunk(c);
+}
+
+Bounds Coverage::boxOf(std::uint32_t element) const {
+    Bounds box;
+    for (std::uint32_t v : shared_[element].vertices) box.add(set_.vertices[v].position);
+    return box;
+}
+
+void Coverage::updateChunk(std::size_t chunk) {
+    Bounds place;
+    for (std::uint32_t i = chunkFirst_[chunk]; i < chunkFirst_[chunk + 1]; ++i) {
+        const Bounds box = boxOf(order_[i]);
+        place.add(box);
+        largest_ = std::max(largest_, box.diagonal());
+    }
+    places_.set(chunk, place);
+}
+
+/// Elements whose lie an object within `box` may decide: those that it can touch or hold.
+void Coverage::collectNear(const Bounds& box, std::vector<std::uint32_t>& elements) const {
+    if (box.empty()) return;
+    const float reach = coverDistance(largest_, set_.skin) + 8 * set_.skin;
+    const Bounds target = grown(box, reach);
+    places_.query([&](std::size_t n) { return target.overlaps(places_.node(n)); },
+                  [&](std::size_t chunk) {
+                      if (!set_.objects[chunkObject_[chunk].value].present) return;
+                      for (std::uint32_t i = chunkFirst_[chunk]; i < chunkFirst_[chunk + 1]; ++i)
+                          if (target.overlaps(boxOf(order_[i]))) elements.push_back(order_[i]);
+                  });
+}
+
+Coverage::Change Coverage::update(std::span<const ObjectId> moved, std::span<const Bounds> before) {
+    Change change;
+    std::vector<std::uint32_t> near;
+    for (std::size_t c = 0; c < chunkObject_.size(); ++c)
+        if (std::find(moved.begin(), moved.end(), chunkObject_[c]) != moved.end()) updateChunk(c);
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+        const ObjectPart& part = set_.objects[moved[i].value];
+        collectNear(before[i], near);
+        if (part.present) collectNear(boundsOf(set_, moved[i]), near);
+        for (std::uint32_t e = part.elements.first; e < part.elements.end(); ++e) near.push_back(e);
+    }
+    refresh(std::move(near), change);
+    return change;
+}
+
+void Coverage::refresh(std::vector<std::uint32_t> elements, Change& change) {
+    std::erase_if(elements, [&](std::uint32_t e) { return shared_[e].patch == Element::kNone; });
+    makeUnique(elements);
+    examine(elements);
+    std::vector<std::uint32_t> vertices, nodes;
+    for (std::uint32_t e : elements) {
+        const auto& v = shared_[e].vertices;
+        vertices.insert(vertices.end(), v.begin(), v.end());
+    }
+    makeUnique(vertices);
+    std::vector<std::uint8_t> apart(vertices.size());
+    parallelFor(vertices.size(), 64, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) apart[i] = parted(vertices[i]);
+    });
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        for (std::uint32_t corner : fans_.at(vertices[i]))
+            if (shared_[corner / 4].patch != Element::kNone)
+                settleCorner(corner / 4, corner % 4, apart[i], change);
+    makeUnique(change.vertices);
+    makeUnique(change.patches);
+    if (set_.nodes.empty()) return; // only direct light is asked for
+    for (std::uint32_t p : change.patches) {
+        const Patch& patch = set_.patches[p];
+        nodes.push_back(patch.centreNode);
+        if (patch.hasCornerNodes)
+            nodes.insert(nodes.end(), patch.cornerNodes.begin(), patch.cornerNodes.end());
+    }
+    makeUnique(nodes);
+    std::vector<Receiver> places(nodes.size());
+    parallelFor(nodes.size(), 64, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) places[i] = placeOfNode(nodes[i]);
+    });
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        Receiver& now = set_.nodes[nodes[i]];
+        if (now.position == places[i].position && now.normal == places[i].normal) continue;
+        now = places[i];
+        change.nodes.push_back(nodes[i]);
+    }
+}
+
+void Coverage::examine(const std::vector<std::uint32_t>& elements) {
+    std::vector<Result> fresh(elements.size());
+    parallelFor(elements.size(), 256, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            fresh[i] = set_.objects[set_.elementObject[elements[i]].value].present
+                           ? resolver_.examine(shared_[elements[i]])
+                           : kFree;
+    });
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+        set_.covered[elements[i]] = !fresh[i].free;
+        if (fresh[i] == kFree)
+            results_.erase(elements[i]);
+        else
+            results_[elements[i]] = fresh[i];
+    }
+}
+
+/// Whether the elements around a vertex can't share it: something stands on one of them, or a wall
+/// between them.
+bool Coverage::parted(std::uint32_t vertex) const {
+    bool anchored = false;
+    glm::vec3 anchor(0);
+    for (std::uint32_t corner : fans_.at(vertex)) {
+        const Element& element = shared_[corner / 4];
+        if (element.patch == Element::kNone) continue;
+        const auto found = results_.find(corner / 4);
+        if (found != results_.end() && (!found->second.free || found->second.moved[corner % 4]))
+            return true;
+        const glm::vec3 place = resolver_.cornerOf(element, corner % 4);
+        if (anchored && rays_.occluded(anchor, place)) return true;
+        if (!anchored) anchor = place;
+        anchored = true;
+    }
+    return false;
+}
+
+void Coverage::settleCorner(std::uint32_t element, std::uint32_t corner, bool parted,
+                            Change& change) {
+    const std::uint32_t shared = shared_[element].vertices[corner];
+    const Vertex& from = set_.vertices[shared];
+    Vertex wanted = from;
+    const auto found = results_.find(element);
+    const bool covered = found != results_.end() && !found->second.free;
+    if (!covered && found != results_.end() && found->second.moved[corner])
+        wanted.receiver.position = found->second.position[corner];
+    else if (!covered && parted)
+        wanted.receiver.position = resolver_.cornerOf(shared_[element], corner);
+
+    Element& drawn = set_.elements[element];
+    const std::uint32_t before = drawn.vertices[corner];
+    const std::uint32_t key = 4 * element + corner;
+    std::uint32_t now = shared;
+    if (wanted.receiver.position != from.receiver.position) {
+        const auto own = own_.find(key);
+        now = own != own_.end() ? own->second : takeVertex(set_.elementObject[element]);
+        own_[key] = now;
+        Vertex& vertex = set_.vertices[now];
+        if (vertex.receiver.position != wanted.receiver.position ||
+            vertex.receiver.normal != wanted.receiver.normal)
+            change.vertices.push_back(now);
+        vertex = wanted;
+        set_.vertexCoordinates[now] = set_.vertexCoordinates[shared];
+        set_.privateElement[now - set_.firstPrivate] = element;
+    } else if (before != shared) {
+        unused_[set_.elementObject[element].value].push_back(before);
+        own_.erase(key);
+        set_.vertices[before].receiver.normal = glm::vec3(0);
+        set_.vertexCoordinates[before] = {};
+        change.vertices.push_back(before);
+    }
+    drawn.vertices[corner] = now;
+    if (corner == 2 && shared_[element].isTriangle()) drawn.vertices[3] = now;
+    change.patches.push_back(drawn.patch);
+}
+
+/// A free vertex in a block of the object's own.
+std::uint32_t Coverage::takeVertex(ObjectId object) {
+    std::vector<std::uint32_t>& unused = unused_[object.value];
+    if (unused.empty()) {
+        const auto first = std::uint32_t(set_.vertices.size());
+        set_.vertices.resize(first + PatchSet::kBlock);
+        set_.vertexCoordinates.resize(first + PatchSet::kBlock);
+        set_.privateElement.resize(first + PatchSet::kBlock - set_.firstPrivate);
+        set_.vertexBlockObject.push_back(object);
+        for (std::uint32_t i = PatchSet::kBlock; i-- > 0;) unused.push_back(first + i);
+    }
+    const std::uint32_t vertex = unused.back();
+    unused.pop_back();
+    return vertex;
+}
+
+/// Where a node takes its light: if it is covered, at the nearest place of its patches that is not.
+Receiver Coverage::placeOfNode(std::uint32_t node) const {
+    const ObjectPart& part = set_.objects[set_.nodeBlockObject[node / PatchSet::kBlock].value];
+    Receiver wanted = set_.uncoveredNodes[node];
+    const float cover = coverDistance(set_.elementSize, set_.skin);
+    ObjectId by;
+    const bool free =
+        lieOf(rays_, set_.rayMeshes, wanted.position, wanted.normal, cover, &by) == Lie::free;
+    // The fixed part has taken care of itself.
+    if (part.present && !free && (part.movable || set_.objects[by.value].movable)) {
+        const glm::vec3 place = wanted.position;
+        float nearest = std::numeric_limits<float>::infinity();
+        for (const std::uint32_t p : nodePatches_.of(node)) {
+            const Patch& patch = set_.patches[p];
+            for (std::uint32_t j = 0; j < patch.elementCount; ++j) {
+                const std::uint32_t e = set_.patchElements[patch.firstElement + j];
+                if (set_.covered[e]) continue;
+                for (std::uint32_t v : set_.elements[e].vertices) {
+                    const Receiver& candidate = set_.vertices[v].receiver;
+                    const glm::vec3 d = candidate.position - place;
+                    if (glm::dot(d, d) >= nearest) continue;
+                    nearest = glm::dot(d, d);
+                    wanted = candidate;
+                }
+            }
+        }
+    }
+    return wanted;
+}
+
+} // namespace penumbra

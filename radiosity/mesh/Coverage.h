@@ -1,0 +1,68 @@
+// What movable objects cover of each other and of the fixed part.
+#pragma once
+
+#include "base/BoundsTree.h"
+#include "radiosity/mesh/Contact.h"
+#include "radiosity/mesh/NodePatches.h"
+#include "radiosity/mesh/PatchSet.h"
+#include "radiosity/rays/RayScene.h"
+
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+namespace penumbra {
+
+/// Keeps the corners of elements that movable objects touch, cover or part (see Contact.h), and the
+/// nodes that they cover, true to where the objects stand. What it makes of a PatchSet depends on
+/// where things are now and not on how they came there, apart from which private vertices stand
+/// for which corners.
+class Coverage {
+public:
+    /// Brings `set` up to date. Both must outlive this; `rays` shows the objects of `set`.
+    Coverage(PatchSet& set, const RayScene& rays);
+
+    /// What lies elsewhere than before. Whole moved objects are not listed.
+    struct Change {
+        std::vector<std::uint32_t> vertices; ///< new, moved or given back
+        std::vector<std::uint32_t> nodes;
+        std::vector<std::uint32_t> patches; ///< whose elements are lit by other vertices
+    };
+    /// Objects were placed anew, hidden or shown, in `set` and in `rays`.
+    /// \param before their boxes before, empty for those that were hidden [m, world]
+    Change update(std::span<const ObjectId> moved, std::span<const Bounds> before);
+
+private:
+    static constexpr std::uint32_t kChunk = 32;
+
+    void orderElements();
+    void updateChunk(std::size_t chunk);
+    void collectNear(const Bounds& box, std::vector<std::uint32_t>& elements) const;
+    Bounds boxOf(std::uint32_t element) const;
+    void examine(const std::vector<std::uint32_t>& elements);
+    bool parted(std::uint32_t vertex) const;
+    void settleCorner(std::uint32_t element, std::uint32_t corner, bool parted, Change& change);
+    Receiver placeOfNode(std::uint32_t node) const;
+    std::uint32_t takeVertex(ObjectId object);
+    void refresh(std::vector<std::uint32_t> elements, Change& change);
+
+    using Result = ContactResolver::Result;
+    PatchSet& set_;
+    const RayScene& rays_;
+    ContactResolver resolver_;
+    const std::vector<Element>& shared_; ///< elements as they are when nothing movable is near
+    Fans fans_;                          ///< of those
+    NodePatches nodePatches_;
+    std::vector<std::uint32_t> order_;      ///< elements, object by object along a curve
+    std::vector<ObjectId> chunkObject_;     ///< kChunk consecutive ones of one object
+    std::vector<std::uint32_t> chunkFirst_; ///< into order_; one more than chunks
+    BoundsTree places_;                     ///< of the chunks
+    float largest_ = 0;                     ///< diagonal of an element's box, at most [m]
+    std::unordered_map<std::uint32_t, Result> results_; ///< of elements that are not all free
+    std::unordered_map<std::uint32_t, std::uint32_t>
+        own_; ///< private vertex of element * 4 + corner
+    std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> unused_; ///< by object
+};
+
+} // namespace penumbra

@@ -1,0 +1,300 @@
+#include "radiosity/mesh/LimitSurface.h"
+
+#include <opensubdiv/bfr/refinerSurfaceFactory.h>
+#include <opensubdiv/bfr/surface.h>
+#include <opensubdiv/bfr/tessellation.h>
+#include <opensubdiv/far/topologyDescriptor.h>
+#include <opensubdiv/far/topologyRefinerFactory.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace penumbra {
+
+namespace {
+
+namespace Bfr = OpenSubdiv::Bfr;
+namespace Far = OpenSubdiv::Far;
+namespace Sdc = OpenSubdiv::Sdc;
+
+/// Every face is parameterized as a quadrilateral scheme does it, polygons too.
+Bfr::Parameterization parameterization(int size) {
+    return Bfr::Parameterization(Sdc::SCHEME_BILINEAR, size);
+}
+
+glm::vec3 unitOr(glm::vec3 v, glm::vec3 fallback) {
+    const float length = glm::length(v);
+    return length > 0 ? v / length : fallback;
+}
+
+/// A polygon: bilinear over its (sub-)quadrilaterals, which for a planar one is the plane.
+class PolygonSurface : public FaceSurface {
+public:
+    PolygonSurface(const SurfaceMesh& mesh, std::span<const std::uint32_t> corners)
+        : FaceSurface(int(corners.size())) {
+        for (std::uint32_t corner : corners) {
+            points_.push_back(mesh.points[corner]);
+            centre_ += mesh.points[corner] / float(corners.size());
+        }
+        normal_ = glm::vec3(glm::normalize(newellNormal(mesh.points, corners)));
+        float reach = 0, depth = 0;
+        for (glm::vec3 p : points_) {
+            depth = std::max(depth, std::abs(glm::dot(p - centre_, normal_)));
+            reach = std::max(reach, glm::length(p - centre_));
+        }
+        planar_ = depth <= 1e-4f * reach;
+    }
+
+    SurfacePoint at(glm::vec2 uv) const override {
+        std::array<glm::vec3, 4> q{};
+        glm::vec2 st = uv;
+        if (hasSubFaces()) {
+            const int n = size(), i = toSubFace(uv, st);
+            const auto corner = [&](int k) { return points_[std::size_t((k + n) % n)]; };
+            q = {corner(i), 0.5f * (corner(i) + corner(i + 1)), centre_,
+                 0.5f * (corner(i) + corner(i - 1))};
+        } else {
+            std::copy(points_.begin(), points_.end(), q.begin());
+        }
+        const glm::vec3 bottom = glm::mix(q[0], q[1], st.x), top = glm::mix(q[3], q[2], st.x);
+        SurfacePoint point{glm::mix(bottom, top, st.y), normal_};
+        if (!planar_) {
+            const glm::vec3 du = glm::mix(q[1] - q[0], q[2] - q[3], st.y);
+            point.normal = unitOr(glm::cross(du, top - bottom), normal_);
+        }
+        return point;
+    }
+
+private:
+    std::vector<glm::vec3> points_;
+    glm::vec3 centre_{0}, normal_{};
+    bool planar_ = true;
+};
+
+/// A face of a subdivision surface, evaluated at the limit.
+class SubdivisionFace : public FaceSurface {
+public:
+    SubdivisionFace(const Bfr::Surface<float>& surface, const std::vector<glm::vec3>& points)
+        : FaceSurface(surface.GetFaceSize()), surface_(surface),
+          patchPoints_(std::size_t(surface.GetNumPatchPoints())) {
+        surface_.PreparePatchPoints(reinterpret_cast<const float*>(points.data()), 3,
+                                    reinterpret_cast<float*>(patchPoints_.data()), 3);
+    }
+
+    SurfacePoint at(glm::vec2 uv) const override {
+        SurfacePoint point;
+        glm::vec3 du, dv;
+        surface_.Evaluate(&uv.x, reinterpret_cast<const float*>(patchPoints_.data()), 3,
+                          &point.position.x, &du.x, &dv.x);
+        point.normal = unitOr(glm::cross(du, dv), glm::vec3(0, 0, 1));
+        return point;
+    }
+
+private:
+    Bfr::Surface<float> surface_;
+    std::vector<glm::vec3> patchPoints_;
+};
+
+/// The cage in OpenSubdiv's terms.
+Far::TopologyRefiner* makeRefiner(const SurfaceMesh& mesh) {
+    const MeshData& data = *mesh.data;
+    std::vector<int> counts, indices, creaseVertices, cornerVertices;
+    std::vector<float> creaseSharpness, cornerSharpness;
+    for (const SurfaceFace& face : mesh.faces) {
+        counts.push_back(int(face.cornerCount));
+        for (std::uint32_t corner : mesh.cornersOf(face)) indices.push_back(int(corner));
+    }
+    for (const Crease& crease : data.creases)
+        for (std::size_t i = 1; i < crease.vertices.size(); ++i) {
+            creaseVertices.push_back(crease.vertices[i - 1]);
+            creaseVertices.push_back(crease.vertices[i]);
+            creaseSharpness.push_back(crease.sharpness);
+        }
+    for (const Corner& corner : data.corners) {
+        cornerVertices.push_back(corner.vertex);
+        cornerSharpness.push_back(corner.sharpness);
+    }
+    Far::TopologyDescriptor descriptor;
+    descriptor.numVertices = int(mesh.points.size());
+    descriptor.numFaces = int(counts.size());
+    descriptor.numVertsPerFace = counts.data();
+    descriptor.vertIndicesPerFace = indices.data();
+    descriptor.numCreases = int(creaseSharpness.size());
+    descriptor.creaseVertexIndexPairs = creaseVertices.data();
+    descriptor.creaseWeights = creaseSharpness.data();
+    descriptor.numCorners = int(cornerSharpness.size());
+    descriptor.cornerVertexIndices = cornerVertices.data();
+    descriptor.cornerWeights = cornerSharpness.data();
+
+    const Sdc::SchemeType scheme =
+        data.scheme == SubdivisionScheme::bilinear ? Sdc::SCHEME_BILINEAR : Sdc::SCHEME_CATMARK;
+    Sdc::Options options;
+    options.SetVtxBoundaryInterpolation(Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER);
+    using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
+    return Factory::Create(descriptor, Factory::Options(scheme, options));
+}
+
+constexpr std::uint32_t kMostValence = 100; ///< OpenSubdiv's effort grows with its cube
+
+std::uint32_t highestValence(const SurfaceMesh& mesh) {
+    std::vector<std::uint32_t> valence(mesh.points.size());
+    std::uint32_t highest = 0;
+    for (const SurfaceFace& face : mesh.faces) {
+        highest = std::max(highest, face.cornerCount);
+        for (std::uint32_t corner : mesh.cornersOf(face))
+            highest = std::max(highest, ++valence[corner]);
+    }
+    return highest;
+}
+
+/// Keeps OpenSubdiv's complaints off standard error: the caller says it in one line of its own.
+void ignoreFarMessage(Far::ErrorType, const char*) {}
+void ignoreFarWarning(const char*) {}
+
+} // namespace
+
+glm::vec2 FaceSurface::vertexCoord(int vertex) const {
+    glm::vec2 uv;
+    parameterization(size_).GetVertexCoord(vertex, &uv.x);
+    return uv;
+}
+
+glm::vec2 FaceSurface::edgeCoord(int edge, float t) const {
+    glm::vec2 uv;
+    parameterization(size_).GetEdgeCoord(edge, t, &uv.x);
+    return uv;
+}
+
+glm::vec2 FaceSurface::fromSubFace(int subFace, glm::vec2 st) const {
+    if (!hasSubFaces()) return st;
+    glm::vec2 uv;
+    parameterization(size_).ConvertNormalizedSubFaceToCoord(subFace, &st.x, &uv.x);
+    return uv;
+}
+
+int FaceSurface::toSubFace(glm::vec2 uv, glm::vec2& st) const {
+    st = uv;
+    if (!hasSubFaces()) return 0;
+    return parameterization(size_).ConvertCoordToNormalizedSubFace(&uv.x, &st.x);
+}
+
+std::array<glm::vec2, 4> FaceSurface::kite(int subFace) const {
+    const float step = 2 * std::numbers::pi_v<float> / float(size_);
+    const auto corner = [&](int k) {
+        return glm::vec2(std::cos(float(k) * step), std::sin(float(k) * step));
+    };
+    return {corner(subFace), 0.5f * (corner(subFace) + corner(subFace + 1)), glm::vec2(0),
+            0.5f * (corner(subFace) + corner(subFace - 1))};
+}
+
+glm::vec2 FaceSurface::layout(glm::vec2 uv) const {
+    if (!hasSubFaces()) return uv;
+    glm::vec2 st;
+    const auto q = kite(toSubFace(uv, st));
+    return glm::mix(glm::mix(q[0], q[1], st.x), glm::mix(q[3], q[2], st.x), st.y);
+}
+
+int FaceSurface::subFaceOfLayout(glm::vec2 point) const {
+    if (!hasSubFaces()) return 0;
+    const float step = 2 * std::numbers::pi_v<float> / float(size_);
+    const int nearest = int(std::lround(std::atan2(point.y, point.x) / step));
+    return (nearest % size_ + size_) % size_;
+}
+
+glm::vec2 FaceSurface::subFaceCoordinate(int subFace, glm::vec2 point) const {
+    if (!hasSubFaces()) return point;
+    const auto q = kite(subFace);
+    glm::vec2 st(0.5f);
+    for (int i = 0; i < 8; ++i) { // Newton on the bilinear map, which is mild on a kite
+        const glm::vec2 du = glm::mix(q[1] - q[0], q[2] - q[3], st.y);
+        const glm::vec2 dv = glm::mix(q[3] - q[0], q[2] - q[1], st.x);
+        const glm::vec2 p = glm::mix(glm::mix(q[0], q[1], st.x), glm::mix(q[3], q[2], st.x), st.y);
+        const float det = du.x * dv.y - du.y * dv.x;
+        if (std::abs(det) < 1e-12f) break;
+        const glm::vec2 r = point - p;
+        st += glm::vec2((r.x * dv.y - r.y * dv.x) / det, (du.x * r.y - du.y * r.x) / det);
+    }
+    return st;
+}
+
+std::array<SurfacePoint, FaceSurface::kChords + 1> FaceSurface::alongEdge(int edge) const {
+    std::array<SurfacePoint, kChords + 1> points;
+    for (std::size_t i = 0; i < kChords; ++i)
+        points[i] = at(edgeCoord(edge, float(i) / float(kChords)));
+    // The end of an edge is the start of the next: the domain may jump in between.
+    points[kChords] = at(vertexCoord((edge + 1) % size_));
+    return points;
+}
+
+float FaceSurface::edgeLength(int edge) const {
+    const auto points = alongEdge(edge);
+    float length = 0;
+    for (std::size_t i = 0; i < kChords; ++i)
+        length += glm::distance(points[i].position, points[i + 1].position);
+    return length;
+}
+
+float FaceSurface::edgeBend(int edge) const {
+    const auto points = alongEdge(edge);
+    float bend = 0;
+    for (std::size_t i = 0; i < kChords; ++i)
+        bend +=
+            std::acos(std::clamp(glm::dot(points[i].normal, points[i + 1].normal), -1.0f, 1.0f));
+    return bend;
+}
+
+float FaceSurface::extent() const {
+    float extent = 0;
+    const glm::vec3 first = at(vertexCoord(0)).position;
+    const glm::vec3 third = at(vertexCoord(size_ / 2)).position;
+    for (int i = 0; i < size_; ++i) {
+        const glm::vec3 p = at(vertexCoord(i)).position;
+        extent = std::max({extent, glm::distance(first, p), glm::distance(third, p)});
+    }
+    return extent;
+}
+
+DomainPattern FaceSurface::pattern(const std::vector<int>& rates) const {
+    Bfr::Tessellation::Options options;
+    options.SetFacetSize(4).PreserveQuads(true);
+    const Bfr::Tessellation bfr(parameterization(size_), int(rates.size()), rates.data(), options);
+    DomainPattern pattern;
+    pattern.coords.resize(std::size_t(bfr.GetNumCoords()));
+    bfr.GetCoords(reinterpret_cast<float*>(pattern.coords.data()));
+    pattern.facets.resize(std::size_t(bfr.GetNumFacets()));
+    bfr.GetFacets(reinterpret_cast<int*>(pattern.facets.data()));
+    return pattern;
+}
+
+struct LimitSurface::Refined {
+    explicit Refined(Far::TopologyRefiner* owned) : refiner(owned), factory(*owned) {}
+    std::unique_ptr<Far::TopologyRefiner> refiner;
+    Bfr::RefinerSurfaceFactory<> factory;
+};
+
+LimitSurface::LimitSurface(const SurfaceMesh& mesh) : mesh_(mesh) {
+    if (!mesh.subdivided() || mesh.faces.empty()) return;
+    if (highestValence(mesh) > kMostValence) {
+        understood_ = false;
+        return;
+    }
+    Far::SetErrorCallback(ignoreFarMessage);
+    Far::SetWarningCallback(ignoreFarWarning);
+    if (Far::TopologyRefiner* refiner = makeRefiner(mesh))
+        refined_ = std::make_unique<Refined>(refiner);
+    else
+        understood_ = false;
+}
+
+LimitSurface::~LimitSurface() = default;
+
+std::unique_ptr<FaceSurface> LimitSurface::face(std::uint32_t index) const {
+    if (!refined_)
+        return std::make_unique<PolygonSurface>(mesh_, mesh_.cornersOf(mesh_.faces[index]));
+    Bfr::Surface<float> surface;
+    if (!refined_->factory.InitVertexSurface(int(index), &surface)) return nullptr;
+    return std::make_unique<SubdivisionFace>(surface, mesh_.points);
+}
+
+} // namespace penumbra

@@ -1,0 +1,194 @@
+// The scene as flat arrays: patches that send light, elements that receive and show it.
+#pragma once
+
+#include "base/Bounds.h"
+#include "base/ObjectId.h"
+#include "base/Rgb.h"
+#include "radiosity/mesh/Pose.h"
+#include "radiosity/rays/RayMesh.h"
+#include "scenegraph/LitGeometry.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace penumbra {
+
+/// A point at which light is received.
+struct Receiver {
+    glm::vec3 position; ///< a hair in front of the surface, clear of edges and obstacles [m, world]
+    glm::vec3 normal;   ///< unit, towards the lit side
+};
+/// Fills up a block of receivers, or is free to be handed out: nothing is there.
+inline bool isPadding(const Receiver& receiver) {
+    return receiver.normal == glm::vec3(0);
+}
+
+/// A corner of elements: drawn at `position`, lit at `receiver`. The two differ by a hair, or by up
+/// to an element where the corner itself is covered by another object (see Contact.h).
+struct Vertex {
+    glm::vec3 position;
+    Receiver receiver;
+};
+
+/// Where a vertex lies in its patch, for interpolating what is known at the patch's nodes.
+struct PatchCoordinate {
+    std::uint32_t patch = 0xffffffffu; ///< this value: in none, covered all round
+    float s = 0, t = 0;                ///< in [0, 1]
+};
+
+/// A fine cell: a quadrilateral, or a triangle when the last two corners are the same.
+struct Element {
+    std::array<std::uint32_t, 4> vertices; ///< counter-clockwise seen from its front
+    std::uint32_t patch = kNone;           ///< kNone: covered all over, takes part in nothing
+    std::uint32_t material = 0;            ///< index into PatchSet::materials
+
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+    bool isTriangle() const { return vertices[2] == vertices[3]; }
+};
+
+/// A coarse cell that sends light, one-sided.
+struct Patch {
+    std::uint32_t firstCorner = 0; ///< its outline: PatchSet::corners[first ... first + count)
+    std::uint32_t cornerCount = 0;
+    std::uint32_t firstElement =
+        0; ///< its elements: PatchSet::patchElements[first ... first + count)
+    std::uint32_t elementCount = 0;
+    std::array<std::uint32_t, 4> cornerNodes{}; ///< nodes at its four corners, if hasCornerNodes
+    std::uint32_t centreNode = 0;
+    bool hasCornerNodes = false;
+    glm::vec3 centre{};
+    glm::vec3 normal{}; ///< unit, area-weighted mean
+    float area = 0;     ///< of its elements [m^2]
+    std::uint32_t material = 0;
+    ObjectId object;
+};
+
+/// An emitter's shape as senders of direct light see it.
+struct Emitter {
+    enum class Kind { polygons, disk, sphere };
+    Kind kind = Kind::polygons;
+    Rgb exitance; ///< E = pi L [lm/m^2]
+    std::vector<std::vector<glm::vec3>>
+        polygons;       ///< outlines, counter-clockwise seen from the front
+    glm::vec3 centre{}; ///< of a disk or sphere
+    glm::vec3 axis{};   ///< of a disk: unit normal of the emitting side
+    float radius = 0;   ///< of a disk or sphere [m]
+    double area = 0;    ///< emitting area [m^2]
+    ObjectId object;
+    std::string path; ///< of the light or mesh in the scene
+};
+
+/// A mesh that shines, and all that shines of it, of one brightness.
+struct EmissiveMesh {
+    std::string path;
+    /// As they send direct light: see PatchSet::emitters. Their exitances are the scene's affair.
+    std::vector<Emitter> emitters;
+};
+
+/// A run of consecutive indices.
+struct Range {
+    std::uint32_t first = 0, count = 0;
+    std::uint32_t end() const { return first + count; }
+    bool contains(std::uint32_t index) const { return index - first < count; }
+};
+
+/// Geometry of a movable object in its own stretched frame (see Pose.h), in the order of its
+/// ranges.
+struct ObjectShape {
+    std::vector<Vertex> vertices;
+    std::vector<glm::vec3> corners;
+    std::vector<Receiver> nodes;
+    std::vector<Receiver> patches; ///< centres and normals
+    std::vector<Emitter> emitters;
+    std::vector<glm::vec3> rayVertices;
+};
+
+/// One rigid piece of the scene, and where its share of a PatchSet's arrays lies.
+struct ObjectPart {
+    std::string path;
+    std::uint64_t key = 0; ///< of its path: the same in every scene that has it
+    bool movable = false;  ///< may be moved, hidden and shown; others are the fixed part
+    bool present = true;   ///< false: hidden, neither blocks nor sends nor receives
+    bool removed = false;  ///< hidden because it is not in the scene any more
+    Pose pose;             ///< of a movable object; identity for the fixed part
+    glm::dmat3 stretch{1.0};
+    Range vertices, elements, patches, nodes, corners, emitters;
+    ObjectShape shape; ///< empty for the fixed part
+};
+
+/// Names a piece of an object in every scene that has it: 32 bits of the object's key and the
+/// piece's index.
+inline std::uint32_t pieceKey(const ObjectPart& part, std::uint32_t index) {
+    return std::uint32_t(part.key ^ part.key >> 32) + index;
+}
+
+/// A large convex face of the fixed part, see Walls.h.
+struct Wall {
+    ObjectId object;
+    glm::vec3 normal{};             ///< unit
+    std::vector<glm::vec3> outline; ///< counter-clockwise around the normal [m, world]
+};
+
+/// A scene, meshed: hot loops see these arrays and nothing else. The fixed part never changes;
+/// movable objects are brought to where they stand by placeObject(), and what they cover of
+/// each other and of the fixed part is kept up to date by Coverage.
+///
+/// Vertices and nodes come in blocks of kBlock consecutive ones that belong to one object and lie
+/// near each other; what is left of an object's last block is padding that receives nothing.
+/// Vertices behind those of all objects are private corners that Coverage hands out. A set without
+/// nodes is one for direct light alone.
+struct PatchSet {
+    static constexpr std::uint32_t kBlock = 64;
+
+    std::vector<Vertex> vertices;
+    std::vector<PatchCoordinate> vertexCoordinates; ///< one a vertex
+    std::vector<ObjectId> vertexBlockObject;        ///< one a block of vertices
+    std::vector<ObjectId> nodeBlockObject;          ///< one a block of nodes
+    std::vector<Element> elements;
+    std::vector<Element> uncoveredElements; ///< the same when nothing movable is near
+    std::vector<std::uint8_t> covered;      ///< 1: an element that movable objects cover all over
+    std::uint32_t firstPrivate = 0;         ///< the first vertex that Coverage hands out
+    std::vector<std::uint32_t> privateElement; ///< whose corner each of those is
+    std::vector<Patch> patches;
+    std::vector<glm::vec3> corners;           ///< outlines of the patches
+    std::vector<std::uint32_t> patchElements; ///< indices into elements, patch by patch
+    std::vector<Receiver> nodes;              ///< where indirect light is received
+    std::vector<Receiver> uncoveredNodes;     ///< the same when nothing movable is near
+    std::vector<LitMaterial> materials;
+    std::vector<Emitter> emitters;
+    std::vector<ObjectPart> objects;
+    std::vector<Wall> walls;
+    std::vector<RayMesh> rayMeshes;      ///< one an object
+    std::vector<ObjectId> elementObject; ///< one an element
+    Bounds bounds;
+    double area = 0;                      ///< of all elements [m^2]
+    std::size_t polygons = 0;             ///< faces of the scene that were meshed
+    float patchSize = 0, elementSize = 0; ///< as used [m]
+    float extent = 0;                     ///< diagonal of the bounds when it was built [m]
+    float skin = 0;                       ///< how far receivers hover over their surface [m]
+
+    /// Whether any of an element is lit and seen.
+    bool receives(std::uint32_t element) const {
+        return elements[element].patch != Element::kNone && !covered[element] &&
+               objects[elementObject[element].value].present;
+    }
+};
+
+/// An emitter of an object's own frame, as seen from a pose.
+Emitter placedEmitter(const Emitter& own, const Pose& pose);
+/// Writes a movable object's share of the arrays as seen from `pose`.
+void placeObject(PatchSet& set, ObjectId object, const Pose& pose);
+/// Box around an object's triangles [m, world].
+Bounds boundsOf(const PatchSet& set, ObjectId object);
+
+/// Area of an element [m^2], half the cross product of its diagonals.
+inline float elementArea(const PatchSet& set, const Element& element) {
+    const auto at = [&](std::size_t k) { return set.vertices[element.vertices[k]].position; };
+    return 0.5f * glm::length(glm::cross(at(2) - at(0), at(3) - at(1)));
+}
+
+} // namespace penumbra

@@ -1,0 +1,36 @@
+#include "radiosity/mesh/PosedPatches.h"
+
+namespace penumbra {
+
+RayScene raysThrough(const PatchSet& set) {
+    RayScene rays(set.rayMeshes, set.extent);
+    for (std::uint32_t o = 0; o < set.objects.size(); ++o)
+        if (!set.objects[o].present) rays.show({o}, false);
+    rays.commit();
+    return rays;
+}
+
+PosedPatches::PosedPatches(PatchSet& set)
+    : set_(set), rays_(raysThrough(set)), coverage_(set, rays_) {}
+
+PosedPatches::Change PosedPatches::pose(std::span<const ObjectPose> wanted) {
+    Change change;
+    std::vector<Bounds> before;
+    for (const ObjectPose& stand : wanted) {
+        ObjectPart& part = set_.objects[stand.object.value];
+        if (stand.present == part.present && stand.pose == part.pose) continue;
+        change.objects.push_back(stand.object);
+        before.push_back(part.present ? boundsOf(set_, stand.object) : Bounds());
+        if (stand.present != part.present) rays_.show(stand.object, stand.present);
+        part.present = stand.present;
+        if (stand.pose == part.pose) continue;
+        placeObject(set_, stand.object, stand.pose);
+        rays_.move(stand.object, set_.rayMeshes[stand.object.value].vertices);
+    }
+    if (change.objects.empty()) return change;
+    rays_.commit();
+    change.covered = coverage_.update(change.objects, before);
+    return change;
+}
+
+} // namespace penumbra

@@ -1,0 +1,211 @@
+#include "radiosity/mesh/Tessellation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <unordered_map>
+
+namespace penumbra {
+
+namespace {
+
+/// How one edge is cut: into `patches` parts, each into elements, `elements` in all.
+struct EdgeRate {
+    int patches = 1;
+    int elements = 1;
+};
+
+class Tessellator {
+public:
+    Tessellator(const SurfaceMesh& mesh, float patchSize, float elementSize)
+        : mesh_(mesh), patchSize_(patchSize), elementSize_(elementSize) {}
+
+    Tessellation run(const LimitSurface& surface) {
+        for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f)
+            if (auto face = surface.face(f)) addFace(f, *face);
+        return std::move(out_);
+    }
+
+private:
+    /// Rates depend on the edge alone, whichever face asks first: that makes it watertight.
+    EdgeRate rateOf(const FaceSurface& face, std::span<const std::uint32_t> corners, int edge) {
+        const std::uint32_t a = corners[std::size_t(edge)];
+        const std::uint32_t b = corners[(std::size_t(edge) + 1) % corners.size()];
+        const std::uint64_t key = std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
+        const auto [found, fresh] = rates_.try_emplace(key);
+        if (fresh)
+            found->second =
+                cut(face.edgeLength(edge), mesh_.subdivided() ? face.edgeBend(edge) : 0);
+        return found->second;
+    }
+    /// By length, and so that the normal turns by no more than kMostBend within an element.
+    EdgeRate cut(float length, float bend) const {
+        constexpr float kMostBend = 0.2f; // [rad]
+        const auto parts = [](float whole, float part) {
+            return std::clamp(int(std::ceil(whole / part - 1e-3f)), 1, 4096);
+        };
+        const int patches = parts(length, patchSize_);
+        const int elements = std::max(parts(length / float(patches), elementSize_),
+                                      parts(bend / float(patches), kMostBend));
+        return {patches, patches * elements};
+    }
+
+    void addFace(std::uint32_t index, const FaceSurface& face);
+    std::vector<int> facetRates(const std::vector<EdgeRate>& edges) const;
+    void addCells(std::uint32_t index, const FaceSurface& face, const std::vector<EdgeRate>& edges);
+    Facet placeFacet(const FaceSurface& face, const DomainPattern& pattern,
+                     const std::array<int, 4>& source,
+                     std::span<const std::uint32_t> vertices) const;
+    std::uint32_t boundaryVertex(std::uint64_t key, std::uint32_t along, const SurfacePoint& point);
+    std::vector<std::uint32_t> addVertices(std::uint32_t index, const FaceSurface& face,
+                                           const std::vector<EdgeRate>& edges,
+                                           const std::vector<glm::vec2>& coords);
+
+    const SurfaceMesh& mesh_;
+    float patchSize_, elementSize_;
+    Tessellation out_;
+    std::unordered_map<std::uint64_t, EdgeRate> rates_;
+    std::map<std::pair<std::uint64_t, std::uint32_t>, std::vector<std::uint32_t>> shared_;
+
+    // Cells of the face at hand: `cellsU_` x `cellsV_` a quadrilateral domain (or sub-face).
+    std::uint32_t firstCell_ = 0;
+    int cellsU_ = 1, cellsV_ = 1;
+    bool whole_ = false;
+};
+
+std::vector<int> Tessellator::facetRates(const std::vector<EdgeRate>& edges) const {
+    std::vector<int> rates;
+    for (const EdgeRate& edge : edges) rates.push_back(edge.elements);
+    if (edges.size() == 4) {
+        rates.push_back(std::max(rates[0], rates[2]));
+        rates.push_back(std::max(rates[1], rates[3]));
+    } else {
+        rates.push_back(*std::max_element(rates.begin(), rates.end()));
+    }
+    return rates;
+}
+
+/// Cuts the face's parameter domain into cells and notes their outlines. A small face that is no
+/// quadrilateral stays whole.
+void Tessellator::addCells(std::uint32_t index, const FaceSurface& face,
+                           const std::vector<EdgeRate>& edges) {
+    firstCell_ = std::uint32_t(out_.cells.size());
+    int most = 1;
+    for (const EdgeRate& edge : edges) most = std::max(most, edge.patches);
+    const bool quad = !face.hasSubFaces();
+    whole_ = !quad && most == 1 && face.extent() <= 1.5f * patchSize_;
+    cellsU_ = quad ? std::max(edges[0].patches, edges[2].patches) : (most + 1) / 2;
+    cellsV_ = quad ? std::max(edges[1].patches, edges[3].patches) : cellsU_;
+
+    const auto add = [&](std::span<const glm::vec2> corners) {
+        Cell cell{index, std::uint32_t(out_.outline.size()), std::uint32_t(corners.size()), whole_};
+        for (glm::vec2 uv : corners) out_.outline.push_back(face.at(uv).position);
+        out_.cells.push_back(cell);
+    };
+    if (whole_) {
+        std::vector<glm::vec2> corners;
+        for (int i = 0; i < face.size(); ++i) corners.push_back(face.vertexCoord(i));
+        return add(corners);
+    }
+    for (int sub = 0; sub < face.subFaceCount(); ++sub)
+        for (int j = 0; j < cellsV_; ++j)
+            for (int i = 0; i < cellsU_; ++i) {
+                const auto uv = [&](int a, int b) {
+                    return face.fromSubFace(
+                        sub, {float(i + a) / float(cellsU_), float(j + b) / float(cellsV_)});
+                };
+                add(std::array{uv(0, 0), uv(1, 0), uv(1, 1), uv(0, 1)});
+            }
+}
+
+/// A vertex on a corner or an edge: the one already there if its normal agrees.
+std::uint32_t Tessellator::boundaryVertex(std::uint64_t key, std::uint32_t along,
+                                          const SurfacePoint& point) {
+    std::vector<std::uint32_t>& candidates = shared_[{key, along}];
+    for (std::uint32_t candidate : candidates)
+        if (glm::dot(out_.vertices[candidate].normal, point.normal) > 0.9995f) return candidate;
+    candidates.push_back(std::uint32_t(out_.vertices.size()));
+    SurfacePoint added = point;
+    if (candidates.size() > 1) added.position = out_.vertices[candidates[0]].position;
+    out_.vertices.push_back(added);
+    return candidates.back();
+}
+
+/// Bfr lists boundary points first, along the edges from vertex 0 on.
+std::vector<std::uint32_t> Tessellator::addVertices(std::uint32_t index, const FaceSurface& face,
+                                                    const std::vector<EdgeRate>& edges,
+                                                    const std::vector<glm::vec2>& coords) {
+    const auto corners = mesh_.cornersOf(mesh_.faces[index]);
+    std::vector<std::uint32_t> vertices(coords.size());
+    std::size_t next = 0;
+    for (std::size_t e = 0; e < corners.size(); ++e) {
+        const std::uint32_t a = corners[e], b = corners[(e + 1) % corners.size()];
+        const std::uint64_t edgeKey = std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
+        const auto rate = std::uint32_t(edges[e].elements);
+        for (std::uint32_t k = 0; k < rate; ++k, ++next) {
+            const bool isCorner = k == 0;
+            const std::uint64_t key = isCorner ? std::uint64_t(a) << 32 | a : edgeKey;
+            const std::uint32_t along = isCorner ? 0 : (a < b ? k : rate - k);
+            vertices[next] = boundaryVertex(key, along, face.at(coords[next]));
+        }
+    }
+    for (; next < coords.size(); ++next) {
+        vertices[next] = std::uint32_t(out_.vertices.size());
+        out_.vertices.push_back(face.at(coords[next]));
+    }
+    return vertices;
+}
+
+void Tessellator::addFace(std::uint32_t index, const FaceSurface& face) {
+    const auto corners = mesh_.cornersOf(mesh_.faces[index]);
+    std::vector<EdgeRate> edges;
+    for (int e = 0; e < face.size(); ++e) edges.push_back(rateOf(face, corners, e));
+    addCells(index, face, edges);
+
+    const DomainPattern pattern = face.pattern(facetRates(edges));
+    const std::vector<std::uint32_t> vertices = addVertices(index, face, edges, pattern.coords);
+    for (const std::array<int, 4>& source : pattern.facets)
+        out_.facets.push_back(placeFacet(face, pattern, source, vertices));
+}
+
+/// Finds the cell that the middle of a facet lies in, and where its corners lie in that cell.
+Facet Tessellator::placeFacet(const FaceSurface& face, const DomainPattern& pattern,
+                              const std::array<int, 4>& source,
+                              std::span<const std::uint32_t> vertices) const {
+    Facet facet;
+    std::array<glm::vec2, 4> place;
+    glm::vec2 middle(0);
+    const int count = source[3] < 0 ? 3 : 4;
+    for (int k = 0; k < 4; ++k) {
+        const auto coord = std::size_t(source[std::size_t(std::min(k, count - 1))]);
+        facet.vertices[std::size_t(k)] = vertices[coord];
+        place[std::size_t(k)] = face.layout(pattern.coords[coord]);
+        if (k < count) middle += place[std::size_t(k)] / float(count);
+    }
+    if (whole_) {
+        facet.cell = firstCell_;
+        facet.st.fill(glm::vec2(0.5f));
+        return facet;
+    }
+    const int sub = face.subFaceOfLayout(middle);
+    const glm::vec2 cells(cellsU_, cellsV_);
+    const glm::vec2 scaled = face.subFaceCoordinate(sub, middle) * cells;
+    const int i = std::clamp(int(scaled.x), 0, cellsU_ - 1);
+    const int j = std::clamp(int(scaled.y), 0, cellsV_ - 1);
+    facet.cell = firstCell_ + std::uint32_t((sub * cellsV_ + j) * cellsU_ + i);
+    for (std::size_t k = 0; k < 4; ++k)
+        facet.st[k] =
+            glm::clamp(face.subFaceCoordinate(sub, place[k]) * cells - glm::vec2(i, j), 0.0f, 1.0f);
+    return facet;
+}
+
+} // namespace
+
+Tessellation tessellate(const SurfaceMesh& mesh, float patchSize, float elementSize,
+                        bool& understood) {
+    const LimitSurface surface(mesh);
+    understood = surface.understood();
+    return Tessellator(mesh, patchSize, elementSize).run(surface);
+}
+
+} // namespace penumbra

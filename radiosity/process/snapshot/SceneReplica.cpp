@@ -1,0 +1,102 @@
+#include "radiosity/process/snapshot/SceneReplica.h"
+
+#include "scenegraph/Transform.h"
+
+namespace penumbra {
+
+namespace {
+using Kind = NodeSnapshot::Kind;
+}
+
+SceneReplica::SceneReplica(SceneSnapshot snapshot) : snapshot_(std::move(snapshot)) {
+    for (std::uint32_t m = 0; m < snapshot_.materials.size(); ++m) {
+        const MaterialSnapshot& from = snapshot_.materials[m];
+        const auto material = std::make_shared<Material>(from.name);
+        material->setReflectance(from.reflectance);
+        material->setEmission(from.emission);
+        materials_.push_back(material);
+        numbers_[material.get()] = m;
+    }
+    for (std::uint32_t n = 0; n < snapshot_.nodes.size(); ++n) {
+        nodes_.push_back(makeNode(snapshot_.nodes[n]));
+        if (nodes_[n]) numbers_[nodes_[n].get()] = n;
+        snapshot_.nodes[n].mesh.reset();
+    }
+    for (std::uint32_t n = 0; n < nodes_.size(); ++n)
+        if (nodes_[n]) adopt(n);
+    scene_.root = std::static_pointer_cast<Group>(nodes_[0]);
+}
+
+NodePtr SceneReplica::makeNode(const NodeSnapshot& snapshot) const {
+    switch (snapshot.kind) {
+    case Kind::none:
+        return nullptr;
+    case Kind::group:
+        return std::make_shared<Group>(snapshot.name);
+    case Kind::choice: {
+        auto node = std::make_shared<Switch>(snapshot.name);
+        node->setVisible(snapshot.visible);
+        return node;
+    }
+    case Kind::transform: {
+        auto node = std::make_shared<Transform>(snapshot.name);
+        node->setMatrix(snapshot.matrix);
+        node->setMovable(snapshot.movable);
+        return node;
+    }
+    case Kind::light:
+        return std::make_shared<Light>(snapshot.name, snapshot.shape, snapshot.luminance);
+    case Kind::mesh: {
+        MeshData mesh = *snapshot.mesh;
+        mesh.materials.clear();
+        for (std::uint32_t material : snapshot.materials)
+            mesh.materials.push_back(materials_[material]);
+        return std::make_shared<Mesh>(snapshot.name, std::move(mesh));
+    }
+    }
+    return nullptr;
+}
+
+/// Gives a node the children that the image says.
+void SceneReplica::adopt(std::uint32_t node) {
+    auto* const group = dynamic_cast<Group*>(nodes_[node].get());
+    if (!group) return;
+    while (!group->children().empty()) group->remove(NodePtr(group->children().back()));
+    for (std::uint32_t child : snapshot_.nodes[node].children) group->add(nodes_[child]);
+}
+
+/// Edits the nodes as the image was edited, so that both say the same.
+struct SceneReplica::Editor {
+    SceneReplica& copy;
+
+    template <class T>
+    T& node(std::uint32_t number) const {
+        return static_cast<T&>(*copy.nodes_[number]);
+    }
+    void operator()(const SetMatrix& e) const { node<Transform>(e.node).setMatrix(e.matrix); }
+    void operator()(const SetVisible& e) const { node<Switch>(e.node).setVisible(e.visible); }
+    void operator()(const SetLuminance& e) const { node<Light>(e.node).setLuminance(e.luminance); }
+    void operator()(const SetMaterial& e) const {
+        copy.materials_[e.material]->setReflectance(e.reflectance);
+        copy.materials_[e.material]->setEmission(e.emission);
+    }
+    void operator()(const SetChildren& e) const { copy.adopt(e.node); }
+};
+
+bool SceneReplica::apply(const GraphEdit& edit) {
+    if (!penumbra::apply(snapshot_, edit)) return false;
+    std::visit(Editor{*this}, edit);
+    return true;
+}
+
+std::uint32_t SceneReplica::numberOf(const Material* material) const {
+    const auto found = numbers_.find(material);
+    return found == numbers_.end() ? kNone : found->second;
+}
+
+std::uint32_t SceneReplica::numberOf(const Node* node) const {
+    const auto found = numbers_.find(node);
+    return found == numbers_.end() ? kNone : found->second;
+}
+
+} // namespace penumbra

@@ -1,0 +1,40 @@
+// A scene graph made from an image, and edited as told.
+#pragma once
+
+#include "radiosity/process/snapshot/SceneSnapshot.h"
+#include "scenegraph/Scene.h"
+
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+namespace penumbra {
+
+/// The other side's own graph.
+class SceneReplica {
+public:
+    explicit SceneReplica(SceneSnapshot snapshot);
+
+    /// \return whether it can be done, see apply()
+    bool apply(const GraphEdit& edit);
+
+    const Scene& scene() const { return scene_; }
+    /// Numbers in the image; kNone: it is none of these.
+    std::uint32_t numberOf(const Material* material) const;
+    std::uint32_t numberOf(const Node* node) const;
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+
+private:
+    struct Editor;
+    NodePtr makeNode(const NodeSnapshot& snapshot) const;
+    void adopt(std::uint32_t node);
+
+    SceneSnapshot snapshot_; ///< without the meshes
+    Scene scene_;
+    std::vector<std::shared_ptr<Material>> materials_;
+    std::vector<NodePtr> nodes_;
+    std::unordered_map<const void*, std::uint32_t> numbers_;
+};
+
+} // namespace penumbra

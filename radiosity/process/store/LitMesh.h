@@ -1,0 +1,91 @@
+// The mesh that is lit, as the worker tells it to the node.
+#pragma once
+
+#include "radiosity/mesh/BuildPatches.h"
+#include "radiosity/process/memory/Bytes.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace penumbra {
+
+class SceneReplica;
+class LitScene;
+
+/// Faces of a mesh that shine, as one sender of direct light: one of PatchSet::emitters.
+struct LitMeshEmitter {
+    std::string path;                             ///< of the mesh
+    std::uint32_t material = 0;                   ///< a number of the graph image
+    std::vector<std::vector<glm::vec3>> polygons; ///< in the frame of the vertices [m]
+};
+
+/// One object. Its vertices are those of its blocks, so a multiple of PatchSet::kBlock; padding
+/// lies at the origin.
+struct LitMeshObject {
+    std::string path;
+    glm::dmat4 toObject{1.0}; ///< of the frame of these vertices to the object's own
+    std::uint32_t firstBlock = 0;
+    std::uint32_t movable = 0; ///< 1: vertices and rays are in the stretched frame, see Pose.h
+    std::uint32_t present = 0; ///< 0: was hidden when it was meshed
+    std::vector<glm::vec3> positions, normals;
+    std::vector<glm::vec3> receivers; ///< where vertices take their light, see Vertex
+    std::vector<std::array<std::uint32_t, 4>> elements; ///< see Element; of this object's vertices
+    std::vector<std::uint32_t> elementMaterial;
+    std::vector<std::uint32_t> elementPatch; ///< any number, the same for those of one patch;
+                                             ///< Element::kNone: covered all over
+    RayMesh rays;                            ///< what blocks rays
+    std::vector<LitMeshEmitter> emitters;    ///< of its meshes; lights the graph knows of
+};
+
+/// Where a colour comes from: numbers of the graph image, kNone if there is none.
+struct LitMeshMaterial {
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+    std::uint32_t material = kNone, light = kNone;
+    std::uint32_t emits = 0; ///< 0: what the material emits does not count, see BuiltPatches
+};
+
+struct LitMeshHead {
+    MeshingOptions sizes; ///< that it was meshed with
+    std::uint32_t objects = 0;
+    std::vector<LitMeshMaterial> materials;
+};
+
+/// The mesh of a scene as it was built. \param toWorld frames of the objects when it was, one each
+std::vector<std::byte> describeMesh(const LitScene& scene, const SceneReplica& graph,
+                                    std::span<const glm::dmat4> toWorld);
+
+/// Reads a mesh object by object, so that nobody has to wait for all of it.
+class LitMeshReader {
+public:
+    /// \param blocks vertices are there for as many
+    LitMeshReader(std::span<const std::byte> bytes, std::uint32_t blocks);
+
+    bool ok() const { return reader_.ok(); }
+    const LitMeshHead& head() const { return head_; }
+    bool done() const { return next_ == head_.objects; }
+    /// The next object; none: this is no mesh. \pre not done()
+    std::optional<LitMeshObject> next();
+
+private:
+    bool sound(const LitMeshObject& object) const;
+
+    ByteReader reader_;
+    LitMeshHead head_;
+    std::uint32_t blocks_;
+    std::uint32_t next_ = 0, nextBlock_ = 0;
+};
+
+/// The corner of an element that each vertex of a private block stands for: 4 * element + corner,
+/// in the order of LitMeshObject::elements; kNoCorner: none.
+constexpr std::uint32_t kNoCorner = 0xffffffffu;
+
+/// Elements in the order of their objects.
+std::vector<std::uint32_t> numberElements(const PatchSet& set);
+
+} // namespace penumbra

@@ -1,0 +1,99 @@
+#include "radiosity/process/store/LitPatches.h"
+
+#include "radiosity/mesh/Contact.h"
+#include "radiosity/process/store/LitMesh.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace penumbra {
+
+namespace {
+
+constexpr std::uint32_t kBlock = PatchSet::kBlock;
+
+void addVertices(const LitMeshObject& object, std::uint32_t index, PatchSet& set) {
+    if (object.positions.empty()) return;
+    ObjectPart& part = set.objects[index];
+    part.vertices = {object.firstBlock * kBlock, std::uint32_t(object.positions.size())};
+    set.vertices.resize(part.vertices.end());
+    set.vertexBlockObject.resize(part.vertices.end() / kBlock, {index});
+    for (std::uint32_t i = 0; i < part.vertices.count; ++i)
+        set.vertices[part.vertices.first + i] = {object.positions[i],
+                                                 {object.receivers[i], object.normals[i]}};
+    if (!part.movable) return;
+    const auto first = set.vertices.begin() + part.vertices.first;
+    part.shape.vertices.assign(first, first + part.vertices.count);
+}
+
+/// Patches are numbered anew: what an object calls its patches is its own affair.
+void addElements(const LitMeshObject& object, std::uint32_t index, PatchSet& set) {
+    ObjectPart& part = set.objects[index];
+    const auto count = std::uint32_t(object.elements.size());
+    part.elements = {std::uint32_t(set.elements.size()), count};
+    part.patches.first = std::uint32_t(set.patches.size());
+    for (std::uint32_t e = 0; e < count; ++e) {
+        Element element{object.elements[e]};
+        for (std::uint32_t& v : element.vertices) v += part.vertices.first;
+        set.elements.push_back(element);
+    }
+    std::vector<std::uint32_t> byPatch(count);
+    std::iota(byPatch.begin(), byPatch.end(), 0u);
+    std::stable_sort(byPatch.begin(), byPatch.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return object.elementPatch[a] < object.elementPatch[b];
+    });
+    std::uint32_t last = Element::kNone;
+    for (const std::uint32_t e : byPatch) {
+        if (object.elementPatch[e] == Element::kNone) break; // it is greater than any other
+        if (std::exchange(last, object.elementPatch[e]) != last || part.patches.count == 0) {
+            Patch patch;
+            patch.firstElement = std::uint32_t(set.patchElements.size());
+            patch.object = {index};
+            set.patches.push_back(patch);
+            ++part.patches.count;
+        }
+        set.elements[part.elements.first + e].patch = std::uint32_t(set.patches.size() - 1);
+        set.patchElements.push_back(part.elements.first + e);
+        ++set.patches.back().elementCount;
+    }
+    set.elementObject.resize(set.elements.size(), {index});
+    if (part.movable) part.shape.patches.resize(part.patches.count);
+}
+
+void addObject(LitMeshObject object, PatchSet& set) {
+    const auto index = std::uint32_t(set.objects.size());
+    ObjectPart& part = set.objects.emplace_back();
+    part.movable = object.movable != 0;
+    part.present = !part.movable && object.present != 0;
+    addVertices(object, index, set);
+    addElements(object, index, set);
+    part.path = std::move(object.path);
+    if (part.movable) part.shape.rayVertices = object.rays.vertices;
+    set.rayMeshes.push_back(std::move(object.rays));
+}
+
+} // namespace
+
+std::optional<PatchSet> readPatches(std::span<const std::byte> mesh, std::uint32_t blocks) {
+    PatchSet set;
+    LitMeshReader reader(mesh, blocks);
+    if (!reader.ok()) return std::nullopt;
+    while (!reader.done()) {
+        std::optional<LitMeshObject> object = reader.next();
+        if (!object) return std::nullopt;
+        addObject(std::move(*object), set);
+    }
+    const MeshingOptions& sizes = reader.head().sizes;
+    set.patchSize = sizes.patchSize;
+    set.elementSize = sizes.elementSize;
+    set.extent = sizes.extent;
+    set.skin = skinOf(set.extent);
+    set.uncoveredElements = set.elements;
+    set.covered.resize(set.elements.size());
+    set.vertexCoordinates.resize(set.vertices.size());
+    set.firstPrivate = std::uint32_t(set.vertices.size());
+    return set;
+}
+
+} // namespace penumbra

@@ -1,0 +1,23 @@
+// The patches of a mesh that was told by the worker, for those who trace rays beside it.
+#pragma once
+
+#include "radiosity/mesh/PatchSet.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace penumbra {
+
+/// What rays and contacts need of the worker's PatchSet: objects, vertices with their receivers,
+/// elements by patches, and triangles for rays, all in the same order and with the same values. It
+/// has no nodes, colours or emitters. Movable objects are absent and stand at the origin of their
+/// frames: see PosedPatches::place().
+///
+/// \param mesh  as describeMesh() wrote it, or anything else
+/// \param blocks vertices are there for as many
+/// \return      none: this is no mesh
+std::optional<PatchSet> readPatches(std::span<const std::byte> mesh, std::uint32_t blocks);
+
+} // namespace penumbra

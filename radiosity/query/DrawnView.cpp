@@ -1,0 +1,74 @@
+#include "radiosity/query/DrawnView.h"
+
+#include "base/Parallel.h"
+#include "importance/SeenItems.h"
+#include "radiosity/mesh/DrawnSurface.h"
+
+#include <numbers>
+
+namespace penumbra {
+
+DrawnView::DrawnView(const PatchSet& patches, const View& view, int width, int height)
+    : patches_(patches), width_(width), height_(height),
+      pixels_(std::size_t(width) * std::size_t(height)) {
+    const DrawnSurface surface(patches);
+    const glm::dmat4 clipToWorld = glm::inverse(view.worldToClip());
+    const auto unprojected = [&](double x, double y, double depth) {
+        const glm::dvec4 point = clipToWorld * glm::dvec4(x, y, depth, 1);
+        return glm::dvec3(point) / point.w;
+    };
+    parallelFor(std::size_t(height), 4, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first * std::size_t(width); i < last * std::size_t(width); ++i) {
+            const double x = 2 * (double(i % std::size_t(width)) + 0.5) / width - 1;
+            const double y = 1 - 2 * (double(i / std::size_t(width)) + 0.5) / height;
+            const glm::dvec3 from = unprojected(x, y, -1);
+            const glm::vec3 direction(glm::normalize(unprojected(x, y, 1) - from));
+            const DrawnHit hit = surface.nearest(glm::vec3(from), direction, 1e30f);
+            pixels_[i] = {hit.element, hit.vertices, hit.weights};
+        }
+    });
+}
+
+Rgb DrawnView::colour(const Pixel& pixel, const Lighting& light) const {
+    if (pixel.element == Element::kNone) return {};
+    Rgb lux;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t v = pixel.vertices[k];
+        lux += pixel.weights[k] * (light.direct[v] + light.indirect[v]);
+    }
+    const LitMaterial& material = patches_.materials[patches_.elements[pixel.element].material];
+    return material.emission + std::numbers::inv_pi_v<float> * (material.reflectance * lux);
+}
+
+std::vector<Rgb> DrawnView::colours(const Lighting& light) const {
+    std::vector<Rgb> colours;
+    colours.reserve(pixels_.size());
+    for (const Pixel& pixel : pixels_) colours.push_back(colour(pixel, light));
+    return colours;
+}
+
+Plane DrawnView::luminances(const Lighting& light) const {
+    Plane plane(width_, height_);
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+        plane.values[i] = luminance(colour(pixels_[i], light));
+    return plane;
+}
+
+std::vector<float> DrawnView::vertexPixels() const {
+    std::vector<float> pixels(patches_.vertices.size());
+    for (const Pixel& pixel : pixels_)
+        for (std::size_t k = 0; k < 3 && pixel.element != Element::kNone; ++k)
+            pixels[pixel.vertices[k]] += pixel.weights[k];
+    return pixels;
+}
+
+std::vector<std::uint32_t> DrawnView::blocks() const {
+    std::vector<std::uint32_t> blocks;
+    blocks.reserve(pixels_.size());
+    for (const Pixel& pixel : pixels_)
+        blocks.push_back(pixel.element == Element::kNone ? kNoItem
+                                                         : pixel.vertices[0] / PatchSet::kBlock);
+    return blocks;
+}
+
+} // namespace penumbra

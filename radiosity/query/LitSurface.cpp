@@ -1,0 +1,71 @@
+#include "radiosity/query/LitSurface.h"
+
+#include "scenegraph/LitGeometry.h"
+
+namespace penumbra {
+
+LitBranch::LitBranch(const PatchSet& patches, const Lighting& light) : Group("radiosity") {
+    const std::size_t objects = patches.objects.size();
+    std::vector<LitMeshData> data(objects);
+    std::vector<std::uint32_t> local(patches.vertices.size(), 0xffffffffu);
+    for (LitMeshData& mesh : data) mesh.materials = patches.materials;
+    for (std::size_t e = 0; e < patches.elements.size(); ++e) {
+        const Element& element = patches.elements[e];
+        if (!patches.objects[patches.elementObject[e].value].present) continue;
+        LitMeshData& mesh = data[patches.elementObject[e].value];
+        const auto vertex = [&](std::uint32_t v) {
+            if (local[v] == 0xffffffffu) {
+                local[v] = std::uint32_t(mesh.positions.size());
+                mesh.positions.push_back(patches.vertices[v].position);
+                mesh.normals.push_back(patches.vertices[v].receiver.normal);
+                mesh.direct.push_back(light.direct[v]);
+                mesh.indirect.push_back(light.indirect[v]);
+            }
+            return local[v];
+        };
+        const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+            for (std::size_t k : {a, b, c}) mesh.indices.push_back(vertex(element.vertices[k]));
+            mesh.triangleMaterial.push_back(element.material);
+        };
+        add(0, 1, 2);
+        if (!element.isTriangle()) add(0, 2, 3);
+    }
+    for (std::size_t o = 0; o < objects; ++o) {
+        if (data[o].indices.empty()) continue;
+        add(std::make_shared<LitGeometry>(patches.objects[o].path, ObjectId{std::uint32_t(o)},
+                                          std::move(data[o])));
+    }
+}
+
+LitSurface::LitSurface(const PatchSet& patches, const Lighting& light)
+    : patches_(patches), light_(light), surface_(patches) {}
+
+std::optional<SurfaceSample> LitSurface::sample(glm::vec3 origin, glm::vec3 direction,
+                                                float reach) const {
+    const DrawnHit hit = surface_.nearest(origin, direction, reach);
+    if (!hit.met()) return std::nullopt;
+    SurfaceSample sample;
+    sample.element = hit.element;
+    sample.distance = hit.distance;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t v = hit.vertices[k];
+        sample.position += hit.weights[k] * patches_.vertices[v].position;
+        sample.normal += hit.weights[k] * patches_.vertices[v].receiver.normal;
+        sample.direct += hit.weights[k] * light_.direct[v];
+        sample.indirect += hit.weights[k] * light_.indirect[v];
+    }
+    sample.normal = glm::normalize(sample.normal);
+    return sample;
+}
+
+std::optional<SurfaceSample> LitSurface::trace(glm::vec3 origin, glm::vec3 direction) const {
+    return sample(origin, direction, 1e30f);
+}
+
+std::optional<SurfaceSample> LitSurface::under(glm::vec3 position, glm::vec3 normal) const {
+    // Close enough not to land on a sheet of paper that covers the sensor, far enough for rounding.
+    const float height = 2 * patches_.skin;
+    return sample(position + height * normal, -normal, 4 * height);
+}
+
+} // namespace penumbra

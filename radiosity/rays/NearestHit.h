@@ -1,0 +1,74 @@
+// What a ray meets first, whatever the order in which triangles are tried.
+#pragma once
+
+#include "base/ObjectId.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+namespace penumbra {
+
+/// What a ray met first.
+struct RayHit {
+    float distance = 0; ///< in units of the ray's direction
+    ObjectId object;    ///< not valid: nothing was met
+    std::uint32_t triangle = 0;
+    float u = 0, v = 0; ///< barycentric, of the triangle's second and third corner
+    glm::vec3 normal{}; ///< of the triangle's front, not unit
+
+    bool met() const { return object.valid(); }
+};
+
+/// Whether a ray without end passes through a triangle, judged in double precision: of two
+/// triangles that share an edge, it passes one. Not if it runs along the triangle.
+bool passes(glm::dvec3 origin, glm::dvec3 direction, std::span<const glm::vec3, 3> corners);
+
+/// Judges the triangles that Embree offers for a ray, in any order. At an edge it offers one
+/// triangle or the other, both or none, by rounding and by what else lies in the same leaf of its
+/// hierarchy; here the answer depends on the triangles alone. Edges are judged in double precision,
+/// and of several triangles at the same distance the first object's first one is met. Where the ray
+/// passes beside a triangle that was offered, those around are to be offered as well, by rays a
+/// hair beside it: where they share their corners, one of them is met. Where they do not, the ray
+/// itself has to be asked again, a hair farther aside: there it meets the neighbour if there is
+/// one, and else what lies behind.
+class NearestHit {
+public:
+    /// \param origin, direction of the ray [m, world; the direction need not be unit]
+    /// \param frontOnly those that show their back are not met
+    NearestHit(glm::vec3 origin, glm::vec3 direction, bool frontOnly)
+        : origin_(origin), direction_(direction), frontOnly_(frontOnly) {
+        doubt_.distance = std::numeric_limits<float>::infinity();
+    }
+
+    /// \param corners of the triangle, its front is where they go round counter-clockwise
+    /// \param hit     what it is called, where Embree thinks that it is met, and its normal
+    /// \return whether the ray meets it, nearer than all before or as near
+    bool take(std::span<const glm::vec3, 3> corners, const RayHit& hit);
+
+    double distance() const { return distance_; } ///< of what is met first; infinity: nothing
+    const RayHit& hit() const { return hit_; }
+
+    /// Whether the ray passes by a triangle that was offered, with nothing behind it up to `slack`.
+    bool inDoubt(float slack) const { return doubt_.distance + slack < distance_; }
+    const RayHit& doubt() const { return doubt_; } ///< the triangle that was offered
+    /// How far beside this ray, on all its sides, the i-th of kAround rays of the same direction
+    /// begins: a hair [m].
+    glm::vec3 beside(float hair, int i) const;
+    static constexpr int kAround = 8;
+    /// How far beside this ray one of the same direction begins that passes the triangle a hair
+    /// farther aside [m].
+    glm::vec3 aside(float hair) const;
+
+private:
+    glm::dvec3 origin_, direction_;
+    bool frontOnly_;
+    double distance_ = std::numeric_limits<double>::infinity();
+    RayHit hit_;
+    RayHit doubt_;
+    glm::dvec3 middle_{}; ///< of that triangle, as seen from the origin
+};
+
+} // namespace penumbra

@@ -1,0 +1,374 @@
+#include "radiosity/rays/RayScene.h"
+
+#include "base/Error.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace penumbra {
+
+namespace {
+
+/// What our filters want to know of a query.
+struct QueryContext {
+    RTCIntersectContext context;      // first, so that Embree's pointer is ours
+    std::uint32_t* blocker = nullptr; // where to note who is in the way, one a ray
+    std::uint32_t doubts = 0;         // bits: rays to which a triangle was offered that they miss
+    NearestHit* nearest = nullptr;    // who judges what is met
+    float slack = 0; // how much farther Embree has to go on than the nearest [of the direction]
+    std::vector<RayHit>* all = nullptr; // where to note every hit; none ends the ray
+
+    QueryContext() {
+        rtcInitIntersectContext(&context);
+    } // incoherent: COHERENT is slower everywhere
+};
+
+/// The triangles of a geometry; it has a pointer to this.
+struct Triangles {
+    const glm::vec3* vertices = nullptr;
+    const std::array<std::uint32_t, 3>* corners = nullptr;
+    std::array<glm::vec3, 3> at(std::uint32_t triangle) const {
+        const auto [a, b, c] = corners[triangle];
+        return {vertices[a], vertices[b], vertices[c]};
+    }
+};
+
+void requireThatTheyCanBeTraced(std::span<const glm::vec3> vertices) {
+    if (!std::all_of(vertices.begin(), vertices.end(), canBeTraced))
+        throw Error("ray tracing: part of an object is more than 1e12 m away, or nowhere "
+                    "(look for a transform or points out of range)");
+}
+
+/// Whether Embree's i-th ray passes through the triangle that it is said to hit. By rounding it may
+/// pass beside it, and whether it is tried at all then depends on the hierarchy.
+bool reallyPasses(const RTCFilterFunctionNArguments* args, unsigned i) {
+    constexpr float kSure = 1e-3f; // farther from every edge than rounding gets
+    const float u = RTCHitN_u(args->hit, args->N, i), v = RTCHitN_v(args->hit, args->N, i);
+    if (u > kSure && v > kSure && u + v < 1 - kSure) return true;
+    const Triangles& of = *static_cast<const Triangles*>(args->geometryUserPtr);
+    return passes({RTCRayN_org_x(args->ray, args->N, i), RTCRayN_org_y(args->ray, args->N, i),
+                   RTCRayN_org_z(args->ray, args->N, i)},
+                  {RTCRayN_dir_x(args->ray, args->N, i), RTCRayN_dir_y(args->ray, args->N, i),
+                   RTCRayN_dir_z(args->ray, args->N, i)},
+                  of.at(RTCHitN_primID(args->hit, args->N, i)));
+}
+
+/// Notes the object of the hit that ends each ray, or that it is in doubt and goes on.
+void noteBlocker(const RTCFilterFunctionNArguments* args) {
+    auto& context = *reinterpret_cast<QueryContext*>(args->context);
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] == 0) continue;
+        const unsigned ray = RTCRayN_id(args->ray, args->N, i);
+        if (reallyPasses(args, i)) {
+            context.blocker[ray] = RTCHitN_geomID(args->hit, args->N, i);
+        } else {
+            args->valid[i] = 0;
+            context.doubts |= 1u << ray;
+        }
+    }
+}
+
+RayHit hitOf(const RTCFilterFunctionNArguments* args) {
+    RayHit hit;
+    hit.distance = RTCRayN_tfar(args->ray, 1, 0);
+    hit.object.value = RTCHitN_geomID(args->hit, 1, 0);
+    hit.triangle = RTCHitN_primID(args->hit, 1, 0);
+    hit.u = RTCHitN_u(args->hit, 1, 0);
+    hit.v = RTCHitN_v(args->hit, 1, 0);
+    hit.normal = {RTCHitN_Ng_x(args->hit, 1, 0), RTCHitN_Ng_y(args->hit, 1, 0),
+                  RTCHitN_Ng_z(args->hit, 1, 0)};
+    return hit;
+}
+
+/// Hands a hit to whom it concerns. Queries for hits are of single rays.
+void chooseHits(const RTCFilterFunctionNArguments* args) {
+    assert(args->N == 1);
+    auto& context = *reinterpret_cast<QueryContext*>(args->context);
+    const RayHit hit = hitOf(args);
+    if (context.all) {
+        context.all->push_back(hit);
+        args->valid[0] = 0;
+        return;
+    }
+    const Triangles& of = *static_cast<const Triangles*>(args->geometryUserPtr);
+    if (context.nearest->take(of.at(hit.triangle), hit))
+        RTCRayN_tfar(args->ray, 1, 0) = float(context.nearest->distance()) + context.slack;
+    else
+        args->valid[0] = 0;
+}
+
+} // namespace
+
+bool canBeTraced(glm::vec3 p) {
+    constexpr float kFarthest = 1e12f; // from the origin [m]
+    return std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest && std::abs(p.z) < kFarthest;
+}
+
+std::uint32_t lanesThatMeet(const ShadowRays& rays, std::uint32_t lanes, const Bounds& box) {
+    float first[16], last[16];
+    for (int i = 0; i < 16; ++i) first[i] = 0, last[i] = 1;
+    const auto clip = [&](const float* origin, const float* direction, float lower, float upper) {
+        for (int i = 0; i < 16; ++i) {
+            const float inverse = 1.0f / direction[i];
+            const float a = (lower - origin[i]) * inverse, b = (upper - origin[i]) * inverse;
+            const float near = a < b ? a : b, far = a < b ? b : a;
+            first[i] = near > first[i] ? near : first[i]; // not a number: changes nothing
+            last[i] = far < last[i] ? far : last[i];
+        }
+    };
+    clip(rays.originX, rays.directionX, box.lower.x, box.upper.x);
+    clip(rays.originY, rays.directionY, box.lower.y, box.upper.y);
+    clip(rays.originZ, rays.directionZ, box.lower.z, box.upper.z);
+    std::uint32_t meet = 0;
+    for (int i = 0; i < 16; ++i) meet |= std::uint32_t(first[i] <= last[i]) << i;
+    return meet & lanes;
+}
+
+struct RayScene::Impl {
+    /// An object's geometry is part of the whole scene and of one of its own, made on demand.
+    struct Member {
+        RTCGeometry geometry = nullptr;
+        Triangles triangles;
+        RTCScene alone = nullptr;
+        bool moved = false;
+    };
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+    std::vector<Member> members; // one an object; geometries point to them
+
+    Impl() {
+        // Embree builds on oneTBB's threads. A number of threads given here would limit the whole
+        // process.
+#ifdef PENUMBRA_STD_THREADS
+        device = rtcNewDevice("threads=1"); // oneTBB stays out of a build for ThreadSanitizer
+#else
+        device = rtcNewDevice(nullptr);
+#endif
+        if (!device)
+            throw Error("ray tracing: Embree can't start on this processor (SSE2 is needed)");
+        scene = newScene();
+    }
+    RTCScene newScene() const {
+        RTCScene made = rtcNewScene(device);
+        // Robust: no ray slips through an edge that two triangles share, which costs a seventh.
+        rtcSetSceneFlags(made, RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneBuildQuality(made, RTC_BUILD_QUALITY_LOW);
+        return made;
+    }
+    ~Impl() {
+        for (const Member& member : members) {
+            if (member.alone) rtcReleaseScene(member.alone);
+            if (member.geometry) rtcReleaseGeometry(member.geometry);
+        }
+        rtcReleaseScene(scene);
+        rtcReleaseDevice(device);
+    }
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
+    void add(const RayMesh& mesh, unsigned id) {
+        requireThatTheyCanBeTraced(mesh.vertices);
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
+        void* vertices =
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                    sizeof(glm::vec3), mesh.vertices.size());
+        void* indices =
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                    3 * sizeof(std::uint32_t), mesh.triangles.size());
+        if (!vertices || !indices) throw Error("ray tracing: not enough memory for the scene");
+        std::memcpy(vertices, mesh.vertices.data(), mesh.vertices.size() * sizeof(glm::vec3));
+        std::memcpy(indices, mesh.triangles.data(),
+                    mesh.triangles.size() * 3 * sizeof(std::uint32_t));
+        rtcSetGeometryOccludedFilterFunction(geometry, noteBlocker);
+        rtcSetGeometryIntersectFilterFunction(geometry, chooseHits);
+        members[id].triangles = {static_cast<const glm::vec3*>(vertices),
+                                 static_cast<const std::array<std::uint32_t, 3>*>(indices)};
+        rtcSetGeometryUserData(geometry, &members[id].triangles);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(scene, geometry, id);
+        members[id].geometry = geometry;
+    }
+};
+
+RayScene::RayScene(std::span<const RayMesh> objects, float extent)
+    : impl_(std::make_unique<Impl>()) {
+    if (extent <= 0) {
+        Bounds bounds;
+        for (const RayMesh& mesh : objects)
+            for (glm::vec3 vertex : mesh.vertices) bounds.add(vertex);
+        extent = bounds.empty() ? 0 : bounds.diagonal();
+    }
+    margin_ = 2e-5f * extent;
+    impl_->members.resize(objects.size());
+    for (std::size_t i = 0; i < objects.size(); ++i)
+        if (!objects[i].triangles.empty()) impl_->add(objects[i], unsigned(i));
+    commit();
+}
+
+void RayScene::move(ObjectId object, std::span<const glm::vec3> vertices) {
+    Impl::Member& member = impl_->members[object.value];
+    if (!member.geometry) return;
+    requireThatTheyCanBeTraced(vertices);
+    std::memcpy(rtcGetGeometryBufferData(member.geometry, RTC_BUFFER_TYPE_VERTEX, 0),
+                vertices.data(), vertices.size_bytes());
+    rtcUpdateGeometryBuffer(member.geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+    rtcCommitGeometry(member.geometry);
+    if (!member.alone) {
+        member.alone = impl_->newScene();
+        rtcAttachGeometryByID(member.alone, member.geometry, object.value);
+    }
+    member.moved = true;
+}
+
+void RayScene::show(ObjectId object, bool visible) {
+    Impl::Member& member = impl_->members[object.value];
+    if (!member.geometry) return;
+    if (visible)
+        rtcEnableGeometry(member.geometry);
+    else
+        rtcDisableGeometry(member.geometry);
+    rtcCommitGeometry(member.geometry);
+    if (!member.alone) {
+        member.alone = impl_->newScene();
+        rtcAttachGeometryByID(member.alone, member.geometry, object.value);
+    }
+    member.moved = true;
+}
+
+void RayScene::commit() {
+    rtcCommitScene(impl_->scene);
+    for (Impl::Member& member : impl_->members) {
+        if (!member.moved) continue;
+        rtcCommitScene(member.alone);
+        member.moved = false;
+    }
+    if (rtcGetDeviceError(impl_->device) != RTC_ERROR_NONE)
+        throw Error("ray tracing: Embree could not build the scene (out of memory?)");
+}
+
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+float RayScene::reach(float length) const {
+    return 1 - std::max(1e-4f, margin_ / std::max(length, 1e-30f));
+}
+
+void RayScene::occluded(ShadowRays& rays) const {
+    trace(impl_->scene, rays);
+}
+
+void RayScene::occludedBy(ObjectId object, ShadowRays& rays) const {
+    const Impl::Member& member = impl_->members[object.value];
+    if (member.geometry) {    // else it has no triangle
+        assert(member.alone); // it has been moved or shown
+        trace(member.alone, rays);
+        return;
+    }
+    std::fill_n(rays.blocker, ShadowRays::kMost, ObjectId::kNone);
+}
+
+void RayScene::trace(void* scene, ShadowRays& rays) const {
+    static_assert(ShadowRays::kMost == 16);
+    alignas(64) int valid[16];
+    alignas(64) RTCRay16 packet;
+    float reaches[16];
+    for (int i = 0; i < 16; ++i) {
+        const bool used = rays.used >> i & 1;
+        valid[i] = used ? -1 : 0;
+        rays.blocker[i] = ObjectId::kNone;
+        packet.org_x[i] = used ? rays.originX[i] : 0;
+        packet.org_y[i] = used ? rays.originY[i] : 0;
+        packet.org_z[i] = used ? rays.originZ[i] : 0;
+        packet.dir_x[i] = used ? rays.directionX[i] : 0;
+        packet.dir_y[i] = used ? rays.directionY[i] : 0;
+        packet.dir_z[i] = used ? rays.directionZ[i] : 1;
+        // Where the processor has no 16 lanes Embree does not ask which are valid.
+        packet.tnear[i] = used ? 0.0f : 1.0f;
+        packet.tfar[i] = reaches[i] = used ? reach(std::sqrt(packet.dir_x[i] * packet.dir_x[i] +
+                                                             packet.dir_y[i] * packet.dir_y[i] +
+                                                             packet.dir_z[i] * packet.dir_z[i]))
+                                           : 0.0f;
+        packet.time[i] = 0;
+        packet.mask[i] = 0xffffffffu;
+        packet.id[i] = unsigned(i);
+        packet.flags[i] = 0;
+    }
+    QueryContext context;
+    context.blocker = rays.blocker;
+    rtcOccluded16(valid, static_cast<RTCScene>(scene), &context.context, &packet);
+    for (std::uint32_t left = context.doubts; left != 0; left &= left - 1) {
+        const int i = std::countr_zero(left);
+        if (rays.blocker[i] != ObjectId::kNone) continue;
+        const RayHit hit = nearestIn(scene, {rays.originX[i], rays.originY[i], rays.originZ[i]},
+                                     {rays.directionX[i], rays.directionY[i], rays.directionZ[i]},
+                                     reaches[i], Faces::both);
+        rays.blocker[i] = hit.object.value;
+    }
+}
+
+bool RayScene::occluded(glm::vec3 origin, glm::vec3 target) const {
+    const glm::vec3 d = target - origin;
+    const float far = reach(glm::length(d));
+    RTCRay ray{origin.x, origin.y, origin.z, 0, d.x, d.y, d.z, 0, far, 0xffffffffu, 0, 0};
+    std::uint32_t blocker = ObjectId::kNone;
+    QueryContext context;
+    context.blocker = &blocker;
+    rtcOccluded1(impl_->scene, &context.context, &ray);
+    if (blocker == ObjectId::kNone && context.doubts != 0)
+        return nearestIn(impl_->scene, origin, d, far, Faces::both).met();
+    return blocker != ObjectId::kNone;
+}
+
+void RayScene::all(glm::vec3 origin, glm::vec3 direction, std::vector<RayHit>& hits) const {
+    hits.clear();
+    RTCRayHit query{};
+    query.ray = {origin.x,    origin.y, origin.z, 0,           direction.x, direction.y,
+                 direction.z, 0,        1e30f,    0xffffffffu, 0,           0};
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    QueryContext context;
+    context.all = &hits;
+    rtcIntersect1(impl_->scene, &context.context, &query);
+}
+
+RayHit RayScene::nearest(glm::vec3 origin, glm::vec3 direction, float reach, Faces faces) const {
+    return nearestIn(impl_->scene, origin, direction, reach, faces);
+}
+
+RayHit RayScene::nearestIn(void* scene, glm::vec3 origin, glm::vec3 direction, float reach,
+                           Faces faces) const {
+    constexpr int kTimes = 4;        // corners may need several
+    const float hair = margin_ / 20; // many times what Embree rounds [m]
+    const float length = glm::length(direction);
+    for (int time = 1;; ++time) {
+        NearestHit nearest(origin, direction, faces == Faces::front);
+        const auto offer = [&](glm::vec3 from) {
+            RTCRayHit query{};
+            query.ray = {from.x,      from.y, from.z, 0,           direction.x, direction.y,
+                         direction.z, 0,      reach,  0xffffffffu, 0,           0};
+            query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+            QueryContext context;
+            context.nearest = &nearest;
+            context.slack = hair / length;
+            rtcIntersect1(static_cast<RTCScene>(scene), &context.context, &query);
+        };
+        offer(origin);
+        if (!nearest.inDoubt(margin_ / length)) return nearest.hit();
+        for (int i = 0; i < NearestHit::kAround; ++i) offer(origin + nearest.beside(hair, i));
+        if (!nearest.inDoubt(margin_ / length)) return nearest.hit();
+        if (time == kTimes) return nearest.doubt();
+        origin += nearest.aside(hair);
+    }
+}
+
+} // namespace penumbra

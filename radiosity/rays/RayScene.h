@@ -1,0 +1,89 @@
+// Rays, by Embree.
+#pragma once
+
+#include "base/Bounds.h"
+#include "base/ObjectId.h"
+#include "radiosity/rays/NearestHit.h"
+#include "radiosity/rays/RayMesh.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace penumbra {
+
+/// Up to 16 segments to be tested for obstacles. Segment i runs from its origin to origin +
+/// direction.
+struct alignas(64) ShadowRays {
+    static constexpr int kMost = 16;
+    float originX[kMost], originY[kMost], originZ[kMost];
+    float directionX[kMost], directionY[kMost], directionZ[kMost];
+    std::uint32_t used = 0; ///< bit i: segment i is to be tested
+    std::uint32_t
+        blocker[kMost]; ///< result: object that blocks the segment, ObjectId::kNone if free
+
+    void set(int i, glm::vec3 origin, glm::vec3 target) {
+        originX[i] = origin.x, originY[i] = origin.y, originZ[i] = origin.z;
+        directionX[i] = target.x - origin.x;
+        directionY[i] = target.y - origin.y;
+        directionZ[i] = target.z - origin.z;
+        used |= 1u << i;
+    }
+};
+
+/// Those of some segments (bits) that meet a box.
+std::uint32_t lanesThatMeet(const ShadowRays& rays, std::uint32_t lanes, const Bounds& box);
+
+/// Whether triangles with a corner there can be traced: in single precision, and without Embree's
+/// ending the program because it can't build its hierarchy. \param p [m]
+bool canBeTraced(glm::vec3 p);
+
+/// The objects of a scene, each one geometry of its own in one flat Embree scene, so that an object
+/// can be moved by refitting, and traced alone. Tracing is thread-safe, changes are not.
+class RayScene {
+public:
+    /// A segment is tested up to a hair before its end, for the target's own surface is no
+    /// obstacle: 1e-4 of its length, or 2e-5 of the scene's diagonal if that is more.
+    /// \param extent the scene's diagonal [m]; 0: of what is given
+    explicit RayScene(std::span<const RayMesh> objects, float extent = 0);
+    ~RayScene();
+    RayScene(RayScene&&) noexcept;
+    RayScene& operator=(RayScene&&) noexcept;
+
+    /// Moves an object to new vertices, as many as it has, or hides it. Seen by rays after
+    /// commit().
+    void move(ObjectId object, std::span<const glm::vec3> vertices);
+    void show(ObjectId object, bool visible);
+    void commit();
+
+    /// Finds for each segment an object that blocks it, if any.
+    void occluded(ShadowRays& rays) const;
+    bool occluded(glm::vec3 origin, glm::vec3 target) const;
+    /// The same against one object alone. For a segment that nothing else blocks, the answer is
+    /// that of the whole scene, bit for bit: what passes by an edge up to rounding is judged by the
+    /// triangles alone.
+    void occludedBy(ObjectId object, ShadowRays& rays) const;
+    enum class Faces { both, front };
+    /// The nearest triangle, up to `reach` times the length of `direction`; on request only of
+    /// those that show their front. The same however the scene came to be, as NearestHit says.
+    RayHit nearest(glm::vec3 origin, glm::vec3 direction, float reach,
+                   Faces faces = Faces::both) const;
+
+    /// All triangles on a ray without end, in no order; `hits` is emptied first.
+    void all(glm::vec3 origin, glm::vec3 direction, std::vector<RayHit>& hits) const;
+
+private:
+    float reach(float length) const;
+    void trace(void* scene, ShadowRays& rays) const;
+    RayHit nearestIn(void* scene, glm::vec3 origin, glm::vec3 direction, float reach,
+                     Faces faces) const;
+
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+    float margin_ = 0; ///< [m]
+};
+
+} // namespace penumbra

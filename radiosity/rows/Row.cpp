@@ -1,0 +1,343 @@
+// After [Schoeffel1997], whose list keeps one blocker an entry. Departures: samples and their
+// blockers are kept one by one where they differ, and form factors are stored apart from
+// visibility, so that an entry can be changed by retesting single samples.
+#include "radiosity/rows/Row.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace penumbra {
+
+namespace {
+
+constexpr std::uint64_t kAll = ~std::uint64_t(0);
+
+/// Codes that mean a mixed entry: the largest ones.
+constexpr std::size_t kMixedCodes = 16;
+
+/// Size of a code, and of a place in the list of objects.
+std::size_t codeSize(std::size_t objects) {
+    return objects <= 256 - kMixedCodes ? 1 : 2;
+}
+std::size_t firstMixed(std::size_t codeSize) {
+    return (codeSize == 1 ? 256u : 65536u) - kMixedCodes;
+}
+
+/// What a mixed entry's code says.
+struct MixedForm {
+    bool wide = false, implied = false;
+    std::size_t blockers = 1; ///< 4: or more
+
+    std::size_t code() const { return std::size_t(wide) + 2 * implied + 4 * (blockers - 1); }
+    static MixedForm of(std::size_t code) {
+        return {(code & 1) != 0, (code & 2) != 0, (code >> 2) + 1};
+    }
+    std::size_t maskSize() const { return wide ? 8 : 2; }
+    std::uint64_t allSamples() const { return wide ? kAll : 0xffff; }
+};
+
+std::span<const Blocker> blockersOf(const RowBlock::Draft& draft) {
+    return std::span(draft.blockers).first(std::size_t(draft.blockerCount));
+}
+
+/// Samples that are visible or that a blocker but the last one has.
+std::uint64_t allButLast(std::uint64_t visible, std::span<const Blocker> blockers) {
+    for (const Blocker& blocker : blockers.first(blockers.size() - 1)) visible |= blocker.samples;
+    return visible;
+}
+
+bool isPresent(const RowBlock::Draft& draft) {
+    return draft.formFactor > 0;
+}
+
+} // namespace
+
+/// Lists the objects of a block, then puts its parts one after the other.
+class RowBlock::Writer {
+public:
+    explicit Writer(std::span<const Draft> drafts) : drafts_(drafts) {
+        for (std::size_t i = 0; i < drafts.size(); ++i) {
+            if (!isPresent(drafts[i])) continue;
+            const std::uint64_t bit = std::uint64_t(1) << i;
+            present_ |= bit;
+            parted_ |= drafts[i].parted;
+            if (drafts[i].blockerCount == 0) visible_ |= bit;
+            if (drafts[i].blockerCount == 0 || drafts[i].visible != 0) seen_ |= bit;
+            for (const Blocker& blocker : blockersOf(drafts[i])) {
+                if (place(blocker.object) == objects_.size()) objects_.push_back(blocker.object);
+                ++blockers_;
+                wideObjects_ |= blocker.object >> 16 != 0;
+            }
+        }
+    }
+
+    std::unique_ptr<std::byte[]> write() {
+        if (present_ == 0) return nullptr;
+        out_ = std::make_unique_for_overwrite<std::byte[]>(mostBytes());
+        put(present_);
+        put(visible_);
+        put(std::uint16_t(0)); // the size, not yet known
+        put(std::uint16_t(objects_.size() | (wideObjects_ ? kWideObjects : 0u) |
+                          (parted_ ? kParted : 0u)));
+        if (present_ != visible_) put(seen_);
+        for (const Draft& draft : drafts_)
+            if (isPresent(draft)) put(draft.formFactor);
+        for (const Draft& draft : drafts_)
+            if (isPresent(draft) && draft.blockerCount > 0 && draft.visible != 0)
+                put(draft.visibility);
+        for (const Draft& draft : drafts_)
+            if (parted_ && isPresent(draft) && (draft.blockerCount == 0 || draft.visible != 0))
+                put(draft.split);
+        for (const std::uint32_t object : objects_) putLow(object, wideObjects_ ? 4 : 2);
+        for (const Draft& draft : drafts_)
+            if (isPresent(draft) && draft.blockerCount > 0) putRecord(draft);
+
+        assert(size_ < 65536); // 64 entries of 64 blockers, all different, take less
+        const auto size = std::uint16_t(size_);
+        std::memcpy(out_.get() + kBytes, &size, sizeof size);
+        auto bytes = std::make_unique_for_overwrite<std::byte[]>(size);
+        std::copy_n(out_.get(), size, bytes.get());
+        return bytes;
+    }
+
+private:
+    /// No block takes more: see the list of its parts.
+    std::size_t mostBytes() const {
+        constexpr std::size_t kParts = kSeen + 8 + 64 * (4 + 4 + sizeof(Split) + 2 + 1 + 8);
+        return kParts + objects_.size() * 4 + blockers_ * (2 + 8) + 8;
+    }
+    template <class T>
+    void put(T value) {
+        putLow(value, sizeof value);
+    }
+    /// The first bytes of a little-endian value.
+    template <class T>
+    void putLow(T value, std::size_t size) {
+        assert(size_ + sizeof value <= mostBytes());
+        std::memcpy(out_.get() + size_, &value, sizeof value); // what is too much is written over
+        size_ += size;
+    }
+    std::size_t place(std::uint32_t object) const {
+        return std::size_t(std::find(objects_.begin(), objects_.end(), object) - objects_.begin());
+    }
+
+    void putRecord(const Draft& draft) {
+        const std::span<const Blocker> blockers = blockersOf(draft);
+        const std::size_t codes = codeSize(objects_.size());
+        if (draft.visible == 0 && blockers.size() == 1) {
+            putLow(place(blockers[0].object), codes);
+            return;
+        }
+        MixedForm form;
+        form.wide = draft.visible >> 16 != 0 ||
+                    std::any_of(blockers.begin(), blockers.end(),
+                                [](const Blocker& b) { return b.samples >> 16 != 0; });
+        form.implied =
+            blockers.back().samples == (form.allSamples() & ~allButLast(draft.visible, blockers));
+        form.blockers = std::min<std::size_t>(blockers.size(), 4);
+        putLow(firstMixed(codes) + form.code(), codes);
+        if (form.blockers == 4) put(std::uint8_t(blockers.size()));
+        if (draft.visible != 0) putLow(draft.visible, form.maskSize());
+        for (std::size_t b = 0; b < blockers.size(); ++b) {
+            putLow(place(blockers[b].object), codes);
+            if (b + 1 < blockers.size() || !form.implied)
+                putLow(blockers[b].samples, form.maskSize());
+        }
+    }
+
+    std::span<const Draft> drafts_;
+    std::uint64_t present_ = 0, visible_ = 0, seen_ = 0;
+    std::vector<std::uint32_t> objects_;
+    bool wideObjects_ = false, parted_ = false;
+    std::size_t blockers_ = 0; ///< of all entries
+    std::unique_ptr<std::byte[]> out_;
+    std::size_t size_ = 0; ///< written so far
+};
+
+/// Goes through the entries of a block, in order.
+class RowBlock::Reader {
+public:
+    explicit Reader(const RowBlock& block) : block_(block), left_(block.present()) {
+        if (left_ == 0) return;
+        visible_ = block.visible();
+        seen_ = block.seen();
+        factor_ = block.factors();
+        share_ = block.visibilities();
+        parted = block.isParted();
+        split_ = block.splits();
+        record_ = block.records();
+        objects_ = block.objects();
+        objectSize_ = block.objectSize();
+        codeSize_ = codeSize(block.objectCount());
+    }
+
+    /// Reads the next entry.
+    bool next() {
+        if (left_ == 0) return false;
+        receiver = std::countr_zero(left_);
+        left_ &= left_ - 1;
+        formFactor = block_.at<float>(factor_);
+        factor_ += 4;
+        visibility = 1;
+        visible = kAll;
+        blockers = {};
+        if (parted && seen_ >> receiver & 1) {
+            split = block_.at<Split>(split_);
+            split_ += sizeof(Split);
+        }
+        if (visible_ >> receiver & 1) return true;
+        visibility = 0;
+        visible = 0;
+        const bool seen = seen_ >> receiver & 1;
+        if (seen) {
+            visibility = block_.at<float>(share_);
+            share_ += 4;
+        }
+        readRecord(seen);
+        return true;
+    }
+
+    int receiver = 0;
+    float formFactor = 0, visibility = 0;
+    std::uint64_t visible = 0;
+    std::span<const Blocker> blockers;
+    bool parted = false;
+    Split split{};
+
+private:
+    std::uint64_t take(std::size_t size) {
+        const std::size_t from = std::exchange(record_, record_ + size);
+        switch (size) { // sizes that the compiler knows are single loads
+        case 1:
+            return block_.at<std::uint8_t>(from);
+        case 2:
+            return block_.at<std::uint16_t>(from);
+        default:
+            return block_.at<std::uint64_t>(from);
+        }
+    }
+    std::uint32_t object(std::size_t place) const {
+        const std::size_t at = objects_ + objectSize_ * place;
+        return objectSize_ == 4 ? block_.at<std::uint32_t>(at) : block_.at<std::uint16_t>(at);
+    }
+
+    void readRecord(bool seen) {
+        const std::size_t code = take(codeSize_), mixed = firstMixed(codeSize_);
+        if (code < mixed) {
+            scratch_[0] = {object(code), kAll};
+            blockers = std::span(scratch_).first(1);
+            return;
+        }
+        const MixedForm form = MixedForm::of(code - mixed);
+        blockers = std::span(scratch_).first(form.blockers < 4 ? form.blockers : take(1));
+        if (seen) visible = take(form.maskSize());
+        for (std::size_t b = 0; b < blockers.size(); ++b) {
+            scratch_[b].object = object(take(codeSize_));
+            scratch_[b].samples = b + 1 < blockers.size() || !form.implied
+                                      ? take(form.maskSize())
+                                      : form.allSamples() & ~allButLast(visible, blockers);
+        }
+    }
+
+    const RowBlock& block_;
+    std::uint64_t left_, visible_ = 0, seen_ = 0;
+    std::size_t factor_ = 0, share_ = 0, split_ = 0, record_ = 0; ///< places in the bytes
+    std::size_t objects_ = 0, objectSize_ = 0, codeSize_ = 0;
+    std::array<Blocker, kSize> scratch_;
+};
+
+void RowBlock::assign(std::span<const Draft> drafts) {
+    static_assert(std::endian::native == std::endian::little);
+    assert(drafts.size() <= kSize);
+    bytes_ = Writer(drafts).write();
+}
+
+void RowBlock::decode(std::span<Draft> drafts) const {
+    for (Draft& draft : drafts) draft.begin(0);
+    for (Reader read(*this); read.next();) {
+        Draft& draft = drafts[std::size_t(read.receiver)];
+        draft.begin(read.formFactor);
+        draft.visibility = read.visibility;
+        draft.visible = read.visible;
+        draft.parted = read.parted;
+        draft.split = read.split;
+        draft.blockerCount = int(read.blockers.size());
+        std::copy(read.blockers.begin(), read.blockers.end(), draft.blockers.begin());
+    }
+}
+
+RowBlock::Entry RowBlock::entry(int receiver) const {
+    Entry entry;
+    for (Reader read(*this); read.next();) {
+        if (read.receiver != receiver) continue;
+        entry = {true,
+                 read.formFactor,
+                 read.visibility,
+                 read.visible,
+                 {read.blockers.begin(), read.blockers.end()}};
+        break;
+    }
+    return entry;
+}
+
+bool RowBlock::blockedBy(std::uint32_t object) const {
+    bool found = false;
+    forEachBlocker([&](std::uint32_t o) { found |= o == object; });
+    return found;
+}
+
+float RowBlock::largestFormFactor() const {
+    float largest = 0;
+    for (int i = 0; i < entryCount(); ++i)
+        largest = std::max(largest, at<float>(factors() + 4 * std::size_t(i)));
+    return largest;
+}
+
+bool RowBlock::sameMasks(const RowBlock& other) const {
+    if (present() != other.present() || visible() != other.visible()) return false;
+    for (Reader a(*this), b(other); a.next() && b.next();)
+        if (a.visible != b.visible) return false;
+    return true;
+}
+
+bool RowBlock::operator==(const RowBlock& other) const {
+    return size() == other.size() &&
+           std::equal(bytes_.get(), bytes_.get() + size(), other.bytes_.get());
+}
+
+void Row::open(std::span<const std::uint32_t> blocks) {
+    indices_.assign(blocks.begin(), blocks.end());
+    entries_.resize(blocks.size());
+}
+
+void Row::open(std::uint32_t block) {
+    const auto place = std::lower_bound(indices_.begin(), indices_.end(), block);
+    if (place != indices_.end() && *place == block) return;
+    entries_.emplace(entries_.begin() + (place - indices_.begin()));
+    indices_.insert(place, block);
+}
+
+void Row::clear() {
+    indices_.clear();
+    entries_.clear();
+}
+
+const RowBlock* Row::find(std::uint32_t block) const {
+    if (indices_.empty()) return block < entries_.size() ? &entries_[block] : nullptr;
+    const auto place = std::lower_bound(indices_.begin(), indices_.end(), block);
+    return place != indices_.end() && *place == block
+               ? &entries_[std::size_t(place - indices_.begin())]
+               : nullptr;
+}
+
+RowSize sizeOf(const Row& row) {
+    RowSize size;
+    for (const RowBlock& block : row) {
+        size.entries += std::size_t(block.entryCount());
+        size.bytes += block.bytes();
+    }
+    return size;
+}
+
+} // namespace penumbra

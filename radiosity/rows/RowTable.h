@@ -1,0 +1,84 @@
+// The rows of one kind of sender, and how to find what an edit changes in them.
+#pragma once
+
+#include "base/BoundsTree.h"
+#include "radiosity/mesh/PatchSet.h"
+#include "radiosity/rows/Row.h"
+#include "radiosity/rows/RowBuilder.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace penumbra {
+
+/// Receivers of one block.
+struct BlockMask {
+    std::uint32_t block = 0;
+    std::uint64_t receivers = 0; ///< bits
+};
+/// One entry a block, in order; bits of the same block are united.
+void unite(std::vector<BlockMask>& masks);
+
+/// What changed for a row since it was last brought up to date.
+struct PendingChange {
+    std::vector<MovedObject> moved;
+    std::vector<BlockMask> receivers; ///< to be evaluated anew, one entry a block, in order
+    /// Blocks whose shaft meets one of these are evaluated anew [m, world].
+    std::vector<Bounds> regions = {};
+
+    bool moves(std::uint32_t object) const;
+};
+
+/// All emitters onto the vertices, or all patches onto the nodes.
+///
+/// What an edit changes in a row is found without looking at its entries: old shadows by a list of
+/// the blocks in which each movable object is a recorded blocker, new ones by the shafts between
+/// the sender and a hierarchy of the blocks.
+class RowTable {
+public:
+    explicit RowTable(std::size_t rows = 0) : rows_(rows), known_(rows), blockers_(rows) {}
+
+    std::size_t size() const { return rows_.size(); }
+    Row& operator[](std::size_t row) { return rows_[row]; }
+    const Row& operator[](std::size_t row) const { return rows_[row]; }
+    const std::vector<Row>& rows() const { return rows_; }
+
+    /// Boxes of the receivers, block by block [m, world].
+    BoundsTree& blocks() { return blocks_; }
+    const BoundsTree& blocks() const { return blocks_; }
+
+    /// How many edits a row has taken in.
+    std::uint32_t& edits(std::size_t row) { return known_[row]; }
+
+    /// A movable object that blocks something in a block of a row.
+    struct BlockerNote {
+        std::uint32_t row, block, object;
+    };
+    /// Lists the movable objects that are blockers in a block.
+    static void listBlockers(const PatchSet& set, std::uint32_t row, std::uint32_t block,
+                             const RowBlock& entries, std::vector<BlockerNote>& notes);
+    /// Remembers them. Notes may repeat themselves.
+    void note(std::span<const BlockerNote> notes);
+
+    /// Some blocks of a row, first ... end - 1.
+    struct Blocks {
+        std::uint32_t first = 0, end = 0xffffffffu;
+    };
+    /// Those of them that a change concerns, in order, with the entries to be evaluated anew.
+    /// \param sender box around the sender's samples [m, world]
+    /// \param object the sender's
+    std::vector<BlockMask> concerned(std::size_t row, const Bounds& sender, ObjectId object,
+                                     const PendingChange& change, Blocks blocks) const;
+
+private:
+    void crossed(const Row& row, Blocks blocks, const Bounds& sender, const Bounds& box,
+                 std::uint64_t receivers, std::vector<BlockMask>& masks) const;
+
+    std::vector<Row> rows_;
+    std::vector<std::uint32_t> known_;
+    std::vector<std::vector<std::uint64_t>> blockers_; ///< object << 32 | block, sorted, a row
+    BoundsTree blocks_;
+};
+
+} // namespace penumbra

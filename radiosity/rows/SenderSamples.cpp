@@ -1,0 +1,166 @@
+#include "radiosity/rows/SenderSamples.h"
+
+#include "radiosity/mesh/LightShapes.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+namespace penumbra {
+
+namespace {
+
+/// A triangle of an emitter and where its share of the area ends.
+struct Part {
+    std::array<glm::vec3, 3> corner;
+    glm::vec3 normal;
+    double upTo = 0;
+};
+
+/// Square to triangle, keeping areas (Shirley & Chiu use the same folding for the disk).
+glm::vec3 inTriangle(const std::array<glm::vec3, 3>& t, glm::vec2 u) {
+    const float root = std::sqrt(u.x);
+    return t[0] + root * (1 - u.y) * (t[1] - t[0]) + root * u.y * (t[2] - t[0]);
+}
+
+bool isParallelogram(const std::vector<glm::vec3>& p) {
+    return p.size() == 4 && glm::length(p[0] - p[1] + p[2] - p[3]) <=
+                                1e-5f * (glm::distance(p[0], p[2]) + glm::distance(p[1], p[3]));
+}
+
+void samplePolygons(const Emitter& emitter, std::size_t count, EmitterSamples& out) {
+    if (emitter.polygons.size() == 1 && isParallelogram(emitter.polygons[0])) {
+        const auto& p = emitter.polygons[0];
+        const glm::vec3 normal = glm::normalize(glm::cross(p[1] - p[0], p[3] - p[0]));
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const glm::vec2 u = sobol02(i, count);
+            out.points.push_back({p[0] + u.x * (p[1] - p[0]) + u.y * (p[3] - p[0]), normal});
+        }
+        return;
+    }
+    std::vector<Part> parts;
+    double area = 0;
+    for (const auto& polygon : emitter.polygons)
+        for (std::size_t i = 2; i < polygon.size(); ++i) {
+            const std::array<glm::vec3, 3> corner{polygon[0], polygon[i - 1], polygon[i]};
+            const glm::vec3 vector = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+            const double size = glm::length(glm::dvec3(vector));
+            if (size == 0) continue;
+            area += size;
+            parts.push_back({corner, vector / float(size), area});
+        }
+    for (std::uint32_t i = 0; i < count; ++i) {
+        glm::vec2 u = sobol02(i, count);
+        const double at = u.x * area;
+        const auto part = std::find_if(parts.begin(), parts.end() - 1,
+                                       [&](const Part& p) { return at < p.upTo; });
+        const double from = part == parts.begin() ? 0 : (part - 1)->upTo;
+        u.x =
+            float(std::clamp((at - from) / (part->upTo - from), 0.0, 1.0)); // the same number again
+        out.points.push_back({inTriangle(part->corner, u), part->normal});
+    }
+}
+
+} // namespace
+
+glm::vec2 sobol02(std::uint32_t index, std::size_t count) {
+    std::uint32_t x = 0, y = 0;
+    std::uint32_t v = 0x80000000u;
+    for (std::uint32_t i = index, a = 0x80000000u; i != 0; i >>= 1, a >>= 1, v ^= v >> 1)
+        if (i & 1) x ^= a, y ^= v;
+    const float half = 0.5f / float(std::bit_ceil(std::max<std::size_t>(count, 64)));
+    const auto centred = [&](std::uint32_t bits) { return float(bits >> 8) * 0x1p-24f + half; };
+    return {centred(x), centred(y)};
+}
+
+glm::vec2 squareToDisk(glm::vec2 u) {
+    const glm::vec2 p = 2.0f * u - 1.0f;
+    if (p.x == 0 && p.y == 0) return p;
+    constexpr float kQuarter = std::numbers::pi_v<float> / 4;
+    const bool wide = std::abs(p.x) > std::abs(p.y);
+    const float radius = wide ? p.x : p.y;
+    const float angle = wide ? kQuarter * p.y / p.x : 2 * kQuarter - kQuarter * p.x / p.y;
+    return radius * glm::vec2(std::cos(angle), std::sin(angle));
+}
+
+EmitterSamples sampleEmitter(const Emitter& emitter, std::size_t count) {
+    EmitterSamples samples;
+    samples.points.reserve(count);
+    if (emitter.kind == Emitter::Kind::polygons) {
+        samplePolygons(emitter, count, samples);
+        return samples;
+    }
+    glm::vec3 u(1, 0, 0), v(0, 1, 0);
+    if (emitter.kind == Emitter::Kind::disk) {
+        const glm::vec3 helper =
+            std::abs(emitter.axis.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+        u = emitter.radius * glm::normalize(glm::cross(emitter.axis, helper));
+        v = glm::cross(emitter.axis, u);
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const glm::vec2 p = squareToDisk(sobol02(i, count));
+        const glm::vec3 onDisk = p.x * u + p.y * v;
+        samples.points.push_back(emitter.kind == Emitter::Kind::disk
+                                     ? EmitterSamples::Point{emitter.centre + onDisk, emitter.axis}
+                                     : EmitterSamples::Point{onDisk, glm::vec3(0)});
+    }
+    return samples;
+}
+
+void samplePatch(const PatchSet& set, const Patch& patch, glm::vec3* points) {
+    const auto corners = std::span(set.corners).subspan(patch.firstCorner, patch.cornerCount);
+    const auto elements =
+        std::span(set.patchElements).subspan(patch.firstElement, patch.elementCount);
+    for (std::size_t i = 0; i < kPatchSamples; ++i) {
+        const std::size_t quarter = i / 4, within = i % 4;
+        const std::size_t column = quarter % 2 * 2 + within % 2, row = quarter / 2 * 2 + within / 2;
+        // Not in the very middle of its cell: people build with round numbers, and rays from there
+        // run along the faces of things, where rounding decides what is in the way.
+        const float aside = (column + row) % 2 == 0 ? 1.0f : -1.0f;
+        const glm::vec2 st((float(column) + 0.5f + 0.0137f * aside) / 4,
+                           (float(row) + 0.5f - 0.0211f * aside) / 4);
+        glm::vec3 p;
+        if (corners.size() == 4) {
+            p = glm::mix(glm::mix(corners[0], corners[1], st.x),
+                         glm::mix(corners[3], corners[2], st.x), st.y);
+        } else { // a fan of triangles around the middle, gone round once for the 16 samples
+            const std::size_t n = corners.size();
+            const float around = st.x * float(n);
+            const std::size_t k = std::min(std::size_t(around), n - 1);
+            const glm::vec3 edge = glm::mix(corners[k], corners[(k + 1) % n], around - float(k));
+            p = glm::mix(patch.centre, edge, std::sqrt(st.y));
+        }
+        // A curved patch bulges over its outline: take the nearest point that is on its surface.
+        if (elements.size() > 1) {
+            float nearest = 1e30f;
+            glm::vec3 best = p;
+            for (std::uint32_t e : elements) {
+                const Element& element = set.elements[e];
+                const std::size_t count = element.isTriangle() ? 3 : 4;
+                glm::vec3 middle(0), normal(0);
+                for (std::size_t k = 0; k < count; ++k) {
+                    middle += set.vertices[element.vertices[k]].position / float(count);
+                    normal += set.vertices[element.vertices[k]].receiver.normal;
+                }
+                const glm::vec3 d = p - middle;
+                if (glm::dot(d, d) >= nearest) continue;
+                nearest = glm::dot(d, d);
+                normal = glm::normalize(normal);
+                best = p - glm::dot(d, normal) * normal; // onto the element's plane
+            }
+            p = best;
+        }
+        points[i] = p;
+    }
+}
+
+std::uint32_t pairHash(std::uint32_t a, std::uint32_t b) {
+    std::uint32_t h = a * 0x9e3779b1u ^ (b + 0x7f4a7c15u) * 0x85ebca77u;
+    h ^= h >> 15, h *= 0x2c1b3c6du;
+    h ^= h >> 12, h *= 0x297a2d39u;
+    return h ^ h >> 15;
+}
+
+} // namespace penumbra

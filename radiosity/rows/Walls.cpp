@@ -1,0 +1,77 @@
+#include "radiosity/rows/Walls.h"
+
+#include "radiosity/rays/Shaft.h"
+
+#include <algorithm>
+#include <array>
+
+namespace penumbra {
+
+namespace {
+
+using Heights = std::array<float, 8>;
+
+/// Of a box's corners above a plane [m].
+Heights heightsOf(const Bounds& box, const Walls::Plane& plane) {
+    Heights heights;
+    for (std::size_t i = 0; i < 8; ++i) {
+        const glm::vec3 corner{i & 1 ? box.upper.x : box.lower.x, i & 2 ? box.upper.y : box.lower.y,
+                               i & 4 ? box.upper.z : box.lower.z};
+        heights[i] = glm::dot(plane.normal, corner) - plane.offset;
+    }
+    return heights;
+}
+
+float lowest(const Heights& heights) {
+    return *std::min_element(heights.begin(), heights.end());
+}
+
+} // namespace
+
+Walls::Walls(const PatchSet& set) : margin_(2e-5f * set.extent) {
+    std::vector<Bounds> boxes;
+    for (const Wall& wall : set.walls) {
+        Sides sides{wall.object, {wall.normal, glm::dot(wall.normal, wall.outline[0])}, {}};
+        Bounds box;
+        for (std::size_t i = 0; i < wall.outline.size(); ++i) {
+            const glm::vec3 from = wall.outline[i];
+            const glm::vec3 along = wall.outline[(i + 1) % wall.outline.size()] - from;
+            if (along == glm::vec3(0)) continue;
+            const glm::vec3 inwards = glm::normalize(glm::cross(wall.normal, along));
+            sides.edges.push_back({inwards, glm::dot(inwards, from) + margin_});
+            box.add(from);
+        }
+        walls_.push_back(std::move(sides));
+        boxes.push_back(box);
+    }
+    boxes_.assign(std::move(boxes));
+}
+
+bool Walls::hides(const Sides& wall, const Bounds& a, const Bounds& b) const {
+    Heights ha = heightsOf(a, wall.plane), hb = heightsOf(b, wall.plane);
+    const float sign = ha[0] > 0 ? 1.0f : -1.0f;
+    for (std::size_t i = 0; i < 8; ++i) ha[i] *= sign, hb[i] *= -sign;
+    if (lowest(ha) < margin_ || lowest(hb) < margin_) return false;
+    // The segment between corners i and j meets the plane at (hb_j a_i + ha_i b_j) / (ha_i + hb_j).
+    for (const Plane& edge : wall.edges) {
+        const Heights ea = heightsOf(a, edge), eb = heightsOf(b, edge);
+        float least = 0;
+        for (std::size_t i = 0; i < 8; ++i)
+            for (std::size_t j = 0; j < 8; ++j)
+                least = std::min(least, hb[j] * ea[i] + ha[i] * eb[j]);
+        if (least < 0) return false;
+    }
+    return true;
+}
+
+ObjectId Walls::between(const Bounds& a, const Bounds& b) const {
+    ObjectId found;
+    if (walls_.empty() || a.empty() || b.empty()) return found;
+    boxes_.query([&](std::size_t n) { return !found.valid() && shaftMeets(a, b, boxes_.node(n)); },
+                 [&](std::size_t i) {
+                     if (!found.valid() && hides(walls_[i], a, b)) found = walls_[i].object;
+                 });
+    return found;
+}
+
+} // namespace penumbra

@@ -1,0 +1,78 @@
+// The open work of the direct light, as the viewer would have it done.
+#pragma once
+
+#include "importance/SchedulingPolicy.h"
+#include "radiosity/rays/RayScene.h"
+#include "radiosity/schedule/VertexClusters.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+namespace penumbra {
+
+/// Orders blocks of vertices by what a viewer gains from them. What hides them from the eye is
+/// found by a ray to each vertex of which the light may change, and to a few of each place when it
+/// is asked for; so it costs nothing where nothing is open. What was found is kept, vertex by
+/// vertex, for as long as the viewer stays and nothing moves that may stand in between.
+class ViewPriority {
+public:
+    /// Direct light of the vertices as it is now [lux].
+    using Light = std::function<std::span<const Rgb>()>;
+    /// All must outlive this and the policy.
+    ViewPriority(const PatchSet& patches, const RayScene& rays, Light light);
+
+    /// Objects were placed anew, hidden or shown.
+    void follow(std::span<const ObjectId> objects);
+    /// Something reflects other light than before.
+    void followColours() { clusters_.measure(); }
+    /// What the viewer sees now. To take effect, the queue is to be keyed anew.
+    /// \param attention an adaptation of 0 is found from what is in view
+    /// \param ambient about what indirect light adds everywhere [lux]
+    void attend(const Attention& attention, double ambient);
+
+    std::shared_ptr<const SchedulingPolicy> policy() const { return policy_; }
+    std::uint64_t rays() const { return rayCount_; } ///< to the eye, so far
+
+private:
+    /// What rays found of the vertices of a block.
+    struct ViewSample {
+        Bounds box; ///< around those that were asked for [m, world]
+        std::uint64_t asked = 0, seen = 0, behindMovable = 0; ///< bits
+    };
+    /// What vertices of a block are worth.
+    struct Values {
+        std::uint64_t known = 0; ///< bits, in the order's view
+        std::uint32_t view = 0;
+        std::array<ClusterPriority, 64> of;
+    };
+    ImportancePolicy::ViewSample probe(std::uint32_t cluster);
+    void probeClosely(std::uint32_t block, std::uint64_t which, std::span<ClusterPriority> values);
+    void evaluate(std::uint32_t block, std::uint64_t which, Values& values);
+    const ViewSample& viewSampleOf(std::uint32_t block, std::uint64_t which);
+    float pixelsSeen(std::uint32_t cluster);
+    void ask(std::uint32_t block, std::uint64_t which, ViewSample& sample);
+    void forgetViewSamples(std::span<const ObjectId> objects, const Bounds& before,
+                           const Bounds& now);
+    ReceiverCluster clusterNow(std::uint32_t cluster) const;
+    double adaptationTo(const Viewpoint& viewpoint) const;
+
+    const PatchSet& patches_;
+    const RayScene& rays_;
+    Light light_;
+    VertexClusters clusters_;
+    std::shared_ptr<ImportancePolicy> policy_;
+    double ambient_ = 0;                                        ///< [lux]
+    std::unordered_map<std::uint32_t, ViewSample> viewSamples_; ///< by block
+    std::unordered_map<std::uint32_t, Values> values_;          ///< by block
+    std::unordered_map<std::uint32_t, float> clusterPixels_;    ///< by place: those that are seen
+    std::optional<Viewpoint> from_;                             ///< where all of that was found
+    std::uint64_t rayCount_ = 0;
+};
+
+} // namespace penumbra

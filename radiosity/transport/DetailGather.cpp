@@ -1,0 +1,208 @@
+#include "radiosity/transport/DetailGather.h"
+
+#include "base/Parallel.h"
+#include "radiosity/mesh/Interpolation.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <utility>
+
+namespace penumbra {
+
+namespace {
+
+constexpr int kRays = DetailHits::kRays;
+constexpr int kSweeps = 10; ///< light goes from gathering vertex to gathering vertex
+
+double smoothstep(double low, double high, double x) {
+    const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+    return t * t * (3 - 2 * t);
+}
+
+/// How far what rays gather takes the place of what patches say, at a node of this openness: what
+/// is wrong there spreads over its patches, so patches are believed later than at a vertex.
+double shutNodeWeight(double openness) {
+    return 1 - smoothstep(0.4, 0.85, openness);
+}
+
+/// Mean direct illuminance of an element's corners [lux].
+Rgb directMean(const Element& element, std::span<const Rgb> direct) {
+    const std::size_t count = element.isTriangle() ? 3 : 4;
+    Rgb sum;
+    for (std::size_t k = 0; k < count; ++k) sum += direct[element.vertices[k]];
+    return (1.0f / float(count)) * sum;
+}
+
+Rgb toRgb(glm::dvec3 v) {
+    return {float(v.x), float(v.y), float(v.z)};
+}
+
+} // namespace
+
+/// Sweeps under way. Each takes three rounds, of elements, nodes and vertices; of the last one's
+/// vertices only those are gathered that somebody asks for.
+struct DetailGather::Sweep {
+    std::span<const Rgb> direct;
+    std::vector<Rgb> indirect;
+    std::vector<glm::dvec3> nodeIndirect;
+    Sent sent;
+    int round = -1; ///< -1: vertices are interpolated; 3 i + k: round k of sweep i
+    std::size_t next = 0;
+};
+
+DetailGather::DetailGather(const PatchSet& patches)
+    : patches_(patches), hits_(patches), sweep_(std::make_unique<Sweep>()) {}
+
+DetailGather::~DetailGather() = default;
+
+void DetailGather::apply(const SceneChange& change) {
+    hits_.apply(change);
+    swept_ = sweeping_ = false;
+}
+
+void DetailGather::invalidate(const Bounds& region) {
+    hits_.invalidate(region);
+    swept_ = sweeping_ = false;
+}
+
+void DetailGather::beginSweeps(std::span<const Rgb> direct, std::vector<glm::dvec3> nodeIndirect) {
+    assert(hits_.done());
+    sweep_->direct = direct;
+    sweep_->indirect.resize(direct.size());
+    sweep_->nodeIndirect = std::move(nodeIndirect);
+    sweep_->sent.all.resize(patches_.elements.size());
+    sweep_->sent.direct.resize(patches_.elements.size());
+    sweep_->sent.nodes.resize(patches_.nodes.size());
+    sweep_->round = -1;
+    sweep_->next = 0;
+    sweeping_ = true;
+}
+
+void DetailGather::sweep(std::size_t effort) {
+    struct Round {
+        void (DetailGather::*work)(Sweep&, std::size_t, std::size_t) const;
+        std::size_t count;
+        std::size_t cost; ///< of sixteen of them, about [rays]
+    };
+    const std::array<Round, 4> rounds{{
+        {&DetailGather::interpolateVertices, hits_.groupCount(), 16},
+        {&DetailGather::sendElements, patches_.elements.size(), 2},
+        {&DetailGather::gatherNodes, patches_.nodes.size(), 16},
+        {&DetailGather::gatherVertices, hits_.groupCount(), 128},
+    }};
+    Sweep& s = *sweep_;
+    const Round& round = rounds[std::size_t(s.round < 0 ? 0 : 1 + s.round % 3)];
+    const std::size_t count =
+        std::min(round.count - s.next, std::max<std::size_t>(16, 16 * effort / round.cost));
+    parallelFor(count, std::max<std::size_t>(16, 4096 / round.cost),
+                [&](std::size_t first, std::size_t last) {
+                    (this->*round.work)(s, s.next + first, s.next + last);
+                });
+    s.next += count;
+    if (s.next < round.count) return;
+    s.next = 0;
+    if (++s.round < 3 * kSweeps - 1) return;
+    std::swap(sent_, s.sent);
+    sweeping_ = false;
+    swept_ = true;
+}
+
+/// From below: what near surfaces add comes with the sweeps.
+void DetailGather::interpolateVertices(Sweep& sweep, std::size_t first, std::size_t last) const {
+    constexpr std::size_t kGroup = DetailHits::kGroup;
+    for (std::size_t group = first; group < last; ++group) {
+        for (std::size_t v = group * kGroup; v < (group + 1) * kGroup; ++v) {
+            const auto [patch, s, t] = patches_.vertexCoordinates[v];
+            sweep.indirect[v] = Rgb();
+            if (patch == Element::kNone) continue;
+            sweep.indirect[v] = toRgb(
+                interpolateNodes<glm::dvec3>(patches_.patches[patch], s, t, sweep.nodeIndirect));
+        }
+        for (const auto& gatherer : hits_.gatherers(group))
+            if (gatherer.weighs()) sweep.indirect[gatherer.vertex] *= 1 - gatherer.shut;
+    }
+}
+
+void DetailGather::sendElements(Sweep& sweep, std::size_t first, std::size_t last) const {
+    for (std::size_t e = first; e < last; ++e) {
+        const Element& element = patches_.elements[e];
+        const Rgb rho = patches_.materials[element.material].reflectance;
+        const Rgb all = rho * elementMean(element, sweep.direct, sweep.indirect);
+        const Rgb direct = rho * directMean(element, sweep.direct);
+        sweep.sent.all[e] = {all, luminance(all)};
+        sweep.sent.direct[e] = {direct, luminance(direct)};
+    }
+}
+
+void DetailGather::gatherNodes(Sweep& sweep, std::size_t first, std::size_t last) const {
+    for (std::size_t n = first; n < last; ++n)
+        sweep.sent.nodes[n] = gathered(sweep.sent, hits_.nodeHits(n), false);
+}
+
+void DetailGather::gatherVertices(Sweep& sweep, std::size_t first, std::size_t last) const {
+    for (std::size_t group = first; group < last; ++group)
+        for (const auto& gatherer : hits_.gatherers(group))
+            if (gatherer.weighs())
+                sweep.indirect[gatherer.vertex] =
+                    received(sweep.sent, group, gatherer, sweep.nodeIndirect);
+}
+
+glm::dvec3 DetailGather::gathered(const Sent& sent, std::span<const std::uint32_t> hits,
+                                  bool slit) const {
+    glm::dvec3 sum(0), returned(0);
+    Light brightest;
+    float second = 0; // brightest [lm/m^2]
+    for (const std::uint32_t hit : hits) {
+        if (hit == Element::kNone) continue;
+        const std::uint32_t element = hit & ~DetailRays::kAcross;
+        const bool returns = slit && isAcross(hit);
+        if (returns) {
+            const Rgb rho = patches_.materials[patches_.elements[element].material].reflectance;
+            returned += glm::dvec3(rho.r, rho.g, rho.b);
+        }
+        const Light& light = returns ? sent.direct[element] : sent.all[element];
+        sum += glm::dvec3(light.colour.r, light.colour.g, light.colour.b);
+        if (light.luminance > brightest.luminance)
+            second = brightest.luminance, brightest = light;
+        else
+            second = std::max(second, light.luminance);
+    }
+    // A single ray that finds the glowing inside of a lampshade counts like the next: no fireflies.
+    // It is dimmed, not replaced, or which of two alike is the brighter would decide on the colour.
+    const float more = brightest.luminance - second;
+    const Rgb excess = more > 0 ? more / brightest.luminance * brightest.colour : Rgb();
+    return (sum - glm::dvec3(excess.r, excess.g, excess.b)) / (double(kRays) - returned);
+}
+
+glm::dvec3 DetailGather::nodeValue(const Sent& sent, std::size_t node, glm::dvec3 known) const {
+    return glm::mix(known, sent.nodes[node], shutNodeWeight(hits_.nodeOpenness(node)));
+}
+
+/// Indirect light of a vertex in question [lux].
+Rgb DetailGather::received(const Sent& sent, std::size_t group,
+                           const DetailHits::Gatherer& gatherer,
+                           std::span<const glm::dvec3> nodeIndirect) const {
+    const auto [patch, s, t] = patches_.vertexCoordinates[gatherer.vertex];
+    const Patch& p = patches_.patches[patch];
+    const auto hits = hits_.hits(group, gatherer);
+    const glm::dvec3 own = gathered(sent, hits, gatherer.slit && inSlit(hits));
+    const glm::dvec3 known = interpolate<glm::dvec3>(
+        p, s, t, [&](std::uint32_t n) { return nodeValue(sent, n, nodeIndirect[n]); });
+    const glm::dvec3 expected = interpolateNodes<glm::dvec3>(p, s, t, sent.nodes);
+    const glm::dvec3 corrected = known + double(gatherer.detail) * (own - expected);
+    return toRgb(glm::max(glm::mix(corrected, own, double(gatherer.shut)), 0.0));
+}
+
+void DetailGather::correct(std::uint32_t block, std::span<const glm::dvec3> nodeIndirect,
+                           std::span<Rgb> indirect) const {
+    if (sent_.nodes.empty()) return;
+    constexpr std::size_t kGroups = PatchSet::kBlock / DetailHits::kGroup;
+    for (std::size_t group = block * kGroups; group < (block + 1) * kGroups; ++group)
+        for (const auto& gatherer : hits_.gatherers(group)) // one that was given back may be there
+            if (gatherer.weighs() &&
+                patches_.vertexCoordinates[gatherer.vertex].patch != Element::kNone)
+                indirect[gatherer.vertex] = received(sent_, group, gatherer, nodeIndirect);
+}
+
+} // namespace penumbra

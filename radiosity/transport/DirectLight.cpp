@@ -1,0 +1,311 @@
+#include "radiosity/transport/DirectLight.h"
+
+#include "base/Parallel.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace penumbra {
+
+namespace {
+
+constexpr std::uint32_t kBlock = PatchSet::kBlock;
+
+EmitterSender sender(const Emitter& emitter, int samples) {
+    const int base = std::min(samples, RowBlock::kSize);
+    return EmitterSender(emitter, base, std::min(4 * base, RowBlock::kSize));
+}
+
+} // namespace
+
+DirectLight::DirectLight(const PatchSet& set, const RayScene& rays, int samples)
+    : set_(set), samples_(samples), walls_(set), table_(set.emitters.size()),
+      updates_(set, rays, table_, set.vertexBlockObject, {.visit = 256, .entry = 20}),
+      patchTouched_(set.patches.size()), patches_(set.patches.size()),
+      patchLit_(set.patches.size()) {
+    for (const Emitter& emitter : set.emitters) emitters_.push_back(sender(emitter, samples));
+    blockPatches_.resize(set.firstPrivate / kBlock);
+    for (std::uint32_t e = 0; e < set.uncoveredElements.size(); ++e) {
+        const Element& element = set.uncoveredElements[e];
+        if (element.patch == Element::kNone) continue;
+        for (std::uint32_t v : element.vertices) {
+            std::vector<std::uint32_t>& patches = blockPatches_[v / kBlock];
+            if (std::find(patches.rbegin(), patches.rend(), element.patch) == patches.rend())
+                patches.push_back(element.patch);
+        }
+    }
+    std::vector<BlockMask> all;
+    for (std::uint32_t b = 0; b < set.vertices.size() / kBlock; ++b)
+        all.push_back({b, ~std::uint64_t(0)});
+    placeReceivers(all);
+    updates_.add({}, std::move(all));
+}
+
+std::span<const Receiver> DirectLight::receiversOf(std::size_t block) const {
+    return std::span(receivers_).subspan(block * kBlock, kBlock);
+}
+
+/// Follows the vertices of some blocks. Blocks that are new come at the end.
+void DirectLight::placeReceivers(std::vector<BlockMask>& masks) {
+    const std::size_t blocks = set_.vertices.size() / kBlock;
+    receivers_.resize(set_.vertices.size(), Receiver{});
+    vertices_.resize(set_.vertices.size());
+    vertexSeen_.resize(set_.vertices.size());
+    blockTouched_.resize(blocks);
+    if (updates_.open().blocks() != blocks) described_ = false;
+    blockSummed_.resize(blocks);
+    for (std::size_t row = 0; row < table_.size(); ++row) table_[row].resize(blocks);
+    while (table_.blocks().size() < blocks) table_.blocks().append({});
+    for (const auto& [block, bits] : masks) {
+        Bounds box;
+        for (std::size_t v = block * kBlock; v < (block + 1) * kBlock; ++v) {
+            receivers_[v] = set_.vertices[v].receiver;
+            if (!isPadding(receivers_[v])) box.add(receivers_[v].position);
+        }
+        table_.blocks().set(block, box);
+    }
+}
+
+/// Patches that are lit by vertices of a block, some perhaps several times.
+template <class Visit>
+void DirectLight::forEachPatch(std::uint32_t block, Visit visit) const {
+    if (block < blockPatches_.size()) {
+        for (std::uint32_t patch : blockPatches_[block]) visit(patch);
+        return;
+    }
+    for (std::uint32_t v = block * kBlock; v < (block + 1) * kBlock; ++v)
+        if (!isPadding(receivers_[v]))
+            visit(set_.elements[set_.privateElement[v - set_.firstPrivate]].patch);
+}
+
+/// For bounds of what open work may change. Private vertices are handed out and given back: any
+/// surface may be theirs.
+void DirectLight::describeReceivers() {
+    std::vector<DirtySet::Receivers> blocks(table_.blocks().size());
+    parallelFor(blockPatches_.size(), 256, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) {
+            blocks[b].reflectance = 0;
+            for (std::uint32_t p : blockPatches_[b]) {
+                const Rgb rho = set_.materials[set_.patches[p].material].reflectance;
+                blocks[b].reflectance = std::max(blocks[b].reflectance, maxChannel(rho));
+            }
+        }
+    });
+    updates_.open().setReceivers(std::move(blocks));
+    for (std::uint32_t e = 0; e < set_.emitters.size(); ++e)
+        updates_.open().setPower(e, maxChannel(set_.emitters[e].exitance));
+    described_ = true;
+}
+
+std::vector<double> DirectLight::dirtyLight() const {
+    std::vector<double> light(set_.patches.size());
+    const DirtySet& open = updates_.open();
+    if (open.count() == 0) return light;
+    for (std::uint32_t b = 0; b < open.blocks(); ++b)
+        if (open.light(b) > 0)
+            forEachPatch(b, [&](std::uint32_t p) { light[p] = std::max(light[p], open.light(b)); });
+    return light;
+}
+
+void DirectLight::apply(const SceneChange& change) {
+    if (change.colours || !change.emitters.empty()) described_ = false;
+    std::vector<BlockMask> masks;
+    const auto isChanged = [&](ObjectId object) {
+        return std::find(change.objects.begin(), change.objects.end(), object) !=
+               change.objects.end();
+    };
+    for (std::uint32_t b = 0; b < set_.vertexBlockObject.size(); ++b)
+        if (isChanged(set_.vertexBlockObject[b])) masks.push_back({b, ~std::uint64_t(0)});
+    for (std::uint32_t v : change.vertices)
+        masks.push_back({v / kBlock, std::uint64_t(1) << v % kBlock});
+    unite(masks);
+    placeReceivers(masks);
+    for (ObjectId object : change.objects) {
+        const ObjectPart& part = set_.objects[object.value];
+        for (std::uint32_t e = part.emitters.first; e < part.emitters.end(); ++e)
+            emitters_[e] = sender(set_.emitters[e], samples_);
+        for (std::uint32_t p = part.patches.first; p < part.patches.end(); ++p) touchPatch(p);
+    }
+    for (std::uint32_t p : change.patches) touchPatch(p);
+    for (std::uint32_t e : change.emitters) // no form factor changes: only sums
+        for (std::uint32_t b = 0; b < table_[e].size(); ++b)
+            if (table_[e][b].entryCount() > 0) touchBlock(b);
+    if (!change.objects.empty() || !masks.empty()) updates_.add(change.objects, std::move(masks));
+}
+
+void DirectLight::invalidate(const Bounds& region) {
+    updates_.add({}, {}, {region});
+}
+
+void DirectLight::touchBlock(std::uint32_t block) {
+    if (std::exchange(blockTouched_[block], 1)) return;
+    touchedBlocks_.push_back(block);
+}
+
+void DirectLight::touchPatch(std::uint32_t patch) {
+    if (std::exchange(patchTouched_[patch], 1)) return;
+    touchedPatches_.push_back(patch);
+}
+
+void DirectLight::sumUp(std::size_t effort) {
+    constexpr std::size_t kPiece = std::size_t(1) << 20;
+    for (; effort > 0 && sumBlocks(std::min(effort, kPiece));) effort -= std::min(effort, kPiece);
+}
+
+void DirectLight::narrow(const std::function<std::uint64_t(std::uint32_t, std::uint32_t)>& which) {
+    for (std::uint32_t e = 0; e < set_.emitters.size(); ++e)
+        for (std::uint32_t b = 0; b < set_.vertexBlockObject.size(); ++b)
+            updates_.open().narrow(e, b, which(e, b));
+}
+
+bool DirectLight::update(std::size_t effort, double enough) {
+    if (!described_) describeReceivers();
+    if (updates_.done(enough)) return false;
+    const auto facts = [&](std::uint32_t row) {
+        const Emitter& emitter = set_.emitters[row];
+        RowUpdates::RowFacts known{true, emitters_[row].box(), emitter.object, {}, {}, {}};
+        known.area = float(emitter.area);
+        known.hidden = [this, row](const Bounds& box) {
+            return walls_.between(emitters_[row].box(), box).valid();
+        };
+        return known;
+    };
+    const auto receiversFor = [&](const DirtyBlock& item) {
+        const bool present = set_.objects[set_.emitters[item.row].object.value].present &&
+                             set_.objects[set_.vertexBlockObject[item.block].value].present;
+        ReceiverBlock receivers{receiversOf(item.block), 0, 0, item.receivers};
+        if (present && item.anew != 0) receivers.wanted = ~hidden(item.row, item.block, item.anew);
+        return receivers;
+    };
+    const auto expect = [&](ChangeProbe& probe, const DirtyBlock& item,
+                            std::span<const MovedObject> moved) {
+        return probe.at(emitters_[item.row], receiversFor(item), item.anew, moved,
+                        table_[item.row][item.block]);
+    };
+    const auto update = [&](RowBuilder& builder, const DirtyBlock& item,
+                            std::span<const MovedObject> moved, std::size_t) {
+        const ReceiverBlock receivers = receiversFor(item);
+        return builder.updateEmitterBlock(emitters_[item.row], receivers, item.anew, moved,
+                                          table_[item.row][item.block]);
+    };
+    for (const DirtyBlock& item : updates_.work(effort, enough, facts, update, expect))
+        touchBlock(item.block);
+    for (std::uint32_t block : updates_.takeHidden()) touchBlock(block);
+    return true;
+}
+
+/// Private corners come and go: what is true of one of them is not to depend on the others.
+ObjectId DirectLight::wallBefore(std::uint32_t emitter, std::uint32_t vertex) const {
+    Bounds receiver = table_.blocks()[vertex / kBlock];
+    if (vertex >= set_.firstPrivate) {
+        receiver = {};
+        receiver.add(receivers_[vertex].position);
+    }
+    return walls_.between(emitters_[emitter].box(), receiver);
+}
+
+/// Which of some receivers of a block a wall hides from an emitter. Nothing that moves brings its
+/// light back, so that there need not be an entry.
+std::uint64_t DirectLight::hidden(std::uint32_t emitter, std::uint32_t block,
+                                  std::uint64_t which) const {
+    const std::uint32_t first = block * kBlock;
+    if (first < set_.firstPrivate) return wallBefore(emitter, first).valid() ? which : 0;
+    std::uint64_t found = 0;
+    for (; which != 0; which &= which - 1) {
+        const auto r = std::uint32_t(std::countr_zero(which));
+        if (!isPadding(receivers_[first + r]) && wallBefore(emitter, first + r).valid())
+            found |= std::uint64_t(1) << r;
+    }
+    return found;
+}
+
+bool DirectLight::sumBlocks(std::size_t effort) {
+    if (touchedBlocks_.empty()) return false;
+    const std::size_t cost = 16 + 8 * emitters_.size(); // a sum, in rays
+    const std::size_t count =
+        std::min(touchedBlocks_.size(), std::max<std::size_t>(4, effort / cost));
+    const auto some = std::span(touchedBlocks_).last(count);
+    parallelFor(count, 16, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) sumBlock(some[i]);
+    });
+    for (std::uint32_t block : some) {
+        blockTouched_[block] = 0;
+        if (!std::exchange(blockSummed_[block], 1)) summedBlocks_.push_back(block);
+        forEachPatch(block, [&](std::uint32_t patch) { touchPatch(patch); });
+    }
+    touchedBlocks_.resize(touchedBlocks_.size() - count);
+    return true;
+}
+
+std::vector<std::uint32_t> DirectLight::takeSummedBlocks() {
+    for (std::uint32_t block : summedBlocks_) blockSummed_[block] = 0;
+    return std::exchange(summedBlocks_, {});
+}
+
+void DirectLight::sumBlock(std::uint32_t block) {
+    Rgb* const light = vertices_.data() + block * kBlock;
+    float* const seen = vertexSeen_.data() + block * kBlock;
+    std::fill_n(light, kBlock, Rgb());
+    std::fill_n(seen, kBlock, 0.0f);
+    for (std::size_t e = 0; e < emitters_.size(); ++e) {
+        const Rgb exitance = set_.emitters[e].exitance;
+        table_[e][block].forEach([&](int r, float factor) {
+            light[r] += factor * exitance;
+            seen[r] += factor;
+        });
+    }
+}
+
+bool DirectLight::averagePatches(std::size_t effort) {
+    if (touchedPatches_.empty()) return false;
+    const std::size_t cost = 16 + 4 * set_.elements.size() / set_.patches.size(); // in rays
+    const std::size_t count =
+        std::min(touchedPatches_.size(), std::max<std::size_t>(2, effort / cost));
+    const auto some = std::span(touchedPatches_).last(count);
+    std::vector<std::uint8_t> before(count);
+    for (std::size_t i = 0; i < count; ++i) before[i] = patchLit_[some[i]];
+    parallelFor(count, 16, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) average(some[i]);
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+        patchTouched_[some[i]] = 0;
+        litChanged_ |= before[i] != patchLit_[some[i]];
+    }
+    touchedPatches_.resize(touchedPatches_.size() - count);
+    return true;
+}
+
+/// Mean over the elements that are not covered.
+void DirectLight::average(std::uint32_t index) {
+    const Patch& patch = set_.patches[index];
+    glm::dvec3 sum(0);
+    double area = 0;
+    bool lit = false;
+    for (std::uint32_t i = 0; i < patch.elementCount; ++i) {
+        const std::uint32_t e = set_.patchElements[patch.firstElement + i];
+        if (!set_.receives(e)) continue;
+        const Element& element = set_.elements[e];
+        const std::size_t corners = element.isTriangle() ? 3 : 4;
+        const double size = elementArea(set_, element);
+        glm::dvec3 mean(0);
+        for (std::size_t k = 0; k < corners; ++k) {
+            const Rgb light = vertices_[element.vertices[k]];
+            mean += glm::dvec3(light.r, light.g, light.b) / double(corners);
+            lit |= vertexSeen_[element.vertices[k]] > 0;
+        }
+        sum += size * mean;
+        area += size;
+    }
+    patches_[index] = area > 0 ? sum / area : glm::dvec3(0);
+    patchLit_[index] = lit;
+}
+
+double DirectLight::brightest() const {
+    double most = 0;
+    for (const Emitter& emitter : set_.emitters)
+        most = std::max<double>(most, maxChannel(emitter.exitance));
+    return most;
+}
+
+} // namespace penumbra

@@ -1,0 +1,114 @@
+// What the emitters give to the vertices.
+#pragma once
+
+#include "base/Rgb.h"
+#include "radiosity/mesh/PatchSet.h"
+#include "radiosity/rays/RayScene.h"
+#include "radiosity/rows/EmitterSender.h"
+#include "radiosity/rows/RowTable.h"
+#include "radiosity/rows/Walls.h"
+#include "radiosity/schedule/RowUpdates.h"
+#include "radiosity/transport/SceneChange.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace penumbra {
+
+/// The rows of the emitters, and the illuminance of vertices and patches that they make. Sums run
+/// over the emitters in their order: they depend on the rows and not on how these came about.
+class DirectLight {
+public:
+    /// Everything is open work at first. \param samples see SolverOptions. All must outlive this.
+    DirectLight(const PatchSet& set, const RayScene& rays, int samples);
+
+    void apply(const SceneChange& change);
+    void invalidate(const Bounds& region); ///< see LitScene
+    /// Brings rows up to date: a piece of work of about `effort` rays; false: there is none left.
+    /// \param enough what may stay open [lm/m^2], see DirtySet::take()
+    bool update(std::size_t effort, double enough);
+    /// Sums what rows give that were brought up to date, likewise.
+    bool sum(std::size_t effort) { return sumBlocks(effort) || averagePatches(effort); }
+    /// Bound of what is still open in the mean light of patches [lux].
+    std::vector<double> dirtyLight() const;
+    /// See DirtySet.
+    void setPolicy(std::shared_ptr<const SchedulingPolicy> policy) {
+        updates_.open().setPolicy(std::move(policy));
+    }
+    void rekey() { updates_.open().rekey(); }
+    void setAging(double rays) { updates_.open().setAging(rays); } ///< see DirtySet
+    void setWhole(bool whole) { updates_.open().setWhole(whole); }
+    /// See Solver::narrowDirect().
+    void narrow(const std::function<std::uint64_t(std::uint32_t, std::uint32_t)>& which);
+    /// Sums what the rows, as they are now, give to the vertices: all of it, or about `effort`
+    /// rays' worth.
+    void sumUp(std::size_t effort = ~std::size_t(0));
+    /// Whether the rows give to a block what its vertices have.
+    bool summed(std::uint32_t block) const { return blockTouched_[block] == 0; }
+
+    std::span<const Rgb> vertices() const { return vertices_; }      ///< [lux]
+    std::span<const glm::dvec3> patches() const { return patches_; } ///< means [lux]
+    /// Blocks of vertices that were summed anew since this was called last, each once.
+    std::vector<std::uint32_t> takeSummedBlocks();
+    /// Whether all that edits concern is among the open work.
+    bool dirtyKnown() const { return updates_.found(); }
+    /// Blocks, in order, of which an emitter's row is not known to be what it should be. Work that
+    /// may be put off does not count, see work().
+    std::vector<std::uint32_t> dirtyBlocks(std::uint32_t emitter, double enough) const {
+        return updates_.open().urgent(emitter, enough);
+    }
+    std::span<const std::uint8_t> patchLit() const {
+        return patchLit_;
+    } ///< sees any emitter at all
+    /// Whether patchLit() is not what it was when this was called last.
+    bool takeLitChanged() { return std::exchange(litChanged_, false); }
+
+    /// A wall that hides an emitter from a vertex altogether, see Walls; the row has no entry then.
+    ObjectId wallBefore(std::uint32_t emitter, std::uint32_t vertex) const;
+
+    /// The emitters with their visibility samples, one a row.
+    std::span<const EmitterSender> senders() const { return emitters_; }
+    const RowTable& rows() const { return table_; }
+    const RowUpdates& updates() const { return updates_; }
+    double brightest() const; ///< largest exitance [lm/m^2]
+
+private:
+    std::span<const Receiver> receiversOf(std::size_t block) const;
+    void placeReceivers(std::vector<BlockMask>& masks);
+    void touchBlock(std::uint32_t block);
+    void touchPatch(std::uint32_t patch);
+    template <class Visit>
+    void forEachPatch(std::uint32_t block, Visit visit) const;
+    void describeReceivers();
+    std::uint64_t hidden(std::uint32_t emitter, std::uint32_t block, std::uint64_t which) const;
+    bool sumBlocks(std::size_t effort);
+    bool averagePatches(std::size_t effort);
+    void sumBlock(std::uint32_t block);
+    void average(std::uint32_t patch);
+
+    const PatchSet& set_;
+    int samples_;
+    Walls walls_;
+    std::vector<EmitterSender> emitters_;
+    std::vector<Receiver> receivers_;
+    std::vector<std::vector<std::uint32_t>> blockPatches_; ///< lit by the vertices of each block
+    RowTable table_;
+    RowUpdates updates_;
+
+    std::vector<std::uint8_t> blockTouched_, patchTouched_;
+    std::vector<std::uint32_t> touchedBlocks_, touchedPatches_; ///< to be summed again
+    std::vector<std::uint8_t> blockSummed_;
+    std::vector<std::uint32_t> summedBlocks_;
+    std::vector<Rgb> vertices_;
+    std::vector<float> vertexSeen_; ///< sum of F V over all emitters
+    std::vector<glm::dvec3> patches_;
+    std::vector<std::uint8_t> patchLit_;
+    bool litChanged_ = false;
+    bool described_ = false; ///< whether updates_ knows the receivers as they are
+};
+
+} // namespace penumbra

@@ -1,0 +1,394 @@
+// R = E + rho F S - S: what patches reflect, what they owe, and how edits change it. The shots are
+// in IndirectShots.cpp.
+#include "radiosity/transport/IndirectLight.h"
+
+#include "base/Parallel.h"
+#include "radiosity/rows/SenderSamples.h"
+#include "radiosity/transport/DirectLight.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace penumbra {
+
+namespace {
+
+constexpr std::uint32_t kBlock = PatchSet::kBlock;
+/// Mean over a patch from its middle and its four corners: Simpson's rule in two dimensions with
+/// the edge points left out, exact for quadratics.
+constexpr double kMiddleWeight = 2.0 / 3.0;
+
+glm::dvec3 toDouble(Rgb c) {
+    return {c.r, c.g, c.b};
+}
+} // namespace
+
+IndirectLight::IndirectLight(const PatchSet& set, const RayScene& rays, const DirectLight& direct,
+                             std::size_t rowMemory, std::size_t flatPatches)
+    : set_(set), rays_(rays), direct_(direct), rowMemory_(rowMemory), senders_(set, flatPatches),
+      table_(senders_.count()),
+      updates_(set, rays, table_, set.nodeBlockObject, {.visit = 48, .entry = 1}), reach_(set),
+      reached_(set.nodes.size() / kBlock), nodes_(set.nodes.size()), rowSums_(set.nodes.size()),
+      sent_(senders_.count()), residuals_(senders_.count()), colours_(senders_.count()),
+      known_(senders_.count()), kept_(senders_.count()) {
+    for (std::uint32_t p = 0; p < senders_.patchCount(); ++p) {
+        const Patch& patch = set.patches[p];
+        const auto points = std::span(senders_.sender(p).samples, kPatchSamples);
+        planar_.push_back(std::all_of(points.begin(), points.end(), [&](glm::vec3 point) {
+            const float height = glm::dot(patch.normal, point - patch.centre);
+            return height * height < 1e-8f * patch.area;
+        }));
+    }
+    std::vector<BlockMask> all;
+    for (std::uint32_t b = 0; b < blockCount(); ++b) all.push_back({b, ~std::uint64_t(0)});
+    placeNodes(all);
+    buildRays_.full += reach_.rayCount();
+    coloursChanged();
+}
+
+ReceiverBlock IndirectLight::receiversOf(std::uint32_t sender, std::uint32_t block) const {
+    const ObjectPart& part = set_.objects[set_.nodeBlockObject[block].value];
+    const bool lit =
+        part.present && senders_.present(sender) && senders_.linked(sender, linkBoxes_[block]);
+    return {std::span(set_.nodes).subspan(block * kBlock, kBlock), lit ? reached_[block] : 0,
+            pieceKey(part, block * kBlock - part.nodes.first)};
+}
+
+void IndirectLight::placeNodes(std::span<const BlockMask> masks) {
+    while (table_.blocks().size() < blockCount()) table_.blocks().append({});
+    while (linkBoxes_.size() < blockCount()) linkBoxes_.append({});
+    const auto boxOf = [](const Receiver* nodes) {
+        Bounds box;
+        for (std::size_t n = 0; n < kBlock; ++n)
+            if (!isPadding(nodes[n])) box.add(nodes[n].position);
+        return box;
+    };
+    for (const auto& [block, bits] : masks) {
+        table_.blocks().set(block, boxOf(&set_.nodes[block * kBlock]));
+        linkBoxes_.set(block, boxOf(&set_.uncoveredNodes[block * kBlock]));
+    }
+}
+
+/// Gives rows the blocks that are linked to them since an object was placed anew: all of what it
+/// sends, and of all that it receives.
+void IndirectLight::link(ObjectId object) {
+    const ObjectPart& part = set_.objects[object.value];
+    const auto open = [&](std::uint32_t sender, std::uint32_t block) {
+        if (kept_[sender]) table_[sender].open(block);
+    };
+    for (const Range own : {part.patches, senders_.clustersOf(object)})
+        for (std::uint32_t s = own.first; s < own.end(); ++s)
+            if (kept_[s])
+                for (std::uint32_t b : senders_.linkedBlocks(s, linkBoxes_)) open(s, b);
+    for (std::uint32_t b = part.nodes.first / kBlock; b * kBlock < part.nodes.end(); ++b)
+        if (!linkBoxes_[b].empty())
+            senders_.forEachLinked(linkBoxes_[b], [&](std::uint32_t s) { open(s, b); });
+}
+
+void IndirectLight::apply(const SceneChange& change) {
+    described_ = false;
+    std::vector<BlockMask> masks;
+    for (ObjectId object : change.objects) {
+        const ObjectPart& part = set_.objects[object.value];
+        senders_.place(object);
+        for (std::uint32_t b = part.nodes.first / kBlock; b * kBlock < part.nodes.end(); ++b)
+            if (part.nodes.count > 0) masks.push_back({b, ~std::uint64_t(0)});
+    }
+    for (std::uint32_t n : change.nodes)
+        masks.push_back({n / kBlock, std::uint64_t(1) << n % kBlock});
+    unite(masks);
+    placeNodes(masks);
+    residualsChanged();
+    if (change.colours) coloursChanged();
+    if (change.objects.empty() && masks.empty()) return;
+    for (ObjectId object : change.objects) link(object);
+    if (rowsMissing_) restart();
+    updates_.add(change.objects, std::move(masks));
+}
+
+void IndirectLight::invalidate(const Bounds& region) {
+    described_ = false;
+    residualsChanged();
+    if (rowsMissing_) restart();
+    updates_.add({}, {}, {region});
+}
+
+void IndirectLight::directChanged(bool litChanged) {
+    reachStale_ |= litChanged;
+    residualsChanged();
+}
+
+/// What rows that were not kept have sent can't be corrected: everything is sent again.
+void IndirectLight::restart() {
+    for (std::size_t i = 0; shot_ && i < shot_->senders.size(); ++i) {
+        const std::uint32_t s = shot_->senders[i];
+        if (!shot_->build[i] || !kept_[s]) continue; // else half built
+        table_[s].clear();
+        kept_[s] = 0;
+        updates_.drop(s);
+    }
+    shot_.reset();
+    std::fill(nodes_.begin(), nodes_.end(), glm::dvec3(0));
+    std::fill(rowSums_.begin(), rowSums_.end(), 0.0);
+    std::fill(sent_.begin(), sent_.end(), SenderLight{});
+    std::fill(known_.begin(), known_.end(), std::uint8_t(0));
+    for (std::uint32_t s = 0; s < sent_.size(); ++s) updates_.open().setPower(s, 0);
+    rowsMissing_ = false;
+}
+
+void IndirectLight::updateReach() {
+    reachStale_ = false;
+    const std::vector<std::uint64_t> now = reach_.spread(direct_.patchLit());
+    std::vector<BlockMask> masks;
+    for (std::uint32_t b = 0; b < now.size(); ++b)
+        if (const std::uint64_t differs = now[b] ^ reached_[b]) masks.push_back({b, differs});
+    reached_ = now;
+    updateSendersReached();
+    if (masks.empty()) return;
+    residualsChanged();
+    if (rowsMissing_) restart();
+    updates_.add({}, std::move(masks));
+}
+
+/// For bounds of what open work may change.
+void IndirectLight::describeReceivers() {
+    std::vector<DirtySet::Receivers> blocks(blockCount());
+    parallelFor(blocks.size(), 16, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) {
+            blocks[b].reflectance = reflectances_[b];
+            for (auto n = std::uint32_t(b * kBlock); n < (b + 1) * kBlock; ++n)
+                blocks[b].light = std::max(blocks[b].light, float(largest(node(n))));
+        }
+    });
+    updates_.open().setReceivers(std::move(blocks));
+    described_ = true;
+}
+
+bool IndirectLight::update(std::size_t effort, double enough) {
+    if (reachStale_) {
+        updateReach();
+        return true;
+    }
+    if (!described_) describeReceivers();
+    if (updates_.done(enough)) return false;
+    struct Delta {
+        std::uint32_t node;
+        double factor = 0;
+        glm::dvec3 light{};
+    };
+    struct Deltas {
+        std::vector<Delta> nodes;
+        bool known = false; ///< row sums know of the sender
+    };
+    std::vector<Deltas> deltas(updates_.mostItems(effort));
+    const auto update = [&](RowBuilder& builder, const DirtyBlock& item,
+                            std::span<const MovedObject> moved, std::size_t index) {
+        RowBlock& block = table_[item.row][item.block];
+        const Arrived arrived = arrivedAt(item.row, item.block);
+        deltas[index].known = arrived.known;
+        Delta delta[kBlock];
+        forEachReceived(block, arrived.light, [&](int r, float factor, glm::dvec3 light) {
+            delta[r] = {0, -double(factor), -light};
+        });
+        const int changed = builder.updatePatchBlock(
+            senders_.sender(item.row), receiversOf(item.row, item.block), item.anew, moved, block);
+        if (changed == 0) return 0;
+        forEachReceived(block, arrived.light, [&](int r, float factor, glm::dvec3 light) {
+            delta[r].factor += double(factor);
+            delta[r].light += light;
+        });
+        for (std::uint32_t r = 0; r < kBlock; ++r) {
+            delta[r].node = item.block * kBlock + r;
+            if (delta[r].factor != 0 || delta[r].light != glm::dvec3(0))
+                deltas[index].nodes.push_back(delta[r]);
+        }
+        return changed;
+    };
+    const auto facts = [&](std::uint32_t s) { return factsOf(s); };
+    const auto items = updates_.work(effort, enough, facts, update);
+    for (std::size_t i = 0; i < items.size(); ++i)
+        for (const auto& [n, factor, light] : deltas[i].nodes) {
+            nodes_[n] += light;
+            if (deltas[i].known) rowSums_[n] += factor;
+        }
+    if (!items.empty()) residualsChanged();
+    return true;
+}
+
+RowUpdates::RowFacts IndirectLight::factsOf(std::uint32_t sender) const {
+    RowUpdates::RowFacts facts{kept_[sender] != 0,
+                               senders_.box(sender),
+                               senders_.object(sender),
+                               senders_.area(sender),
+                               {},
+                               {}};
+    if (sender < senders_.patchCount() && planar_[sender]) {
+        facts.centre = set_.patches[sender].centre;
+        facts.normal = set_.patches[sender].normal;
+    }
+    return facts;
+}
+
+/// What a block has received from a sender. Of a batch that is on its way all has arrived but what
+/// is still to be served.
+IndirectLight::Arrived IndirectLight::arrivedAt(std::uint32_t row, std::uint32_t block) const {
+    Arrived arrived{sent_[row], known_[row] != 0};
+    if (!shot_) return arrived;
+    const auto found = std::find(shot_->senders.begin(), shot_->senders.end(), row);
+    if (found == shot_->senders.end()) return arrived;
+    const auto i = std::uint32_t(found - shot_->senders.begin());
+    const std::vector<std::uint32_t>& from = shot_->receivers[block];
+    if (block >= shot_->next && std::binary_search(from.begin(), from.end(), i)) return arrived;
+    for (std::size_t q = 0; q < 4; ++q) arrived.light[q] += shot_->light[i][q];
+    arrived.known = true;
+    return arrived;
+}
+
+/// Form factors are exact, but visibility is sampled, so that a node's factors may add up to a
+/// little more than the whole hemisphere: what is too much is taken off in proportion. This also
+/// bounds the certificate.
+glm::dvec3 IndirectLight::node(std::uint32_t index) const {
+    return nodes_[index] / std::max(1.0, rowSums_[index]);
+}
+
+/// Over a patch, of a quantity that is known at its nodes.
+template <class Value, class AtNode>
+Value IndirectLight::mean(const Patch& patch, AtNode atNode) const {
+    const Value middle = atNode(patch.centreNode);
+    if (!patch.hasCornerNodes) return middle;
+    Value corners(0);
+    for (std::uint32_t n : patch.cornerNodes) corners += atNode(n);
+    return kMiddleWeight * middle + (1 - kMiddleWeight) / 4 * corners;
+}
+
+glm::dvec3 IndirectLight::reflected(std::uint32_t index) const {
+    const Patch& patch = set_.patches[index];
+    if (!set_.objects[patch.object.value].present) return glm::dvec3(0);
+    const auto indirect = mean<glm::dvec3>(patch, [&](std::uint32_t n) { return node(n); });
+    return toDouble(set_.materials[patch.material].reflectance) *
+           (direct_.patches()[index] + indirect);
+}
+
+/// What open work may change in the light at a node [lux]: what arrives, and the row sum f by which
+/// it is divided, as far as that is or comes to be above 1.
+double IndirectLight::openAt(std::uint32_t index) const {
+    const DirtySet& open = updates_.open();
+    const double f = open.factor(index / kBlock);
+    if (f == 0 || !(reached_[index / 64] >> index % 64 & 1)) return 0;
+    const double above = std::max(0.0, rowSums_[index] + f - 1);
+    return open.light(index / kBlock) + std::min(f, above) * largest(node(index));
+}
+
+/// Batches that have not begun are chosen again.
+void IndirectLight::residualsChanged() {
+    residualsStale_ = true;
+    listing_.reset();
+}
+
+void IndirectLight::updateResiduals() {
+    residualsStale_ = false;
+    struct Part {
+        double open = 0, both = 0, area = 0, radiosity = 0;
+    };
+    constexpr std::size_t kGrain = 512;
+    std::vector<Part> parts((senders_.patchCount() + kGrain - 1) / kGrain);
+    const std::vector<double> dirtyDirect = direct_.dirtyLight();
+    std::vector<glm::dvec3> reflects(senders_.patchCount());
+    parallelFor(senders_.patchCount(), kGrain, [&](std::size_t first, std::size_t last) {
+        Part& part = parts[first / kGrain];
+        for (auto p = std::uint32_t(first); p < last; ++p) {
+            const Patch& patch = set_.patches[p];
+            const double rho = maxChannel(set_.materials[patch.material].reflectance);
+            reflects[p] = reflected(p);
+            const double open =
+                rho *
+                (dirtyDirect[p] + mean<double>(patch, [&](std::uint32_t n) { return openAt(n); }));
+            part.open = std::max(part.open, open);
+            part.both = std::max(part.both, largest(reflects[p] - sent_[p][0]) + open);
+            if (rho <= 0) continue;
+            part.area += patch.area;
+            part.radiosity += patch.area * largest(reflects[p]);
+        }
+    });
+    Part all;
+    for (const Part& part : parts) {
+        all.open = std::max(all.open, part.open);
+        all.both = std::max(all.both, part.both);
+        all.area += part.area;
+        all.radiosity += part.radiosity;
+    }
+    const std::vector<SenderLight> now = senders_.average(reflects);
+    most_ = 0;
+    for (std::uint32_t s = 0; s < senders_.count(); ++s) {
+        for (std::size_t q = 0; q < 4; ++q) residuals_[s][q] = now[s][q] - sent_[s][q];
+        most_ = std::max(most_, largest(residuals_[s]));
+        if (s >= senders_.patchCount())
+            all.both = std::max(all.both, largest(residuals_[s]) + all.open);
+    }
+    open_ = all.open;
+    certificate_ = all.both > 0 ? gain_ * all.both : 0;
+    meanRadiosity_ = all.area > 0 ? all.radiosity / all.area : 0;
+}
+
+/// Reflectances, and what follows from them. |B_exact - B| <= max|R| / (1 - max(rho * row sum)), in
+/// the maximum norm; row sums are at most 1. Means over clusters differ from the exact ones by no
+/// more than what they are the means of.
+void IndirectLight::coloursChanged() {
+    float most = 0;
+    std::vector<glm::dvec3> colours;
+    reflectances_.assign(blockCount(), 0.0f);
+    for (const Patch& patch : set_.patches) {
+        const Rgb colour = set_.materials[patch.material].reflectance;
+        const float rho = maxChannel(colour);
+        colours.push_back(toDouble(colour));
+        most = std::max(most, rho);
+        const auto at = [&](std::uint32_t n) {
+            reflectances_[n / kBlock] = std::max(reflectances_[n / kBlock], rho);
+        };
+        at(patch.centreNode);
+        if (patch.hasCornerNodes) std::for_each_n(patch.cornerNodes.begin(), 4, at);
+    }
+    colours_ = senders_.average(colours);
+    gain_ = 1 / (1 - double(most));
+}
+
+void IndirectLight::updateSendersReached() {
+    const auto reached = [&](std::uint32_t n) { return (reached_[n / 64] >> n % 64 & 1) != 0; };
+    sendersReached_.assign(senders_.count(), 0);
+    for (std::uint32_t p = 0; p < senders_.patchCount(); ++p) {
+        const Patch& patch = set_.patches[p];
+        sendersReached_[p] =
+            reached(patch.centreNode) ||
+            (patch.hasCornerNodes &&
+             std::any_of(patch.cornerNodes.begin(), patch.cornerNodes.end(), reached));
+    }
+    for (std::uint32_t s = 0; s < senders_.count(); ++s)
+        for (std::uint32_t up = senders_.parent(s);
+             sendersReached_[s] && up != Clusters::kNone && !sendersReached_[up];
+             up = senders_.parent(up))
+            sendersReached_[up] = 1;
+}
+
+/// What is owed goes, on average, once over all surfaces and is reflected on: Cohen et al. 1988.
+glm::dvec3 IndirectLight::ambient() const {
+    glm::dvec3 owed(0), reflected(0);
+    double area = 0;
+    for (std::size_t p = 0; p < set_.patches.size(); ++p) {
+        const double size = set_.patches[p].area;
+        owed += size * residuals_[p][0];
+        reflected += size * toDouble(set_.materials[set_.patches[p].material].reflectance);
+        area += size;
+    }
+    if (area == 0) return owed;
+    return (owed / area) / (1.0 - glm::min(reflected / area, 0.98));
+}
+
+std::vector<glm::dvec3> IndirectLight::nodes() const {
+    const glm::dvec3 owed = ambient();
+    std::vector<glm::dvec3> values(nodes_.size());
+    for (std::uint32_t n = 0; n < values.size(); ++n)
+        values[n] = node(n) + (reached_[n / 64] >> n % 64 & 1 ? owed : glm::dvec3(0));
+    return values;
+}
+
+} // namespace penumbra

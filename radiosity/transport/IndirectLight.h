@@ -1,0 +1,167 @@
+// Light that patches send to each other.
+#pragma once
+
+#include "base/BoundsTree.h"
+#include "base/Rgb.h"
+#include "radiosity/mesh/PatchSet.h"
+#include "radiosity/rays/RayScene.h"
+#include "radiosity/rows/RowTable.h"
+#include "radiosity/schedule/RowUpdates.h"
+#include "radiosity/transport/IndirectSenders.h"
+#include "radiosity/transport/Reach.h"
+#include "radiosity/transport/SceneChange.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace penumbra {
+
+class DirectLight;
+
+/// Southwell relaxation over the rows of the patches and of their clusters. R = E + rho F S - S
+/// always holds for the rows as they stand, where E is what patches reflect of the direct light; a
+/// cluster reflects the area-weighted mean of what its patches do.
+class IndirectLight {
+public:
+    /// \param rowMemory for rows [bytes]; beyond it they are not kept. All must outlive this.
+    /// \param flatPatches see IndirectSenders
+    IndirectLight(const PatchSet& set, const RayScene& rays, const DirectLight& direct,
+                  std::size_t rowMemory, std::size_t flatPatches);
+
+    void apply(const SceneChange& change);
+    void invalidate(const Bounds& region); ///< see LitScene
+    /// The direct light of patches is not what it was. \param litChanged see takeLitChanged()
+    void directChanged(bool litChanged);
+
+    /// Brings rows up to date: a piece of work of about `effort` rays; false: there is none left.
+    /// \param enough what may stay open [lm/m^2], see DirtySet::take()
+    bool update(std::size_t effort, double enough);
+    /// Relaxes: serves about `effort` rays' worth of receivers. \pre update() has nothing to do
+    /// \param target certificate that is wanted [lm/m^2]
+    /// \return false: nobody owes enough to matter for it
+    bool relax(std::size_t effort, double target);
+    /// Builds rows of patches that light reaches but that have nothing to send: row sums are to be
+    /// those of the scene and not of its history. \return false: there is none left
+    bool complete(std::size_t effort);
+    bool relaxing() const { return shot_ || listing_; } ///< a batch of shots is on its way
+    bool residualsStale() const { return residualsStale_; }
+
+    /// Indirect illuminance at the nodes, the ambient term included [lux].
+    std::vector<glm::dvec3> nodes() const;
+    /// What a patch sends if nothing is owed any more: rho * H [lm/m^2].
+    glm::dvec3 reflected(std::uint32_t patch) const;
+
+    /// See DirtySet.
+    void setPolicy(std::shared_ptr<const SchedulingPolicy> policy) {
+        updates_.open().setPolicy(std::move(policy));
+    }
+
+    double residual() const { return most_; } ///< max |R| [lm/m^2]
+    /// Bound of |B_exact - B|, with what open work may change [lm/m^2].
+    double certificate() const { return certificate_; }
+    /// Bound of what open work may change in what any patch receives and reflects [lm/m^2].
+    double dirtyBound() const { return open_; }
+    /// What a residual of this size leaves is larger by light that goes round: 1 / (1 - max rho).
+    double gain() const { return gain_; }
+    double meanRadiosity() const { return meanRadiosity_; }
+    std::uint64_t shots() const { return shots_; }
+    std::uint64_t blocksServed() const { return served_; } ///< by shots
+
+    const IndirectSenders& senders() const { return senders_; }
+    const RowTable& rows() const { return table_; } ///< one a sender
+    const RowUpdates& updates() const { return updates_; }
+    const RayCount& buildRays() const { return buildRays_; } ///< of rows that were built whole
+
+private:
+    /// A batch of senders on its way: receivers are served block by block.
+    struct Shot {
+        std::vector<std::uint32_t> senders;
+        std::vector<SenderLight> light;                    ///< what each sends [lm/m^2]
+        std::vector<std::uint8_t> fresh, build;            ///< first time; row is not there
+        bool dark = false;                                 ///< nothing is sent, only rows are built
+        std::vector<std::vector<std::uint32_t>> receivers; ///< places in `senders`, a block each
+        std::size_t next = 0;                              ///< block: those before it are served
+        std::size_t bytes = 0;
+    };
+    /// A batch of senders of which it is being found out, a piece at a time, whom they serve.
+    struct Listing {
+        std::vector<std::uint32_t> senders;
+        bool dark = false;
+        std::size_t next = 0;                              ///< place in `senders`
+        std::vector<std::vector<std::uint32_t>> linked;    ///< to senders without a row, one each
+        std::vector<std::vector<std::uint32_t>> receivers; ///< as of Shot
+    };
+    /// What a block has received from a sender [lm/m^2], and whether its row sums know of it.
+    struct Arrived {
+        SenderLight light;
+        bool known = false;
+    };
+    Arrived arrivedAt(std::uint32_t row, std::uint32_t block) const;
+    RowUpdates::RowFacts factsOf(std::uint32_t sender) const;
+    std::size_t blockCount() const { return set_.nodes.size() / PatchSet::kBlock; }
+    void placeNodes(std::span<const BlockMask> masks);
+    void link(ObjectId object);
+    ReceiverBlock receiversOf(std::uint32_t sender, std::uint32_t block) const;
+    void updateReach();
+    void updateSendersReached();
+    void restart();
+    void describeReceivers();
+
+    std::vector<std::uint32_t> chooseSenders(double enough) const;
+    std::size_t batch() const; ///< senders shot at a time
+    void choose(std::vector<std::uint32_t> senders, bool dark);
+    void list(std::size_t effort);
+    void load(Listing& listing);
+    void serve(std::size_t effort);
+    void serveBlock(std::uint32_t block, RowBuilder& builder, std::size_t& bytes,
+                    std::vector<RowTable::BlockerNote>& notes);
+    void finishShot();
+    void residualsChanged();
+    void updateResiduals();
+    void coloursChanged();
+    glm::dvec3 node(std::uint32_t node) const;
+    template <class Value, class AtNode>
+    Value mean(const Patch& patch, AtNode atNode) const;
+    double openAt(std::uint32_t node) const;
+    glm::dvec3 ambient() const;
+
+    const PatchSet& set_;
+    const RayScene& rays_;
+    const DirectLight& direct_;
+    std::size_t rowMemory_;
+    IndirectSenders senders_;
+    /// Boxes of the nodes where nothing movable covers them, block by block: what is linked.
+    BoundsTree linkBoxes_;
+    RowTable table_;
+    RowUpdates updates_;
+    Reach reach_;
+    std::vector<std::uint64_t> reached_;       ///< bits, a node each
+    std::vector<std::uint8_t> sendersReached_; ///< 1: light gets to any of a sender
+    bool reachStale_ = true, residualsStale_ = true;
+    std::vector<std::uint8_t> planar_; ///< of patches: samples lie in one plane
+    std::vector<float> reflectances_;  ///< largest, a block of nodes each
+    bool described_ = false;           ///< whether updates_ knows the receivers as they are
+
+    std::vector<glm::dvec3> nodes_; ///< [lux]
+    std::vector<double> rowSums_;   ///< of F V over the senders whose rows are known, a node each
+    std::vector<SenderLight> sent_; ///< S of every sender [lm/m^2]
+    std::vector<SenderLight> residuals_; ///< R [lm/m^2]
+    std::vector<SenderLight> colours_;   ///< mean reflectance
+    std::vector<std::uint8_t> known_;    ///< rows that are part of rowSums_
+    std::vector<std::uint8_t> kept_;     ///< rows that are in the table
+    bool rowsMissing_ = false;           ///< some of those were not kept
+    std::size_t rowBytes_ = 0;
+    std::unique_ptr<Listing> listing_; ///< never at the same time as shot_
+    std::unique_ptr<Shot> shot_;
+    std::vector<std::vector<std::uint32_t>> lists_; ///< empty: a shot's, kept for their memory
+    std::vector<RowBuilder> builders_;
+    RayCount buildRays_;
+    std::uint64_t shots_ = 0, served_ = 0;
+    double most_ = 0, open_ = 0, gain_ = 1, certificate_ = 0, meanRadiosity_ = 0;
+};
+
+} // namespace penumbra

@@ -1,0 +1,243 @@
+#include "radiosity/transport/IndirectSenders.h"
+
+#include "base/Parallel.h"
+#include "radiosity/rows/SenderSamples.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace penumbra {
+
+namespace {
+
+/// How many times its own size a cluster must be away to stand for its patches.
+constexpr float kFar = 3;
+
+static_assert(Clusters::kParts == kPatchSamples);
+
+/// Square of the distance between two boxes [m^2]. Rounding never makes a box nearer than one
+/// around it.
+float squaredGap(const Bounds& a, const Bounds& b) {
+    const glm::vec3 gap = glm::max(glm::max(a.lower - b.upper, b.lower - a.upper), glm::vec3(0));
+    return gap.x * gap.x + gap.y * gap.y + gap.z * gap.z;
+}
+
+} // namespace
+
+IndirectSenders::IndirectSenders(const PatchSet& set, std::size_t flatPatches)
+    : set_(set), familyOf_(set.objects.size()), clusterRanges_(set.objects.size()) {
+    const std::size_t patches = set.patches.size();
+    boxes_.resize(patches), parents_.assign(patches, Clusters::kNone), areas_.resize(patches);
+    keys_.resize(patches), objects_.resize(patches), samples_.resize(patches * kPatchSamples);
+    for (const ObjectPart& part : set.objects)
+        for (std::uint32_t p = part.patches.first; p < part.patches.end(); ++p) {
+            keys_[p] = pieceKey(part, p - part.patches.first);
+            areas_[p] = set.patches[p].area;
+            objects_[p] = set.patches[p].object;
+        }
+    placePatches({0, std::uint32_t(patches)});
+
+    std::vector<ClusterPatch> fixed;
+    for (const ObjectPart& part : set.objects)
+        for (std::uint32_t p = part.patches.first; p < part.patches.end() && !part.movable; ++p)
+            fixed.push_back({p, set.patches[p].centre, set.patches[p].normal, areas_[p]});
+    const bool clustered = patches > flatPatches;
+    if (!clustered) fixed.clear();
+    addFamily(fixed, 0x9e3779b9u);
+    fixedClusters_ = {std::uint32_t(patches), count() - std::uint32_t(patches)};
+    for (std::size_t o = 0; o < set.objects.size(); ++o) {
+        const ObjectPart& part = set.objects[o];
+        if (!part.movable) continue;
+        std::vector<ClusterPatch> own;
+        for (std::uint32_t i = 0; i < part.patches.count && clustered; ++i)
+            own.push_back({part.patches.first + i, part.shape.patches[i].position,
+                           part.shape.patches[i].normal, areas_[part.patches.first + i]});
+        familyOf_[o] = std::uint32_t(families_.size());
+        clusterRanges_[o].first = count();
+        addFamily(own, pieceKey(part, part.patches.count));
+        clusterRanges_[o].count = count() - clusterRanges_[o].first;
+    }
+    for (std::uint32_t s = 0; s < count(); ++s)
+        if (parents_[s] == Clusters::kNone) roots_.push_back(s);
+    firstChild_.assign(count() - patches + 1, 0);
+    for (std::uint32_t s = 0; s < count(); ++s)
+        if (parents_[s] != Clusters::kNone) ++firstChild_[parents_[s] - patches + 1];
+    for (std::size_t c = 1; c < firstChild_.size(); ++c) firstChild_[c] += firstChild_[c - 1];
+    children_.resize(firstChild_.back());
+    std::vector<std::uint32_t> next(firstChild_.begin(), firstChild_.end() - 1);
+    for (std::uint32_t s = 0; s < count(); ++s)
+        if (parents_[s] != Clusters::kNone) children_[next[parents_[s] - patches]++] = s;
+}
+
+void IndirectSenders::addFamily(std::span<const ClusterPatch> patches, std::uint32_t key) {
+    families_.push_back({Clusters(patches), count()});
+    const Family& family = families_.back();
+    const auto& clusters = family.clusters.clusters();
+    const auto& order = family.clusters.patches();
+    for (std::uint32_t c = 0; c < clusters.size(); ++c) {
+        const Clusters::Cluster& cluster = clusters[c];
+        double area = 0;
+        for (std::uint32_t i = 0; i < cluster.count; ++i)
+            area += double(areas_[order[cluster.first + i]]);
+        parents_.push_back(cluster.parent == Clusters::kNone ? Clusters::kNone
+                                                             : family.first + cluster.parent);
+        areas_.push_back(float(area));
+        keys_.push_back(key + c);
+        objects_.push_back(objects_[order[cluster.first]]);
+    }
+    for (std::size_t i = 0; i < order.size(); ++i)
+        if (const std::uint32_t c = family.clusters.clusterAt(i); c != Clusters::kNone)
+            parents_[order[i]] = family.first + c;
+    boxes_.resize(parents_.size());
+    samples_.resize(parents_.size() * kPatchSamples);
+    parts_.resize((parents_.size() - patchCount()) * kPatchSamples);
+    listQuarters(family);
+    receiverClusters(family);
+}
+
+/// Lists what each quarter of a cluster is made of: clusters within it, or single patches.
+void IndirectSenders::listQuarters(const Family& family) {
+    const auto& order = family.clusters.patches();
+    const auto& clusters = family.clusters.clusters();
+    std::unordered_map<std::uint64_t, std::uint32_t> byRange;
+    for (std::uint32_t c = 0; c < clusters.size(); ++c)
+        byRange[std::uint64_t(clusters[c].first) << 32 | clusters[c].count] = family.first + c;
+    for (const Clusters::Cluster& cluster : clusters)
+        for (std::size_t q = 0; q < 4; ++q) {
+            const std::size_t first = terms_.size();
+            for (std::size_t k = q * cluster.partCount / 4; k < (q + 1) * cluster.partCount / 4;
+                 ++k) {
+                const Clusters::Part& part = cluster.parts[k];
+                const auto known = byRange.find(std::uint64_t(part.first) << 32 | part.count);
+                if (known != byRange.end()) {
+                    terms_.push_back({known->second, areas_[known->second]});
+                    continue;
+                }
+                const float share = part.quarter == Clusters::kWhole ? 1.0f : 0.25f;
+                for (std::uint32_t i = part.first; i < part.first + part.count; ++i)
+                    terms_.push_back({order[i], share * areas_[order[i]]});
+            }
+            double area = 0;
+            for (std::size_t t = first; t < terms_.size(); ++t) area += double(terms_[t].weight);
+            for (std::size_t t = first; t < terms_.size(); ++t)
+                terms_[t].weight = float(double(terms_[t].weight) / area);
+            firstTerm_.push_back(std::uint32_t(terms_.size()));
+        }
+}
+
+std::vector<SenderLight> IndirectSenders::average(const std::vector<glm::dvec3>& values) const {
+    std::vector<glm::dvec3> mean(values);
+    mean.resize(count());
+    const auto give = [&](std::uint32_t s) {
+        if (parents_[s] != Clusters::kNone) mean[parents_[s]] += double(areas_[s]) * mean[s];
+    };
+    for (std::uint32_t p = 0; p < patchCount(); ++p) give(p);
+    for (std::uint32_t c = count(); c-- > patchCount();) { // those within others come later
+        mean[c] /= double(areas_[c]);
+        give(c);
+    }
+    std::vector<SenderLight> light(count());
+    for (std::uint32_t p = 0; p < patchCount(); ++p) light[p].fill(values[p]);
+    for (std::size_t i = 0; i + 1 < firstTerm_.size(); ++i) {
+        glm::dvec3& quarter = light[patchCount() + i / 4][i % 4];
+        for (std::uint32_t t = firstTerm_[i]; t < firstTerm_[i + 1]; ++t)
+            quarter += double(terms_[t].weight) * mean[terms_[t].sender];
+    }
+    return light;
+}
+
+void IndirectSenders::place(ObjectId object) {
+    placePatches(set_.objects[object.value].patches);
+    if (set_.objects[object.value].movable) receiverClusters(families_[familyOf_[object.value]]);
+}
+
+void IndirectSenders::placePatches(Range patches) {
+    parallelFor(patches.count, 256, [&](std::size_t first, std::size_t last) {
+        for (std::size_t p = patches.first + first; p < patches.first + last; ++p) {
+            const Patch& patch = set_.patches[p];
+            samplePatch(set_, patch, samples_.data() + p * kPatchSamples);
+            boxes_[p] = {};
+            for (std::uint32_t c = 0; c < patch.cornerCount; ++c)
+                boxes_[p].add(set_.corners[patch.firstCorner + c]);
+            for (std::size_t k = 0; k < kPatchSamples; ++k)
+                boxes_[p].add(samples_[p * kPatchSamples + k]);
+        }
+    });
+}
+
+void IndirectSenders::receiverClusters(const Family& family) {
+    const auto& clusters = family.clusters.clusters();
+    const auto& order = family.clusters.patches();
+    for (std::uint32_t c = std::uint32_t(clusters.size()); c-- > 0;) {
+        const Clusters::Cluster& cluster = clusters[c];
+        const std::uint32_t s = family.first + c;
+        boxes_[s] = {};
+        for (std::uint32_t i = 0; i < cluster.count; ++i)
+            boxes_[s].add(boxes_[order[cluster.first + i]]);
+        for (std::uint32_t k = 0; k < cluster.partCount; ++k) {
+            const Clusters::Part& part = cluster.parts[k];
+            const bool whole = part.quarter == Clusters::kWhole;
+            glm::vec3 centre(0), vector(0);
+            float area = 0;
+            for (std::uint32_t i = part.first; i < part.first + part.count; ++i) {
+                const Patch& patch = set_.patches[order[i]];
+                area += patch.area;
+                centre += patch.area * patch.centre;
+                vector += patch.area * patch.normal;
+            }
+            const std::uint32_t middle = order[part.first + part.count / 2];
+            const glm::vec3* const points = &samples_[middle * kPatchSamples];
+            const float seen = glm::length(vector);
+            SenderPart& out = parts_[(s - patchCount()) * kPatchSamples + k];
+            out = {centre / area, vector / seen, seen};
+            if (!whole) {
+                const glm::vec3* const quarter = points + 4 * part.quarter;
+                out.centre = 0.25f * (quarter[0] + quarter[1] + quarter[2] + quarter[3]);
+                out.area *= 0.25f;
+            }
+            const std::uint32_t which = whole ? 5 * k : 4u * part.quarter + k % 4;
+            samples_[s * kPatchSamples + k] = points[which % kPatchSamples];
+        }
+        for (std::size_t k = cluster.partCount; k < kPatchSamples; ++k)
+            samples_[s * kPatchSamples + k] = samples_[s * kPatchSamples];
+    }
+}
+
+PatchSender IndirectSenders::sender(std::uint32_t index) const {
+    PatchSender sender;
+    sender.samples = samples_.data() + std::size_t(index) * kPatchSamples;
+    sender.key = keys_[index];
+    sender.box = &boxes_[index];
+    if (index < patchCount()) {
+        const Patch& patch = set_.patches[index];
+        sender.patch = &patch;
+        sender.outline = std::span(set_.corners).subspan(patch.firstCorner, patch.cornerCount);
+        return sender;
+    }
+    const Family& family = families_[familyOf_[objects_[index].value]];
+    const std::size_t count = family.clusters.clusters()[index - family.first].partCount;
+    sender.parts = std::span(parts_).subspan((index - patchCount()) * kPatchSamples, count);
+    return sender;
+}
+
+bool IndirectSenders::isFar(std::uint32_t index, const Bounds& receivers) const {
+    const glm::vec3 size = boxes_[index].upper - boxes_[index].lower;
+    const float diagonal2 = size.x * size.x + size.y * size.y + size.z * size.z;
+    return squaredGap(boxes_[index], receivers) >= kFar * kFar * diagonal2;
+}
+
+std::vector<std::uint32_t> IndirectSenders::linkedBlocks(std::uint32_t index,
+                                                         const BoundsTree& blocks) const {
+    std::vector<std::uint32_t> linked;
+    const std::uint32_t up = parents_[index];
+    // Where all of a node is far from the larger cluster, that one serves it.
+    const auto mayBe = [&](std::size_t n) {
+        return up == Clusters::kNone || !isFar(up, blocks.node(n));
+    };
+    blocks.query(mayBe, [&](std::size_t b) {
+        if (isEnough(index, blocks[b])) linked.push_back(std::uint32_t(b));
+    });
+    return linked;
+}
+
+} // namespace penumbra

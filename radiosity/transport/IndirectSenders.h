@@ -1,0 +1,117 @@
+// All that sends indirect light: patches, and clusters of them for receivers far away.
+#pragma once
+
+#include "base/BoundsTree.h"
+#include "radiosity/mesh/PatchSet.h"
+#include "radiosity/rows/RowBuilder.h"
+#include "radiosity/rows/SenderLight.h"
+#include "radiosity/transport/Clusters.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace penumbra {
+
+/// Senders of indirect light, by one index: first the patches of a PatchSet, then clusters. A block
+/// of receivers takes light from the largest clusters that look small from where it is, and from
+/// single patches close by: it is *linked* to them, and to no two that have a patch in common.
+///
+/// Which clusters there are, and what is linked, depends on the fixed part of the scene and on each
+/// movable object in a frame of its own, and on where they stand: never on how they came there.
+class IndirectSenders {
+public:
+    /// `set` must outlive this. \param flatPatches if there are no more patches than these,
+    /// hidden ones included, there are no clusters
+    IndirectSenders(const PatchSet& set, std::size_t flatPatches);
+
+    std::uint32_t count() const { return std::uint32_t(boxes_.size()); }
+    std::uint32_t patchCount() const { return std::uint32_t(set_.patches.size()); }
+    /// What is an object's: `patches` or `clusters`. Those of the fixed part have clusters in
+    /// common, fixedClusters().
+    Range clustersOf(ObjectId object) const { return clusterRanges_[object.value]; }
+    Range fixedClusters() const { return fixedClusters_; }
+
+    /// An object was placed anew.
+    void place(ObjectId object);
+
+    PatchSender sender(std::uint32_t index) const;
+    /// Around outline and samples [m, world].
+    const Bounds& box(std::uint32_t index) const { return boxes_[index]; }
+    /// Whose it is; of a cluster of the fixed part any object of that.
+    ObjectId object(std::uint32_t index) const { return objects_[index]; }
+    bool present(std::uint32_t index) const { return set_.objects[objects_[index].value].present; }
+    float area(std::uint32_t index) const { return areas_[index]; }
+    /// The cluster that has this sender, Clusters::kNone if none.
+    std::uint32_t parent(std::uint32_t index) const { return parents_[index]; }
+    /// Means over the quarters of every sender. \param values one a patch
+    std::vector<SenderLight> average(const std::vector<glm::dvec3>& values) const;
+
+    /// Whether receivers in a box take light from a sender itself, and not from a part of it, nor
+    /// from a larger one.
+    bool linked(std::uint32_t index, const Bounds& receivers) const {
+        const std::uint32_t up = parents_[index];
+        return isEnough(index, receivers) && (up == Clusters::kNone || !isFar(up, receivers));
+    }
+    /// Blocks that are linked to a sender, ascending.
+    std::vector<std::uint32_t> linkedBlocks(std::uint32_t index, const BoundsTree& blocks) const;
+    /// Calls visit(sender) for all that are linked to receivers in a box.
+    template <class Visit>
+    void forEachLinked(const Bounds& receivers, const Visit& visit) const;
+
+private:
+    struct Family {
+        Clusters clusters;
+        std::uint32_t first = 0; ///< sender index of its first cluster
+    };
+    void addFamily(std::span<const ClusterPatch> patches, std::uint32_t key);
+    void listQuarters(const Family& family);
+    void placePatches(Range patches);
+    void receiverClusters(const Family& family);
+    bool isFar(std::uint32_t index, const Bounds& receivers) const;
+    bool isEnough(std::uint32_t index, const Bounds& receivers) const {
+        return index < patchCount() || isFar(index, receivers);
+    }
+
+    const PatchSet& set_;
+    std::vector<Family> families_;        ///< the fixed part's, then those of the movable objects
+    std::vector<std::uint32_t> familyOf_; ///< one an object
+    std::vector<Range> clusterRanges_;    ///< one an object
+    Range fixedClusters_;
+    std::vector<Bounds> boxes_;
+    std::vector<std::uint32_t> keys_, parents_;
+    std::vector<float> areas_;
+    std::vector<ObjectId> objects_;
+    std::vector<glm::vec3> samples_; ///< kPatchSamples a sender
+    std::vector<SenderPart> parts_;  ///< kPatchSamples a cluster
+    /// A share of the mean over a quarter of a cluster.
+    struct Term {
+        std::uint32_t sender = 0;
+        float weight = 0;
+    };
+    std::vector<Term> terms_;
+    std::vector<std::uint32_t> firstTerm_{0};          ///< of each quarter of each cluster
+    std::vector<std::uint32_t> roots_;                 ///< senders without a parent
+    std::vector<std::uint32_t> firstChild_, children_; ///< of clusters: senders
+};
+
+template <class Visit>
+void IndirectSenders::forEachLinked(const Bounds& receivers, const Visit& visit) const {
+    if (receivers.empty()) return;
+    std::vector<std::uint32_t> open = roots_;
+    while (!open.empty()) {
+        const std::uint32_t s = open.back();
+        open.pop_back();
+        if (isEnough(s, receivers)) {
+            visit(s);
+            continue;
+        }
+        const std::uint32_t c = s - patchCount();
+        open.insert(open.end(), children_.begin() + firstChild_[c],
+                    children_.begin() + firstChild_[c + 1]);
+    }
+}
+
+} // namespace penumbra

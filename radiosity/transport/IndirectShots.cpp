@@ -1,0 +1,201 @@
+// Shots: who sends next, and serving the receivers, a piece at a time.
+// After [Cohen1988] (progressive refinement) in the form of Southwell's relaxation (Gortler, Cohen
+// & Slusallek, IEEE CG&A 14(6), 1994). Departures: senders shoot in batches of a fixed size, so
+// that receivers can be worked on side by side; a patch receives at its middle and its corners; its
+// first shot sends more than it owes, by what the ambient estimate says will come (Shao & Badler
+// 1993, Xu & Fussell 1994 call this overshooting).
+#include "radiosity/transport/IndirectLight.h"
+
+#include "base/Parallel.h"
+#include "importance/HighestPriorities.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace penumbra {
+
+namespace {
+
+constexpr std::uint32_t kBlock = PatchSet::kBlock;
+/// Senders shot at a time: a share of them all, for choosing them goes through all.
+constexpr std::size_t kLeastBatch = 32, kMostBatch = 1024, kBatchShare = 32;
+/// What serving a block of a row costs that is there, and of one that is not [rays].
+constexpr std::size_t kServe = 8, kBuild = 100;
+
+} // namespace
+
+/// The most power first, of those that owe too much: large patches that owe next to nothing would
+/// be served again and again before small ones that owe a lot.
+std::vector<std::uint32_t> IndirectLight::chooseSenders(double enough) const {
+    std::vector<double> power(senders_.count());
+    for (std::uint32_t s = 0; s < power.size(); ++s)
+        if (largest(residuals_[s]) > enough)
+            power[s] = largest(residuals_[s]) * double(senders_.area(s));
+    return highestPriorities(power, batch());
+}
+
+std::size_t IndirectLight::batch() const {
+    return std::clamp<std::size_t>(senders_.count() / kBatchShare, kLeastBatch, kMostBatch);
+}
+
+bool IndirectLight::relax(std::size_t effort, double target) {
+    if (!shot_ && residualsStale_) {
+        updateResiduals();
+        return true;
+    }
+    constexpr double kBelow = 0.3; // what a patch may owe, of what the certificate allows
+    if (!relaxing()) choose(chooseSenders(kBelow * target / gain_), false);
+    if (!relaxing()) return false;
+    shot_ ? serve(effort) : list(effort);
+    return true;
+}
+
+bool IndirectLight::complete(std::size_t effort) {
+    if (!relaxing()) {
+        std::vector<std::uint32_t> unknown;
+        for (std::uint32_t p = 0; p < known_.size() && unknown.size() < batch(); ++p)
+            if (!known_[p] && sendersReached_[p] && senders_.present(p)) unknown.push_back(p);
+        choose(std::move(unknown), true);
+    }
+    if (!relaxing()) return false;
+    shot_ ? serve(effort) : list(effort);
+    return true;
+}
+
+/// \param dark the senders send nothing, only their rows are wanted
+void IndirectLight::choose(std::vector<std::uint32_t> senders, bool dark) {
+    if (senders.empty()) return;
+    listing_ = std::make_unique<Listing>();
+    listing_->linked.resize(senders.size());
+    listing_->receivers = std::exchange(lists_, {});
+    listing_->receivers.resize(blockCount());
+    listing_->senders = std::move(senders);
+    listing_->dark = dark;
+}
+
+/// Lists the receivers of some more senders. Nothing else knows of a batch until that is done.
+void IndirectLight::list(std::size_t effort) {
+    constexpr std::size_t kBlocksARay = 64, kFind = 64; // of a row that is there; without one
+    Listing& listing = *listing_;
+    for (std::size_t cost = 0; cost < effort && listing.next < listing.senders.size();) {
+        const auto i = std::uint32_t(listing.next++);
+        const std::uint32_t s = listing.senders[i];
+        const auto toServe = [&](std::uint32_t block) { listing.receivers[block].push_back(i); };
+        if (kept_[s]) {
+            const Row& row = table_[s];
+            for (std::size_t b = 0; b < row.size(); ++b) toServe(row.blockAt(b));
+            cost += 1 + row.size() / kBlocksARay;
+            continue;
+        }
+        listing.linked[i] = senders_.linkedBlocks(s, linkBoxes_);
+        for (std::uint32_t b : listing.linked[i]) toServe(b);
+        cost += kFind;
+    }
+    if (listing.next < listing.senders.size()) return;
+    load(listing);
+    listing_.reset();
+}
+
+/// Begins a batch.
+void IndirectLight::load(Listing& listing) {
+    shot_ = std::make_unique<Shot>();
+    shot_->senders = listing.senders;
+    shot_->dark = listing.dark;
+    const glm::dvec3 expected = ambient();
+    const bool keep = rowBytes_ < rowMemory_;
+    for (std::uint32_t i = 0; i < listing.senders.size(); ++i) {
+        const std::uint32_t s = listing.senders[i];
+        // The first time send at once what is sure to come later; too much is taken back in its
+        // turn.
+        const bool fresh = !known_[s];
+        SenderLight light{};
+        for (std::size_t q = 0; q < 4 && !listing.dark; ++q) {
+            light[q] = residuals_[s][q];
+            if (fresh) light[q] += colours_[s][q] * expected;
+        }
+        shot_->fresh.push_back(fresh);
+        shot_->light.push_back(light);
+        shot_->build.push_back(!kept_[s]);
+        if (kept_[s]) continue;
+        if (keep) {
+            table_[s].open(listing.linked[i]);
+            updates_.setCurrent(s);
+        }
+        kept_[s] = keep;
+        rowsMissing_ |= !keep;
+    }
+    shot_->receivers = std::move(listing.receivers);
+}
+
+/// Serves some more blocks of the batch: each receives from all of its senders before the next one
+/// does, so that sums are taken in a fixed order.
+void IndirectLight::serve(std::size_t effort) {
+    constexpr std::size_t kGrain = 64; // pairs of a sender and a block
+    Shot& shot = *shot_;
+    std::vector<std::size_t> cuts{shot.next}; // of tasks: blocks
+    std::size_t last = shot.next;
+    for (std::size_t sum = 0, pairs = 0; last < shot.receivers.size() && sum < effort; ++last) {
+        if (pairs >= kGrain) cuts.push_back(last), pairs = 0;
+        pairs += shot.receivers[last].size();
+        for (std::uint32_t i : shot.receivers[last]) sum += shot.build[i] ? kBuild : kServe;
+    }
+    cuts.push_back(last);
+    const std::size_t tasks = cuts.size() - 1;
+    struct Task {
+        std::size_t bytes = 0;
+        std::vector<RowTable::BlockerNote> notes;
+    };
+    std::vector<Task> done(tasks);
+    while (builders_.size() < tasks) builders_.emplace_back(rays_);
+    parallelFor(tasks, 1, [&](std::size_t first, std::size_t end) {
+        for (std::size_t t = first; t < end; ++t)
+            for (auto b = std::uint32_t(cuts[t]); b < cuts[t + 1]; ++b)
+                serveBlock(b, builders_[t], done[t].bytes, done[t].notes);
+    });
+    for (const Task& task : done) {
+        shot.bytes += task.bytes;
+        table_.note(task.notes);
+    }
+    for (RowBuilder& builder : builders_) buildRays_ += builder.takeRayCount();
+    for (; shot.next < last; ++shot.next) served_ += shot.receivers[shot.next].size();
+    if (last == shot.receivers.size()) finishShot();
+}
+
+void IndirectLight::serveBlock(std::uint32_t b, RowBuilder& builder, std::size_t& bytes,
+                               std::vector<RowTable::BlockerNote>& notes) {
+    const Shot& shot = *shot_;
+    for (const std::uint32_t i : shot.receivers[b]) {
+        const std::uint32_t s = shot.senders[i];
+        RowBlock passing;
+        RowBlock& block = kept_[s] ? table_[s][b] : passing;
+        if (shot.build[i]) {
+            builder.patchBlock(senders_.sender(s), receiversOf(s, b), block);
+            if (kept_[s]) {
+                bytes += block.bytes();
+                RowTable::listBlockers(set_, s, b, block, notes);
+            }
+        }
+        const bool fresh = shot.fresh[i];
+        forEachReceived(block, shot.light[i], [&](int r, float factor, glm::dvec3 light) {
+            nodes_[b * kBlock + std::size_t(r)] += light;
+            if (fresh) rowSums_[b * kBlock + std::size_t(r)] += factor;
+        });
+    }
+}
+
+void IndirectLight::finishShot() {
+    for (std::size_t i = 0; i < shot_->senders.size(); ++i) {
+        const std::uint32_t p = shot_->senders[i];
+        for (std::size_t q = 0; q < 4; ++q) sent_[p][q] += shot_->light[i][q];
+        known_[p] = 1;
+        updates_.open().setPower(p, largest(sent_[p]));
+    }
+    rowBytes_ += shot_->bytes;
+    if (!shot_->dark) shots_ += shot_->senders.size();
+    lists_ = std::move(shot_->receivers);
+    for (std::vector<std::uint32_t>& list : lists_) list.clear();
+    shot_.reset();
+    residualsChanged();
+}
+
+} // namespace penumbra

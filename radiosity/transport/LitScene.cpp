@@ -1,0 +1,174 @@
+#include "radiosity/transport/LitScene.h"
+
+#include "radiosity/rays/Shaft.h"
+#include "scenegraph/Light.h"
+#include "scenegraph/Material.h"
+#include "scenegraph/Mesh.h"
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+namespace penumbra {
+
+LitScene::LitScene(const PlacedScene& scene, const MeshingOptions& meshing,
+                   const SolverOptions& solving)
+    : solving_(solving) {
+    build(scene, meshing);
+}
+
+LitScene::~LitScene() = default;
+
+void LitScene::build(const PlacedScene& scene, const MeshingOptions& meshing) {
+    solver_.reset(); // from the last to the first: each refers to those before it
+    posed_.reset();
+    built_ = buildPatches(scene, meshing);
+    PatchSet& set = built_.patches;
+    posed_ = std::make_unique<PosedPatches>(set);
+    solver_ = std::make_unique<Solver>(set, rays(), solving_);
+    pieces_ = piecesOf(scene);
+}
+
+namespace {
+
+/// Of its object's frame, or of the world's in the fixed part.
+template <class T>
+const glm::dmat4& frameOf(const Placed<T>& placed, const PlacedScene& scene) {
+    return scene.objects[placed.object.value].movable ? placed.toObject : placed.toWorld;
+}
+
+} // namespace
+
+LitScene::Pieces LitScene::piecesOf(const PlacedScene& scene) {
+    Pieces pieces;
+    const auto add = [&](const auto& placed) {
+        pieces[scene.objects[placed.object.value].path].push_back(
+            {placed.node, placed.path, frameOf(placed, scene)});
+    };
+    for (const auto& mesh : scene.meshes) add(mesh);
+    for (const auto& light : scene.lights) add(light);
+    return pieces;
+}
+
+/// Whether all objects that are there are made of the same pieces.
+bool LitScene::samePieces(const PlacedScene& now) const {
+    struct Matched {
+        const std::vector<Piece>* pieces = nullptr;
+        std::size_t seen = 0;
+    };
+    std::vector<Matched> objects(now.objects.size());
+    for (std::size_t o = 0; o < objects.size(); ++o) {
+        const auto known = pieces_.find(now.objects[o].path);
+        if (known == pieces_.end()) return false;
+        objects[o].pieces = &known->second;
+    }
+    const auto isNext = [&](const auto& placed) {
+        auto& [pieces, seen] = objects[placed.object.value];
+        if (seen == pieces->size()) return false;
+        const Piece& piece = (*pieces)[seen++];
+        return piece.node == placed.node && piece.path == placed.path &&
+               piece.frame == frameOf(placed, now);
+    };
+    return std::all_of(now.meshes.begin(), now.meshes.end(), isNext) &&
+           std::all_of(now.lights.begin(), now.lights.end(), isNext) &&
+           std::all_of(objects.begin(), objects.end(),
+                       [](const Matched& m) { return m.seen == m.pieces->size(); });
+}
+
+/// Whether the scene is made of the same pieces; movable objects may be missing.
+bool LitScene::sameStructure(const PlacedScene& now, const ObjectsByPath& objects) const {
+    if (!samePieces(now)) return false;
+    for (const ObjectPart& part : built_.patches.objects) {
+        const auto found = objects.find(part.path);
+        if (found == objects.end()) {
+            if (!part.movable) return false;
+            continue;
+        }
+        const Object& object = *found->second;
+        if (object.movable != part.movable) return false;
+        if (part.movable && placementOf(object.toWorld).stretch != part.stretch) return false;
+    }
+    return true;
+}
+
+/// Whether colours and luminances can be taken in: what never shone has no rows to shine through.
+bool LitScene::followColours(SceneChange& change) {
+    PatchSet& set = built_.patches;
+    const auto lightOf = [](const LightSource& source) {
+        return source.light ? source.light->luminance() : source.material->emission();
+    };
+    for (std::size_t m = 0; m < set.materials.size(); ++m) {
+        const LightSource& source = built_.materialSources[m];
+        if (!source.material || !source.material->emissive()) continue;
+        const bool emits = std::any_of(
+            built_.emitterSources.begin(), built_.emitterSources.end(),
+            [&](const LightSource& emitter) { return emitter.material == source.material; });
+        if (!emits) return false;
+    }
+    for (std::size_t m = 0; m < set.materials.size(); ++m) {
+        const LightSource& source = built_.materialSources[m];
+        LitMaterial now = set.materials[m];
+        if (source.material) now.reflectance = source.material->reflectance();
+        if (built_.materialEmits[m]) now.emission = lightOf(source);
+        if (now == set.materials[m]) continue;
+        set.materials[m] = now;
+        change.colours = true;
+    }
+    for (std::uint32_t e = 0; e < set.emitters.size(); ++e) {
+        const Rgb exitance = std::numbers::pi_v<float> * lightOf(built_.emitterSources[e]);
+        if (exitance == set.emitters[e].exitance) continue;
+        set.emitters[e].exitance = exitance;
+        change.emitters.push_back(e);
+    }
+    return true;
+}
+
+/// \return objects that were moved or removed: lamps may be in other closed things than before
+std::vector<ObjectId> LitScene::followObjects(const ObjectsByPath& objects, SceneChange& change) {
+    PatchSet& set = built_.patches;
+    std::vector<PosedPatches::ObjectPose> wanted;
+    std::vector<ObjectId> replaced;
+    for (std::uint32_t o = 0; o < set.objects.size(); ++o) {
+        ObjectPart& part = set.objects[o];
+        if (!part.movable) continue;
+        const auto found = objects.find(part.path);
+        const bool wasRemoved = std::exchange(part.removed, found == objects.end());
+        const bool present = !part.removed && found->second->visible;
+        const Pose pose =
+            found != objects.end() ? placementOf(found->second->toWorld).pose : part.pose;
+        if (wasRemoved != part.removed || pose != part.pose) replaced.push_back({o});
+        wanted.push_back({{o}, pose, present});
+    }
+    PosedPatches::Change moved = posed_->pose(wanted);
+    change.objects = std::move(moved.objects);
+    change.vertices = std::move(moved.covered.vertices);
+    change.nodes = std::move(moved.covered.nodes);
+    change.patches = std::move(moved.covered.patches);
+    return replaced;
+}
+
+LitScene::Followed LitScene::follow(const PlacedScene& now) {
+    Followed followed;
+    ObjectsByPath objects;
+    for (const Object& object : now.objects) objects[object.path] = &object;
+    if (!sameStructure(now, objects) || !followColours(followed.change)) {
+        build(now, sizesOf(built_.patches));
+        followed = {true, {}};
+        return followed;
+    }
+    const std::vector<ObjectId> replaced = followObjects(objects, followed.change);
+    if (built_.enclosures.changed(built_.patches, replaced, built_.enclosuresLit)) {
+        build(now, sizesOf(built_.patches));
+        followed = {true, {}};
+        return followed;
+    }
+    solver_->apply(followed.change);
+    return followed;
+}
+
+void LitScene::invalidate(const Bounds& box) {
+    if (box.empty()) return;
+    solver_->invalidate(grown(box, 2 * patches().skin)); // receivers hover over what is lit
+}
+
+} // namespace penumbra

@@ -1,0 +1,81 @@
+// A scene that is kept lit while it is edited.
+#pragma once
+
+#include "radiosity/mesh/BuildPatches.h"
+#include "radiosity/mesh/PosedPatches.h"
+#include "radiosity/transport/SceneChange.h"
+#include "radiosity/transport/Solver.h"
+#include "scenegraph/Objects.h"
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace penumbra {
+
+/// Everything that is computed from a scene graph: patches, rays, what covers what, and light.
+///
+/// Movable objects (Transform::movable()) that are moved, hidden, shown or removed, and colours and
+/// luminances that change are taken in by follow() at a cost that goes with the change. Edits of
+/// the fixed part, of geometry or of scale, things that are added, and a lamp that gets into or out
+/// of something closed mesh the scene anew.
+class LitScene {
+public:
+    /// Meshes; solves nothing yet. The scene's nodes must outlive this. \throws Error
+    LitScene(const PlacedScene& scene, const MeshingOptions& meshing, const SolverOptions& solving);
+    ~LitScene();
+    LitScene(const LitScene&) = delete;
+    LitScene& operator=(const LitScene&) = delete;
+
+    /// What was made of an edit.
+    struct Followed {
+        bool rebuilt = false; ///< the scene was meshed anew: patches(), rays(), solver() are others
+        SceneChange change;   ///< else: what of the patch set
+    };
+    /// Takes in how the scene is now. \throws Error if it can't be meshed
+    Followed follow(const PlacedScene& now);
+
+    /// Has what lies in a box, or is crossed by light through it, evaluated anew by the steps that
+    /// follow: receivers whose block meets the box, and entries of the shadow-form-factor-list
+    /// whose shaft between sender and block meets it. Light stays as it is where nothing was wrong,
+    /// within the certificate where rows were not kept. What things cover of each other is not
+    /// looked at again.
+    ///
+    /// \param box axis-aligned [m, world], taken a hair larger; its sides may be infinite; an empty
+    ///            one changes nothing
+    void invalidate(const Bounds& box);
+
+    const PatchSet& patches() const { return built_.patches; }
+    const BuiltPatches& built() const { return built_; }
+    const RayScene& rays() const { return posed_->rays(); }
+    Solver& solver() { return *solver_; }
+    const Solver& solver() const { return *solver_; }
+    const std::vector<std::string>& warnings() const { return built_.warnings; }
+
+private:
+    /// One mesh or light of an object: what may not change.
+    struct Piece {
+        const void* node = nullptr;
+        std::string path;
+        glm::dmat4 frame{1.0}; ///< in its object's frame; in the world's for the fixed part
+    };
+    using Pieces = std::unordered_map<std::string, std::vector<Piece>>; ///< by object
+    using ObjectsByPath = std::unordered_map<std::string_view, const Object*>;
+
+    void build(const PlacedScene& scene, const MeshingOptions& meshing);
+    static Pieces piecesOf(const PlacedScene& scene);
+    bool samePieces(const PlacedScene& now) const;
+    bool sameStructure(const PlacedScene& now, const ObjectsByPath& objects) const;
+    bool followColours(SceneChange& change);
+    std::vector<ObjectId> followObjects(const ObjectsByPath& objects, SceneChange& change);
+
+    SolverOptions solving_;
+    BuiltPatches built_;
+    std::unique_ptr<PosedPatches> posed_;
+    std::unique_ptr<Solver> solver_;
+    Pieces pieces_;
+};
+
+} // namespace penumbra

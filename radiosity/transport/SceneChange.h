@@ -1,0 +1,26 @@
+// What an edit did to a PatchSet.
+#pragma once
+
+#include "base/ObjectId.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace penumbra {
+
+/// What is not as it was in a PatchSet and its RayScene.
+struct SceneChange {
+    std::vector<ObjectId> objects;       ///< placed anew, hidden or shown, with all that is theirs
+    std::vector<std::uint32_t> vertices; ///< others that lie elsewhere
+    std::vector<std::uint32_t> nodes;    ///< likewise
+    std::vector<std::uint32_t> patches;  ///< whose elements are lit at other places
+    std::vector<std::uint32_t> emitters; ///< of another exitance
+    bool colours = false;                ///< some reflectance or emission
+
+    bool empty() const {
+        return objects.empty() && vertices.empty() && nodes.empty() && patches.empty() &&
+               emitters.empty() && !colours;
+    }
+};
+
+} // namespace penumbra

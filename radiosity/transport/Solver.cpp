@@ -1,0 +1,344 @@
+#include "radiosity/transport/Solver.h"
+
+#include "base/Parallel.h"
+#include "radiosity/mesh/Interpolation.h"
+#include "radiosity/schedule/ViewPriority.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace penumbra {
+
+namespace {
+
+constexpr std::size_t kMostEffort = std::size_t(1) << 20; ///< [rays]
+constexpr std::size_t kMostPromptEffort = 1536; ///< of a piece within a prompt budget [rays]
+constexpr double kPrompt = 2e-3;                ///< a budget below is one [s]
+/// What work that is put off may change, of what the certificate allows.
+constexpr double kDirectMayStayDirty = 0.15, kIndirectMayStayDirty = 0.35;
+/// A piece of work within a prompt budget takes about so long; within others it takes the budget,
+/// up to so long [s]: small pieces have threads wait for each other, and work take longer in all.
+constexpr double kPause = 3e-4, kLongest = 0.05;
+
+double seconds() {
+    using namespace std::chrono;
+    return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+Rgb toRgb(glm::dvec3 v) {
+    return {float(v.x), float(v.y), float(v.z)};
+}
+
+} // namespace
+
+Solver::Solver(const PatchSet& patches, const RayScene& rays, const SolverOptions& options)
+    : set_(patches), rays_(rays), options_(options), direct_(patches, rays, options.samples) {
+    if (!options.directOnly && !patches.patches.empty())
+        indirect_ = std::make_unique<IndirectLight>(patches, rays, direct_, options.rowMemory,
+                                                    options.flatPatches);
+    if (indirect_ && options.detail) detail_ = std::make_unique<DetailGather>(patches);
+    if (options.policy != PolicyKind::importance) setPolicy(options.policy);
+}
+
+Solver::~Solver() = default;
+
+void Solver::attend(const Attention& attention) {
+    attention_ = attention;
+    if (options_.policy != PolicyKind::importance) return;
+    direct_.setWhole(attention.whole);
+    const double ambient = meanRadiosity();
+    if (!seen_)
+        seen_ = std::make_unique<ViewPriority>(set_, rays_, [this] { return direct_.vertices(); });
+    seen_->attend(attention, ambient);
+    if (std::exchange(inViewOrder_, true))
+        direct_.rekey();
+    else
+        direct_.setPolicy(seen_->policy());
+}
+
+void Solver::setPolicy(PolicyKind policy) {
+    options_.policy = policy;
+    std::shared_ptr<const SchedulingPolicy> all = std::make_shared<BoundPolicy>();
+    if (policy == PolicyKind::plain) all = std::make_shared<PlainPolicy>();
+    if (policy == PolicyKind::random) all = std::make_shared<RandomPolicy>(1);
+    setDirectPolicy(all);
+    if (indirect_) indirect_->setPolicy(all);
+    if (attention_) attend(*attention_);
+}
+
+void Solver::setDirectPolicy(std::shared_ptr<const SchedulingPolicy> policy) {
+    direct_.setPolicy(std::move(policy));
+    inViewOrder_ = false;
+}
+
+void Solver::apply(const SceneChange& change) {
+    if (change.empty()) return;
+    direct_.apply(change);
+    if (seen_) {
+        if (change.colours) seen_->followColours();
+        seen_->follow(change.objects);
+        if (inViewOrder_) direct_.rekey();
+    }
+    if (indirect_) indirect_->apply(change);
+    if (detail_) detail_->apply(change);
+    begin();
+}
+
+void Solver::invalidate(const Bounds& region) {
+    direct_.invalidate(region);
+    if (indirect_) indirect_->invalidate(region);
+    if (detail_) detail_->invalidate(region);
+    begin();
+}
+
+/// Something is to be done again.
+void Solver::begin() {
+    handedOver_ = completed_ = converged_ = ready_ = idle_ = false;
+    firstCertificate_ = 0;
+    if (!indirect_) return;
+    shotsBefore_ = indirect_->shots();
+    servedBefore_ = indirect_->blocksServed();
+}
+
+bool Solver::step(double budget, const Progress& progress) {
+    return run(budget, nullptr, progress);
+}
+
+bool Solver::stepUntilReady(double budget, const Progress& progress) {
+    return run(budget, &ready_, progress) || ready_;
+}
+
+/// What nobody sees waits for so long while something is moved all the time; then it has a share of
+/// the work, see DirtySet [s].
+constexpr double kAging = 0.5;
+
+/// \param until it becomes true, if that is not null
+/// \return whether there is nothing left to do
+bool Solver::run(double budget, const bool* until, const Progress& progress) {
+    const double start = seconds();
+    const bool prompt = budget < kPrompt;
+    const std::size_t most = prompt ? kMostPromptEffort : kMostEffort;
+    const double piece = prompt ? kPause : std::min(budget, kLongest);
+    for (double left = budget; left > 0 && !(until && *until);
+         left = budget - (seconds() - start)) {
+        direct_.setAging(kAging / pace_.secondsPerRay(Pace::direct));
+        pace_.aim(std::min(piece, std::max(left, 0.5 * kPause)), most);
+        if (!work(pace_, progress)) return true;
+    }
+    return false;
+}
+
+void Solver::converge(const Progress& progress) {
+    while (!converged_ && !run(3600, &converged_, progress)) {
+    }
+}
+
+void Solver::settle(const Progress& progress) {
+    while (!step(3600, progress)) {
+    }
+}
+
+bool Solver::work(std::size_t effort, const Progress& progress) {
+    Pace pace(effort);
+    return work(pace, progress);
+}
+
+bool Solver::work(Pace& pace, const Progress& progress) {
+    if (workOnce(pace, progress)) return true;
+    converged_ = converged_ || !indirect_ || settled();
+    if (detail_ && workOnDetail(pace, progress)) return true;
+    const std::size_t open =
+        direct_.updates().open().count() + (indirect_ ? indirect_->updates().open().count() : 0);
+    const bool wasReady = std::exchange(ready_, true);
+    if (idle_ || open == 0) return false;
+    if (!wasReady) return true; // whoever waits for this gets to see it
+    idle_ = true;               // time for what was put off
+    if (detail_) detail_->lightChanged();
+    return true;
+}
+
+/// The same, but for what may be put off.
+bool Solver::workOnce(Pace& pace, const Progress& progress) {
+    const double start = seconds();
+    if (pace.work(Pace::direct,
+                  [&](std::size_t effort) {
+                      return direct_.update(effort, mayStayDirty(kDirectMayStayDirty));
+                  }) ||
+        pace.work(Pace::sums, [&](std::size_t effort) { return direct_.sum(effort); })) {
+        handedOver_ = false;
+        directSeconds_ += seconds() - start;
+        if (progress) progress("direct light", direct_.updates().share());
+        return true;
+    }
+    if (!indirect_) return false;
+    if (!handedOver_) {
+        const bool litChanged = direct_.takeLitChanged();
+        indirect_->directChanged(litChanged);
+        if (litChanged) completed_ = false; // light may reach more patches
+        handedOver_ = true;
+    }
+    bool more = pace.work(Pace::rows, [&](std::size_t effort) {
+        return indirect_->update(effort, mayStayDirty(kIndirectMayStayDirty));
+    });
+    if (more && progress) progress("shadows of indirect light", indirect_->updates().share());
+    // Rows that are missing come all at once, for each changes a little of what is owed, and
+    // early, so that this is sent along with the rest.
+    constexpr double kEarly = 100;
+    if (!more && !completed_ && !spent() && !indirect_->relaxing() &&
+        !indirect_->residualsStale() && indirect_->certificate() <= kEarly * target())
+        completing_ = completed_ = true;
+    if (!more && completing_)
+        completing_ = more = pace.work(
+            Pace::completion, [&](std::size_t effort) { return indirect_->complete(effort); });
+    const bool done = settled() || spent();
+    if (!more && (!done || indirect_->relaxing() || indirect_->residualsStale())) {
+        more = pace.work(Pace::relaxation,
+                         [&](std::size_t effort) { return indirect_->relax(effort, target()); });
+        const double now = indirect_->certificate();
+        firstCertificate_ = std::max(firstCertificate_, now);
+        if (progress && now > 0) {
+            const double span = std::log(firstCertificate_ / std::max(target(), 1e-30));
+            progress("indirect light", span > 0 ? std::log(firstCertificate_ / now) / span : 1.0);
+        }
+    }
+    indirectSeconds_ += seconds() - start;
+    return more;
+}
+
+bool Solver::workOnDetail(Pace& pace, const Progress& progress) {
+    if (detail_->swept()) return false;
+    const double start = seconds();
+    if (!pace.work(Pace::detail, [&](std::size_t effort) { return detail_->trace(effort); })) {
+        if (!detail_->sweeping()) detail_->beginSweeps(direct_.vertices(), nodeIlluminance());
+        pace.work(Pace::sweeps, [&](std::size_t effort) { return detail_->sweep(effort), true; });
+    }
+    detailSeconds_ += seconds() - start;
+    if (progress) progress("fine shadows", detail_->hits().share());
+    return true;
+}
+
+double Solver::directTolerance() const {
+    return tolerance(kDirectMayStayDirty);
+}
+
+/// How much of what is owed open work may be that is put off [lm/m^2].
+double Solver::tolerance(double share) const {
+    if (!indirect_) return share * options_.residual * direct_.brightest();
+    return share * target() / indirect_->gain();
+}
+
+double Solver::target() const {
+    return options_.residual > 0 ? options_.residual * direct_.brightest()
+                                 : 0.01 * indirect_->meanRadiosity();
+}
+
+bool Solver::settled() const {
+    return !indirect_->residualsStale() && indirect_->certificate() <= target();
+}
+
+bool Solver::spent() const {
+    constexpr std::uint64_t kMostBlocks = 150'000'000, kAnyway = 2000; // shots
+    const std::uint64_t shots = indirect_->shots() - shotsBefore_;
+    if (options_.mostShots > 0) return shots >= options_.mostShots;
+    return options_.residual == 0 && shots >= kAnyway &&
+           indirect_->blocksServed() - servedBefore_ >= kMostBlocks;
+}
+
+std::vector<glm::dvec3> Solver::nodeIlluminance() const {
+    return indirect_ ? indirect_->nodes() : std::vector<glm::dvec3>(set_.nodes.size());
+}
+
+Lighting Solver::lighting() const {
+    std::vector<std::uint32_t> blocks(set_.vertices.size() / PatchSet::kBlock);
+    std::iota(blocks.begin(), blocks.end(), 0u);
+    Lighting lighting;
+    light(blocks, lighting);
+    return lighting;
+}
+
+void Solver::light(std::span<const std::uint32_t> blocks, Lighting& lighting) const {
+    lighting.direct.resize(set_.vertices.size());
+    lighting.indirect.resize(set_.vertices.size());
+    const std::vector<glm::dvec3> nodes = nodeIlluminance();
+    parallelFor(blocks.size(), 8, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const std::uint32_t begin = blocks[i] * PatchSet::kBlock;
+            for (std::uint32_t v = begin; v < begin + PatchSet::kBlock; ++v) {
+                const auto [index, s, t] = set_.vertexCoordinates[v];
+                lighting.direct[v] = direct_.vertices()[v];
+                lighting.indirect[v] = Rgb();
+                if (index != Element::kNone && indirect_)
+                    lighting.indirect[v] = toRgb(glm::max(
+                        interpolateNodes<glm::dvec3>(set_.patches[index], s, t, nodes), 0.0));
+            }
+            if (detail_) detail_->correct(blocks[i], nodes, lighting.indirect);
+        }
+    });
+}
+
+std::vector<Rgb> Solver::radiosity() const {
+    std::vector<Rgb> radiosity;
+    for (std::uint32_t p = 0; p < set_.patches.size(); ++p) {
+        const Rgb rho = set_.materials[set_.patches[p].material].reflectance;
+        radiosity.push_back(indirect_ ? toRgb(indirect_->reflected(p))
+                                      : rho * toRgb(direct_.patches()[p]));
+    }
+    return radiosity;
+}
+
+WorkDone Solver::done() const {
+    WorkDone done;
+    done.rays = direct_.updates().rays().total();
+    done.blocks = direct_.updates().blocksVisited();
+    done.nodes = set_.nodes.size();
+    if (seen_) done.rays += seen_->rays();
+    if (!indirect_) return done;
+    done.rays += indirect_->updates().rays().total() + indirect_->buildRays().total();
+    done.blocks += indirect_->updates().blocksVisited();
+    done.shots = indirect_->shots();
+    if (!detail_) return done;
+    done.rays += detail_->hits().rayCount();
+    done.blocks += detail_->hits().groupsVisited();
+    return done;
+}
+
+SolveStatistics Solver::statistics() const {
+    SolveStatistics result;
+    const auto count = [](const RowUpdates& updates, double time) {
+        return WorkCount{updates.rays(), updates.blocksVisited(), updates.entriesChanged(), time};
+    };
+    result.brightest = direct_.brightest();
+    result.direct = count(direct_.updates(), directSeconds_);
+    result.dirtyBlocks = direct_.updates().open().count();
+    if (indirect_) {
+        result.dirtyBlocks += indirect_->updates().open().count();
+        result.dirtyBound = indirect_->dirtyBound();
+        result.indirect = count(indirect_->updates(), indirectSeconds_);
+        result.indirect.rays += indirect_->buildRays();
+        if (detail_)
+            result.detail = {{detail_->hits().rayCount(), 0},
+                             detail_->hits().groupsVisited(),
+                             0,
+                             detailSeconds_};
+        result.shots = indirect_->shots();
+        result.settled = settled();
+        result.residual = indirect_->residual();
+        result.certificate = indirect_->certificate();
+        result.meanRadiosity = indirect_->meanRadiosity();
+    }
+    const auto add = [&](const Row& row) {
+        if (row.empty()) return;
+        const RowSize size = sizeOf(row);
+        ++result.rows;
+        result.entries += size.entries;
+        result.bytes += size.bytes;
+    };
+    for (const Row& row : emitterRows()) add(row);
+    for (const Row& row : patchRows()) add(row);
+    return result;
+}
+
+} // namespace penumbra

@@ -1,0 +1,219 @@
+// The radiosity solution: direct light onto elements, indirect light between patches.
+#pragma once
+
+#include "base/Rgb.h"
+#include "radiosity/mesh/PatchSet.h"
+#include "radiosity/rays/RayScene.h"
+#include "radiosity/schedule/Pace.h"
+#include "radiosity/transport/DetailGather.h"
+#include "radiosity/transport/DirectLight.h"
+#include "radiosity/transport/IndirectLight.h"
+#include "radiosity/transport/Lighting.h"
+#include "radiosity/transport/SceneChange.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace penumbra {
+
+class ViewPriority;
+
+/// Which of the open work comes first; never what comes out.
+enum class PolicyKind : std::uint8_t {
+    importance, ///< what the viewer gains most from; if there is none, what may change most
+    plain,      ///< sender by sender: the original method, and the yardstick
+    random      ///< the same each time
+};
+
+struct SolverOptions {
+    int samples = 16; ///< visibility samples of an emitter and a receiver that agree
+    /// Relax until the certificate is below this share of the brightest emitter's exitance; 0:
+    /// until it is below 1 % of the mean radiosity of the surfaces, which is what the eye compares
+    /// with.
+    double residual = 0;
+    bool directOnly = false;
+    PolicyKind policy = PolicyKind::importance;
+    bool detail = true; ///< shadows of indirect light finer than patches, see DetailGather
+    /// 0: no limit if `residual` is given, else what keeps a scene of very many patches to minutes.
+    std::uint64_t mostShots = 0;
+    std::size_t rowMemory =
+        2'000'000'000; ///< for rows of patches [bytes]; beyond it they are not kept
+    /// Of more patches than these indirect light goes through clusters; of fewer, from each of them
+    /// alone: more exact, but rows grow with the square of their number.
+    std::size_t flatPatches = 13'000;
+};
+
+/// Called now and then with the phase's name and the share done in [0, 1].
+using Progress = std::function<void(const char* phase, double done)>;
+
+/// What was done so far for one kind of light; the difference of two says what an edit cost.
+struct WorkCount {
+    RayCount rays;
+    std::uint64_t blocksVisited = 0;  ///< by updates
+    std::uint64_t entriesChanged = 0; ///< by updates
+    double seconds = 0;
+
+    friend WorkCount operator-(const WorkCount& a, const WorkCount& b) {
+        return {a.rays - b.rays, a.blocksVisited - b.blocksVisited,
+                a.entriesChanged - b.entriesChanged, a.seconds - b.seconds};
+    }
+    WorkCount& operator+=(const WorkCount& more) {
+        rays += more.rays;
+        blocksVisited += more.blocksVisited;
+        entriesChanged += more.entriesChanged;
+        seconds += more.seconds;
+        return *this;
+    }
+};
+
+struct SolveStatistics {
+    std::uint64_t shots = 0;
+    bool settled = false; ///< whether the limit was met, or relaxation stopped before
+    WorkCount direct, indirect, detail;
+    double residual = 0;           ///< max |R| over patches and channels [lm/m^2]
+    double certificate = 0;        ///< bound of |B_exact - B| for the meshed scene [lm/m^2]
+    std::uint64_t dirtyBlocks = 0; ///< of rows that edits concern, not yet worked on
+    double dirtyBound = 0; ///< what these may change in what any patch reflects; in the certificate
+    double brightest = 0;  ///< largest exitance of an emitter [lm/m^2]
+    double meanRadiosity = 0; ///< area-weighted, of reflecting surfaces [lm/m^2]
+    std::size_t rows = 0, entries = 0, bytes = 0; ///< of the SFFL
+};
+
+/// What a solver has done since it was made, in counts that are the same on every machine.
+struct WorkDone {
+    std::uint64_t rays = 0;
+    std::uint64_t blocks = 0; ///< of 64 entries, looked at by updates
+    std::uint64_t shots = 0;  ///< of patches, each onto all nodes
+    std::size_t nodes = 0;
+
+    /// About [rays]: looking at 64 entries, or sending light through them, takes as long as a ray.
+    double inRays() const { return double(rays + blocks) + double(shots) * double(nodes) / 64; }
+};
+
+/// Lights a PatchSet, and keeps it lit while it is edited: emitters light the elements directly,
+/// what patches reflect travels between patches' nodes. The result is the same for any number of
+/// threads.
+///
+/// After an edit the rows of the shadow-form-factor-list are brought up to date entry by entry,
+/// what changes in them is sent again or taken back, and relaxation goes on. What comes out is what
+/// a new solver would find: visibility bit for bit, radiosity within the certificates.
+class Solver {
+public:
+    /// Both must outlive the solver, and change only just before apply() says so.
+    Solver(const PatchSet& patches, const RayScene& rays, const SolverOptions& options);
+    ~Solver();
+
+    /// Takes note of an edit that has been made to the patch set and the ray scene. Traces nothing.
+    void apply(const SceneChange& change);
+    /// Takes note that light which ends in a box or crosses it [m, world] is to be evaluated anew.
+    void invalidate(const Bounds& region);
+
+    /// What the viewer sees now, and the object being moved: in the order of importance, open work
+    /// on direct light is done in that of what the viewer gains from it, from now on. Without an
+    /// adaptation, that is found from what is in view.
+    void attend(const Attention& attention);
+    /// Another order for what is open and for what comes.
+    void setPolicy(PolicyKind policy);
+    /// Another order for the work on direct light alone, as for measurements.
+    void setDirectPolicy(std::shared_ptr<const SchedulingPolicy> policy);
+
+    /// Of the open work on direct light only these receivers are done, as if others were not
+    /// concerned: for measurements, by someone who knows that these do not change. Who blocks an
+    /// entry that was left out may not be who is said to, until the last edit is applied again.
+    /// \param which bits: receivers of a block, by emitter and block
+    /// \pre direct().dirtyKnown()
+    void narrowDirect(const std::function<std::uint64_t(std::uint32_t, std::uint32_t)>& which) {
+        direct_.narrow(which);
+    }
+
+    /// Works for `budget` seconds, or until everything is settled, and returns whether it is. What
+    /// it leaves undone it goes on with at the next call.
+    bool step(double budget, const Progress& progress = {});
+    /// The same, but only until ready().
+    bool stepUntilReady(double budget, const Progress& progress = {});
+    /// Converged, and fine shadows follow: all that may be left is what was put off.
+    bool ready() const { return ready_; }
+    /// Works until everything is settled.
+    void settle(const Progress& progress = {});
+    /// Whether the certificate is as low as was asked for. It may be so long before everything is
+    /// settled: what can't matter for it is put off until then.
+    bool converged() const { return converged_; }
+    /// Works until converged(), or until everything is settled if that comes first.
+    void converge(const Progress& progress = {});
+    /// Does one piece of work of about `effort` rays; false: there is none left. What is computed
+    /// does not depend on how large the pieces are.
+    bool work(std::size_t effort, const Progress& progress = {});
+    /// Direct light is summed when all its rows are up to date; this sums what is to be summed now,
+    /// so that lighting() shows all that is known.
+    /// \param effort about [rays]
+    void sumUp(std::size_t effort = ~std::size_t(0)) { direct_.sumUp(effort); }
+
+    /// What the vertices receive. What is still owed is added as an ambient term (Cohen et al.
+    /// 1988); fine shadows are as far as they have been brought.
+    Lighting lighting() const;
+    /// The same for some blocks of PatchSet::kBlock vertices. Costs as much as the nodes and what
+    /// is asked for. \param lighting is made as long as there are vertices; others keep their
+    /// values
+    void light(std::span<const std::uint32_t> blocks, Lighting& lighting) const;
+    /// Indirect illuminance at the nodes, the ambient term included [lux].
+    std::vector<glm::dvec3> nodeIlluminance() const;
+    /// Radiosity of every patch, own emission left out: rho * H [lm/m^2].
+    std::vector<Rgb> radiosity() const;
+    SolveStatistics statistics() const;
+    double detailSeconds() const { return detailSeconds_; } ///< of statistics(), at no cost
+    WorkDone done() const;                                  ///< cheap, unlike statistics()
+
+    /// Blocks of vertices whose direct light may differ from what it was at the last call.
+    std::vector<std::uint32_t> takeSummedBlocks() { return direct_.takeSummedBlocks(); }
+    /// Open work on direct light is put off if it changes less [lm/m^2], see DirtySet::take().
+    double directTolerance() const;
+    bool directOnly() const { return !indirect_; }
+    double certificate() const { return indirect_ ? indirect_->certificate() : 0; }
+    double meanRadiosity() const { return indirect_ ? indirect_->meanRadiosity() : 0; }
+
+    const DirectLight& direct() const { return direct_; }
+    const IndirectLight& indirect() const { return *indirect_; }
+    const DetailGather* detail() const { return detail_.get(); } ///< null: not asked for
+    std::span<const Row> emitterRows() const { return direct_.rows().rows(); }
+    std::span<const Row> patchRows() const { // empty ones were never needed, or not kept
+        return indirect_ ? std::span(indirect_->rows().rows()) : std::span<const Row>();
+    }
+
+private:
+    void begin();
+    bool work(Pace& pace, const Progress& progress);
+    bool workOnce(Pace& pace, const Progress& progress);
+    bool run(double budget, const bool* until, const Progress& progress);
+    double tolerance(double share) const;
+    double mayStayDirty(double share) const { return idle_ ? 0 : tolerance(share); }
+    bool workOnDetail(Pace& pace, const Progress& progress);
+    bool settled() const;
+    bool spent() const;
+    double target() const;
+
+    const PatchSet& set_;
+    const RayScene& rays_;
+    SolverOptions options_;
+    DirectLight direct_;
+    std::optional<Attention> attention_;      ///< of the viewer, if there is one
+    std::unique_ptr<ViewPriority> seen_;      ///< what they see, once somebody looked
+    bool inViewOrder_ = false;                ///< direct light is done in the order of that
+    std::unique_ptr<IndirectLight> indirect_; ///< null: direct light only
+    std::unique_ptr<DetailGather> detail_;
+    bool handedOver_ = false; ///< whether the indirect light knows of the direct light as it is
+    bool completing_ = false, completed_ = false; ///< see IndirectLight::complete()
+    bool converged_ = false, ready_ = false;
+    bool idle_ = false;                                ///< nothing is put off any more
+    std::uint64_t shotsBefore_ = 0, servedBefore_ = 0; ///< before the last edit
+    double firstCertificate_ = 0;
+    Pace pace_; ///< of pieces within a time
+    double directSeconds_ = 0, indirectSeconds_ = 0, detailSeconds_ = 0;
+};
+
+} // namespace penumbra

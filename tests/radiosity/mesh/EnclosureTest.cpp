@@ -1,0 +1,87 @@
+// Lamps that get into closed things and out of them.
+#include "radiosity/mesh/Enclosure.h"
+#include "tests/support/Scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace penumbra {
+
+namespace {
+
+constexpr MeshingOptions kCoarse{.patchSize = 0.5f, .elementSize = 0.25f};
+
+NodePtr twoSidedBox() {
+    MeshData data = boxData(glm::vec3(-0.3f), glm::vec3(0.3f), false);
+    data.doubleSided = true;
+    return std::make_shared<Mesh>("mesh", std::move(data));
+}
+
+/// A lamp and a closed box in a room; both can be moved.
+struct BoxAndLight {
+    std::shared_ptr<Transform> box = movable("box", {twoSidedBox()});
+    std::shared_ptr<Transform> light =
+        movable("lamp", {std::make_shared<Light>("light", RectShape{0.2f, 0.2f}, Rgb(10))});
+    Scene scene = sceneOf({object("room", boxData({-2, -2, -2}, {2, 2, 2}, true)), box, light});
+
+    BoxAndLight() {
+        box->setMatrix(moved(1, 0, 0));
+        light->setMatrix(moved(-1, 0, 0));
+    }
+};
+
+/// How many closed surfaces hold a lamp.
+std::size_t litCount(const LitScene& lit, const Scene& scene) {
+    const BuiltPatches built = buildPatches(placeScene(scene), sizesOf(lit.patches()));
+    const std::vector<bool> flags = built.enclosures.lit(built.patches);
+    EXPECT_EQ(flags, built.enclosuresLit);
+    return std::size_t(std::count(flags.begin(), flags.end(), true));
+}
+
+TEST(Enclosure, ALightInABoxLightsItFromWithin) {
+    BoxAndLight things;
+    const LitScene outside(placeScene(things.scene), kCoarse, {.directOnly = true});
+    EXPECT_EQ(litCount(outside, things.scene), 1u) << "the room";
+    things.light->setMatrix(moved(1, 0, 0.1));
+    EXPECT_EQ(litCount(outside, things.scene), 2u) << "the room and the box";
+    const LitScene inside(placeScene(things.scene), sizesOf(outside.patches()), {});
+    EXPECT_GT(inside.patches().patches.size(), outside.patches().patches.size())
+        << "the inside of the box is lit and drawn";
+}
+
+TEST(Enclosure, TheSceneIsMeshedAnewWhenALightGetsIntoABoxOrABoxOverALight) {
+    for (const bool lightMoves : {true, false}) {
+        BoxAndLight things;
+        LitScene lit(placeScene(things.scene), kCoarse, {.directOnly = true});
+        const std::size_t outside = lit.patches().patches.size();
+        Transform& moves = lightMoves ? *things.light : *things.box;
+        moves.setMatrix(moved(0, 0, 1)); // past nothing
+        EXPECT_FALSE(lit.follow(placeScene(things.scene)).rebuilt);
+        moves.setMatrix(lightMoves ? things.box->matrix() : things.light->matrix());
+        EXPECT_TRUE(lit.follow(placeScene(things.scene)).rebuilt);
+        EXPECT_GT(lit.patches().patches.size(), outside);
+        moves.setMatrix(moved(0, 0, 1));
+        EXPECT_TRUE(lit.follow(placeScene(things.scene)).rebuilt) << "taken out again";
+        EXPECT_EQ(lit.patches().patches.size(), outside);
+    }
+}
+
+TEST(Enclosure, ALightAndTheBoxAroundItAreMovedTogetherWithoutMeshing) {
+    BoxAndLight things;
+    things.light->setMatrix(things.box->matrix());
+    LitScene lit(placeScene(things.scene), kCoarse, {.directOnly = true});
+    for (Transform* thing : {things.light.get(), things.box.get()})
+        thing->setMatrix(moved(0, 0.3, 0) * thing->matrix());
+    EXPECT_FALSE(lit.follow(placeScene(things.scene)).rebuilt);
+}
+
+TEST(Enclosure, ADarkLightInABoxCountsAsWell) {
+    BoxAndLight things;
+    std::dynamic_pointer_cast<Light>(things.light->children()[0])->setLuminance(Rgb());
+    things.light->setMatrix(things.box->matrix());
+    const LitScene lit(placeScene(things.scene), kCoarse, {.directOnly = true});
+    EXPECT_EQ(litCount(lit, things.scene), 2u) << "it may be switched on, which is to cost no ray";
+}
+
+} // namespace
+
+} // namespace penumbra

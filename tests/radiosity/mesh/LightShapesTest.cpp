@@ -1,0 +1,101 @@
+// Lamps as senders: area, flux, direction.
+#include "radiosity/mesh/LightShapes.h"
+#include "radiosity/rows/FormFactor.h"
+#include "tests/support/Scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace penumbra {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Emitter emitterOf(const LightShape& shape, const glm::dmat4& toWorld = glm::dmat4(1.0)) {
+    return lightEmitter(Light("lamp", shape, {1, 2, 3}), toWorld);
+}
+
+glm::dmat4 stretched(double x, double y, double z) {
+    return glm::scale(glm::dmat4(1.0), glm::dvec3(x, y, z));
+}
+
+TEST(LightShapes, HaveTheAreaOfTheirShape) {
+    EXPECT_NEAR(emitterOf(RectShape{2, 3}).area, 6, 1e-6);
+    EXPECT_NEAR(emitterOf(DiskShape{0.5f}).area, kPi / 4, 1e-6);
+    EXPECT_NEAR(emitterOf(SphereShape{0.5f}).area, kPi, 1e-6);
+}
+
+TEST(LightShapes, GrowWithTheirFrame) {
+    EXPECT_NEAR(emitterOf(RectShape{2, 3}, stretched(2, 0.5, 1)).area, 6, 1e-5);
+    EXPECT_NEAR(emitterOf(DiskShape{0.5f}, stretched(2, 2, 1)).area, kPi, 1e-5);
+    EXPECT_NEAR(emitterOf(SphereShape{0.5f}, stretched(2, 2, 2)).area, 4 * kPi, 1e-5);
+}
+
+TEST(LightShapes, StretchedUnevenlyBecomePolygonsOfNearlyTheirArea) {
+    // An ellipse in 64 corners: pi a b less 0.16 %; an ellipsoid in 24 x 12 faces: less 2 %.
+    const Emitter ellipse = emitterOf(DiskShape{1}, stretched(2, 0.5, 1));
+    EXPECT_EQ(ellipse.kind, Emitter::Kind::polygons);
+    EXPECT_NEAR(ellipse.area, kPi, 0.002 * kPi);
+    const Emitter spheroid = emitterOf(SphereShape{1}, stretched(1, 1, 2)); // prolate, e^2 = 3/4
+    const double e = std::sqrt(0.75);
+    const double area = 2 * kPi * (1 + 2 / e * std::asin(e));
+    EXPECT_EQ(spheroid.kind, Emitter::Kind::polygons);
+    EXPECT_NEAR(spheroid.area, area, 0.02 * area);
+}
+
+TEST(LightShapes, HaveTheExitanceOfALambertianLight) {
+    const Rgb exitance = emitterOf(RectShape{}).exitance; // pi L
+    EXPECT_FLOAT_EQ(exitance.r, float(kPi));
+    EXPECT_FLOAT_EQ(exitance.g, float(2 * kPi));
+    EXPECT_FLOAT_EQ(exitance.b, float(3 * kPi));
+}
+
+TEST(LightShapes, ShineAlongMinusZInAnyFrameMirroredOnesIncluded) {
+    const glm::dmat4 turned =
+        moved(1, 2, 3) * glm::rotate(glm::dmat4(1.0), 0.5, glm::dvec3(1, 0, 0));
+    for (const glm::dmat4& frame :
+         {glm::dmat4(1.0), turned, turned * stretched(-1, 1, 1), turned * stretched(1, 1, -1)}) {
+        const glm::vec3 centre(frame[3]);
+        const glm::vec3 forward = glm::normalize(-glm::vec3(frame[2]));
+        const glm::vec3 before = centre + forward, behind = centre - forward;
+        const Emitter rect = emitterOf(RectShape{}, frame);
+        EXPECT_GT(polygonFormFactor(before, -forward, rect.polygons[0]), 0);
+        EXPECT_EQ(polygonFormFactor(behind, forward, rect.polygons[0]), 0);
+        const Emitter disk = emitterOf(DiskShape{}, frame);
+        EXPECT_GT(glm::dot(disk.axis, forward), 0.999f);
+    }
+}
+
+TEST(LightShapes, AreMeshesThatFaceWhereTheyShine) {
+    for (const LightShape& shape : {LightShape(RectShape{}), LightShape(DiskShape{})}) {
+        const MeshData mesh = lightShapeMesh(Light("lamp", shape, Rgb(1.0f)));
+        std::vector<glm::vec3> outline;
+        for (std::int32_t i : mesh.faceVertexIndices)
+            outline.push_back(mesh.points[std::size_t(i)]);
+        EXPECT_GT(polygonFormFactor({0, 0, -1}, {0, 0, 1}, outline), 0);
+        EXPECT_EQ(mesh.materials[0]->reflectance(), Rgb());
+        EXPECT_EQ(mesh.materials[0]->emission(), Rgb(1.0f));
+    }
+    const MeshData sphere = lightShapeMesh(Light("lamp", SphereShape{1}, Rgb(1.0f)));
+    std::size_t first = 0;
+    for (std::int32_t count : sphere.faceVertexCounts) {
+        const auto at = [&](std::size_t k) {
+            return sphere.points[std::size_t(sphere.faceVertexIndices[first + k])];
+        };
+        EXPECT_GT(glm::dot(glm::cross(at(1) - at(0), at(2) - at(0)), at(0)), 0);
+        first += std::size_t(count);
+    }
+}
+
+TEST(PolygonArea, IsExactForAnyPlanarPolygon) {
+    EXPECT_DOUBLE_EQ(polygonArea(std::vector<glm::vec3>{{0, 0, 1}, {2, 0, 1}, {0, 3, 1}}), 3);
+    EXPECT_DOUBLE_EQ(polygonArea(std::vector<glm::vec3>{
+                         {0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}}),
+                     5);
+}
+
+} // namespace
+
+} // namespace penumbra

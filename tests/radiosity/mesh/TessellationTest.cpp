@@ -1,0 +1,234 @@
+// Surfaces in cells and facets: no cracks, the right area, the right limit.
+#include "radiosity/mesh/Tessellation.h"
+#include "tests/support/Scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+#include <tuple>
+
+namespace penumbra {
+
+namespace {
+
+using Place = std::tuple<float, float, float>;
+
+Tessellation cut(const MeshData& data, float patchSize, float elementSize) {
+    bool understood = false;
+    Tessellation result =
+        tessellate(placeSurface(data, glm::dmat4(1.0)), patchSize, elementSize, understood);
+    EXPECT_TRUE(understood);
+    return result;
+}
+
+std::size_t cornersOf(const Facet& facet) {
+    return facet.vertices[2] == facet.vertices[3] ? 3 : 4;
+}
+
+/// Edges that are not gone along once each way, told by the positions of their ends.
+int cracks(const Tessellation& t) {
+    std::map<std::pair<Place, Place>, int> edges;
+    const auto place = [&](std::uint32_t v) {
+        const glm::vec3 p = t.vertices[v].position + glm::vec3(0); // -0 is 0
+        return Place(p.x, p.y, p.z);
+    };
+    for (const Facet& facet : t.facets)
+        for (std::size_t k = 0, n = cornersOf(facet); k < n; ++k) {
+            const Place a = place(facet.vertices[k]), b = place(facet.vertices[(k + 1) % n]);
+            if (a < b)
+                edges[{a, b}] += 1;
+            else
+                edges[{b, a}] += 1000;
+        }
+    int count = 0;
+    for (const auto& [edge, uses] : edges) count += uses != 1001;
+    return count;
+}
+
+double areaOf(const Tessellation& t) {
+    double area = 0;
+    for (const Facet& facet : t.facets) {
+        const auto at = [&](std::size_t k) {
+            return glm::dvec3(t.vertices[facet.vertices[k]].position);
+        };
+        area += 0.5 * glm::length(glm::cross(at(2) - at(0), at(3) - at(1)));
+    }
+    return area;
+}
+
+MeshData meshOf(std::vector<glm::vec3> points, std::vector<std::vector<int>> faces) {
+    MeshData data;
+    data.points = std::move(points);
+    for (const auto& face : faces) {
+        data.faceVertexCounts.push_back(std::int32_t(face.size()));
+        data.faceVertexIndices.insert(data.faceVertexIndices.end(), face.begin(), face.end());
+    }
+    data.materials = {paint(Rgb(0.5f))};
+    return data;
+}
+
+/// An L of 2 x 2 x 1 m with a square of 1 m missing, its ends concave hexagons: area 14.
+MeshData lBlock() {
+    return meshOf({{0, 0, 0},
+                   {2, 0, 0},
+                   {2, 1, 0},
+                   {1, 1, 0},
+                   {1, 2, 0},
+                   {0, 2, 0},
+                   {0, 0, 1},
+                   {2, 0, 1},
+                   {2, 1, 1},
+                   {1, 1, 1},
+                   {1, 2, 1},
+                   {0, 2, 1}},
+                  {{5, 4, 3, 2, 1, 0},
+                   {6, 7, 8, 9, 10, 11},
+                   {0, 1, 7, 6},
+                   {1, 2, 8, 7},
+                   {2, 3, 9, 8},
+                   {3, 4, 10, 9},
+                   {4, 5, 11, 10},
+                   {5, 0, 6, 11}});
+}
+
+/// A prism over a pentagon, one of its sides in two triangles.
+MeshData pentagonPrism() {
+    std::vector<glm::vec3> points;
+    for (int i = 0; i < 10; ++i) {
+        const double angle = 2 * 3.14159265358979 * (i % 5) / 5;
+        points.emplace_back(std::cos(angle), std::sin(angle), i / 5);
+    }
+    return meshOf(points, {{4, 3, 2, 1, 0},
+                           {5, 6, 7, 8, 9},
+                           {0, 1, 6},
+                           {0, 6, 5},
+                           {1, 2, 7, 6},
+                           {2, 3, 8, 7},
+                           {3, 4, 9, 8},
+                           {4, 0, 5, 9}});
+}
+
+MeshData cubeCage() {
+    MeshData cage = boxData({-1, -1, -1}, {1, 1, 1}, false);
+    cage.scheme = SubdivisionScheme::catmullClark;
+    return cage;
+}
+
+/// The cage with the four edges around its top sharpened.
+MeshData creasedCage(float sharpness) {
+    MeshData cage = cubeCage();
+    cage.creases = {{{4, 5, 7, 6, 4}, sharpness}};
+    return cage;
+}
+
+class TessellationSizes : public testing::TestWithParam<std::pair<float, float>> {};
+
+TEST_P(TessellationSizes, LeaveNoCracksInAnyClosedSurface) {
+    const auto [patchSize, elementSize] = GetParam();
+    MeshData prismCage = pentagonPrism();
+    prismCage.scheme = SubdivisionScheme::catmullClark;
+    MeshData corner = cubeCage();
+    corner.corners = {{7, 10}};
+    const std::map<std::string, MeshData> surfaces{
+        {"box", boxData({0, 0, 0}, {2, 1, 0.3f}, false)},
+        {"L", lBlock()},
+        {"pentagonal prism", pentagonPrism()},
+        {"Catmull-Clark cube", cubeCage()},
+        {"Catmull-Clark cube, sharp crease", creasedCage(10)},
+        {"Catmull-Clark cube, soft crease", creasedCage(1.5f)},
+        {"Catmull-Clark cube, sharp corner", corner},
+        {"Catmull-Clark prism", prismCage}};
+    for (const auto& [name, data] : surfaces)
+        EXPECT_EQ(cracks(cut(data, patchSize, elementSize)), 0) << name;
+}
+
+TEST_P(TessellationSizes, KeepTheAreaOfPolygons) {
+    const auto [patchSize, elementSize] = GetParam();
+    EXPECT_NEAR(areaOf(cut(boxData({0, 0, 0}, {2, 1, 0.3f}, false), patchSize, elementSize)), 5.8,
+                1e-4);
+    EXPECT_NEAR(areaOf(cut(lBlock(), patchSize, elementSize)), 14, 1e-4);
+    // 2 pentagons of 5/2 sin 72 and 5 sides of 2 sin 36.
+    EXPECT_NEAR(areaOf(cut(pentagonPrism(), patchSize, elementSize)), 10.633135104, 1e-4);
+}
+
+TEST_P(TessellationSizes, AreKeptByElementsWithinAThird) {
+    // Rates are whole numbers an edge, and inner rows stretch a little: but no facet is far larger
+    // than was asked for.
+    const auto [patchSize, elementSize] = GetParam();
+    for (const MeshData& data : {boxData({0, 0, 0}, {2, 1, 0.3f}, false), cubeCage()}) {
+        const Tessellation t = cut(data, patchSize, elementSize);
+        for (const Facet& facet : t.facets)
+            for (std::size_t k = 0, n = cornersOf(facet); k < n; ++k)
+                EXPECT_LE(glm::distance(t.vertices[facet.vertices[k]].position,
+                                        t.vertices[facet.vertices[(k + 1) % n]].position),
+                          1.34f * elementSize);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, TessellationSizes,
+                         testing::Values(std::pair(5.0f, 5.0f), std::pair(1.0f, 0.4f),
+                                         std::pair(0.37f, 0.11f), std::pair(0.2f, 0.2f)));
+
+TEST(Tessellation, OfACatmullClarkCubeHasTheKnownLimitPositions) {
+    // Halstead, Kass & DeRose 1993: (n^2 v + 4 sum e + sum f)/(n (n + 5)). Corners of a cube of
+    // half-size 1: n = 3, (9 + 4 - 1)/24 = 1/2. Middles of faces, one step on: n = 4,
+    // (16 + 12 + 20/9)/36 = 0.839506.
+    const Tessellation t = cut(cubeCage(), 0.5f, 0.1f);
+    float toCorner = 1e30f, toMiddle = 1e30f;
+    for (const SurfacePoint& vertex : t.vertices) {
+        toCorner = std::min(toCorner, glm::distance(vertex.position, glm::vec3(0.5f)));
+        toMiddle = std::min(toMiddle, glm::distance(vertex.position, {0, 0, 0.839506f}));
+    }
+    EXPECT_LT(toCorner, 1e-5f);
+    EXPECT_LT(toMiddle, 1e-5f);
+}
+
+TEST(Tessellation, OfACageWithAllEdgesSharpIsTheCageItself) {
+    MeshData cage = cubeCage();
+    for (const auto& face : kBoxFacesInwards)
+        for (std::size_t k = 0; k < 4; ++k)
+            cage.creases.push_back({{std::int32_t(face[k]), std::int32_t(face[(k + 1) % 4])}, 10});
+    EXPECT_NEAR(areaOf(cut(cage, 0.5f, 0.25f)), 24, 1e-4);
+}
+
+TEST(Tessellation, SharesVerticesWhereTheSurfaceIsSmoothOnly) {
+    // A flat sheet in two faces is one grid; a box keeps three vertices at each corner.
+    const MeshData sheet =
+        meshOf({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}},
+               {{0, 1, 4, 3}, {1, 2, 5, 4}});
+    EXPECT_EQ(cut(sheet, 1, 0.5f).vertices.size(), 5u * 3);
+    EXPECT_EQ(cut(boxData({0, 0, 0}, {1, 1, 1}, false), 1, 1).vertices.size(), 24u);
+    const Tessellation smooth = cut(cubeCage(), 1, 0.2f);
+    std::set<Place> places;
+    for (const SurfacePoint& vertex : smooth.vertices)
+        places.emplace(vertex.position.x, vertex.position.y, vertex.position.z);
+    EXPECT_EQ(smooth.vertices.size(), places.size());
+}
+
+TEST(Tessellation, PutsEachFacetIntoTheCellThatItLiesIn) {
+    const Tessellation t = cut(floorData(0, 2, 0, 1, 0), 0.5f, 0.25f);
+    ASSERT_EQ(t.cells.size(), 8u);
+    EXPECT_EQ(t.facets.size(), 32u);
+    for (const Facet& facet : t.facets) {
+        const auto* const q = t.outline.data() + t.cells[facet.cell].firstCorner;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const glm::vec2 st = facet.st[k];
+            const glm::vec3 p =
+                glm::mix(glm::mix(q[0], q[1], st.x), glm::mix(q[3], q[2], st.x), st.y);
+            EXPECT_LT(glm::distance(p, t.vertices[facet.vertices[k]].position), 1e-5f);
+        }
+    }
+}
+
+TEST(Tessellation, HasUnitNormalsThatPointOutwards) {
+    for (const MeshData& data : {boxData({-1, -1, -1}, {1, 1, 1}, false), cubeCage()})
+        for (const SurfacePoint& vertex : cut(data, 0.5f, 0.2f).vertices) {
+            EXPECT_NEAR(glm::length(vertex.normal), 1, 1e-5f);
+            EXPECT_GT(glm::dot(vertex.normal, vertex.position), 0);
+        }
+}
+
+} // namespace
+
+} // namespace penumbra

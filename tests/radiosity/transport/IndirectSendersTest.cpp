@@ -1,0 +1,137 @@
+// Light of far patches comes by their clusters, and all of it comes once.
+#include "radiosity/transport/IndirectSenders.h"
+#include "tests/support/Scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace penumbra {
+
+namespace {
+
+constexpr MeshingOptions kFine{.patchSize = 0.1f, .elementSize = 0.1f};
+
+Scene furnishedRoom() {
+    const auto box = std::make_shared<Mesh>(
+        "mesh", boxData({-0.2f, -0.3f, 0}, {0.2f, 0.3f, 0.5f}, false, paint({0.8f, 0.3f, 0.2f})));
+    const auto chair = movable("chair", {box});
+    chair->setMatrix(moved(0.6, 0.5, 0));
+    return sceneOf(
+        {object("room", boxData({-1, -1, 0}, {1, 1, 2}, true, paint({0.7f, 0.6f, 0.5f}))), chair,
+         object("board", boxData({-0.6f, -0.5f, 0.4f}, {-0.2f, 0.5f, 0.5f}, false)),
+         ceilingLight({0, 0, 1.99f}, 0.8f, 0.6f, {10, 9, 8})});
+}
+
+class SendersOfARoom : public testing::Test {
+protected:
+    SendersOfARoom() {
+        for (std::size_t b = 0; b * PatchSet::kBlock < set().nodes.size(); ++b) {
+            Bounds box;
+            for (std::size_t n = b * PatchSet::kBlock; n < (b + 1) * PatchSet::kBlock; ++n)
+                if (!isPadding(set().nodes[n])) box.add(set().nodes[n].position);
+            blocks.append(box);
+        }
+    }
+    const PatchSet& set() const { return built.patches; }
+
+    Scene scene = furnishedRoom();
+    BuiltPatches built = meshed(scene, kFine);
+    IndirectSenders senders{built.patches, 0};
+    BoundsTree blocks;
+};
+
+TEST_F(SendersOfARoom, GiveEachBlockTheLightOfEachPatchOnce) {
+    std::size_t links = 0;
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+        for (std::uint32_t p = 0; p < senders.patchCount(); ++p) {
+            int linked = 0;
+            for (std::uint32_t s = p; s != Clusters::kNone; s = senders.parent(s))
+                linked += senders.linked(s, blocks[b]);
+            ASSERT_EQ(linked, 1) << "patch " << p << " onto block " << b;
+        }
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+        senders.forEachLinked(blocks[b], [&](std::uint32_t) { ++links; });
+    EXPECT_LT(links, blocks.size() * senders.patchCount() / 2); // it pays
+}
+
+TEST_F(SendersOfARoom, AreLinkedToTheSameBlocksFromEitherSide) {
+    std::vector<std::vector<std::uint32_t>> bySender(senders.count());
+    for (std::uint32_t b = 0; b < blocks.size(); ++b)
+        senders.forEachLinked(blocks[b], [&](std::uint32_t s) { bySender[s].push_back(b); });
+    for (std::uint32_t s = 0; s < senders.count(); ++s)
+        EXPECT_EQ(senders.linkedBlocks(s, blocks), bySender[s]) << "sender " << s;
+}
+
+TEST_F(SendersOfARoom, SendWhatTheirPatchesDoOnAverage) {
+    std::vector<glm::dvec3> values;
+    for (std::uint32_t p = 0; p < senders.patchCount(); ++p)
+        values.emplace_back(double(set().patches[p].centre.x), 1, double(p % 7));
+    const std::vector<SenderLight> light = senders.average(values);
+    std::vector<double> sum(senders.count()), area(senders.count());
+    for (std::uint32_t p = 0; p < senders.patchCount(); ++p) {
+        EXPECT_EQ(light[p][2], values[p]);
+        for (std::uint32_t s = senders.parent(p); s != Clusters::kNone; s = senders.parent(s)) {
+            sum[s] += double(senders.area(p)) * values[p].x;
+            area[s] += double(senders.area(p));
+        }
+    }
+    for (std::uint32_t s = senders.patchCount(); s < senders.count(); ++s) {
+        EXPECT_NEAR(area[s], double(senders.area(s)), 1e-5 * area[s]);
+        glm::dvec3 mean(0);
+        for (const glm::dvec3& quarter : light[s]) {
+            EXPECT_NEAR(quarter.y, 1, 1e-6);
+            mean += 0.25 * quarter;
+        }
+        EXPECT_NEAR(mean.x, sum[s] / area[s], 0.1); // quarters are of about the same area
+    }
+}
+
+TEST_F(SendersOfARoom, StandWhereAnObjectWasBuiltInPlace) {
+    // Moved there, a chair sends from the same boxes as if it had been there from the start.
+    const std::vector<std::uint32_t> before = senders.linkedBlocks(senders.count() - 1, blocks);
+    const ObjectId chair = senders.object(senders.count() - 1);
+    ASSERT_TRUE(set().objects[chair.value].movable);
+    const Pose there = placementOf(glm::rotate(moved(-0.5, -0.6, 0.8), 0.7, {0, 0, 1})).pose;
+    const Pose here = set().objects[chair.value].pose;
+    placeObject(built.patches, chair, there);
+    senders.place(chair);
+    const IndirectSenders fresh(set(), 0);
+    for (std::uint32_t s = 0; s < senders.count(); ++s) {
+        EXPECT_EQ(senders.box(s).lower, fresh.box(s).lower);
+        EXPECT_EQ(senders.box(s).upper, fresh.box(s).upper);
+    }
+    placeObject(built.patches, chair, here);
+    senders.place(chair);
+    EXPECT_EQ(senders.linkedBlocks(senders.count() - 1, blocks), before);
+}
+
+TEST(IndirectSenders, OfASmallSceneArePatchesAlone) {
+    const BuiltPatches built = meshed(furnishedRoom(), kFine);
+    const IndirectSenders senders(built.patches, built.patches.patches.size());
+    EXPECT_EQ(senders.count(), senders.patchCount());
+}
+
+TEST(IndirectSenders, ByTheirClustersLightARoomAsPatchesDo) {
+    // Clusters differ by what light changes within a quarter of one: less than 1 %.
+    const Scene scene = furnishedRoom();
+    const PlacedScene placed = placeScene(scene);
+    double power[2] = {};
+    std::size_t entries[2] = {};
+    for (int clustered = 0; clustered < 2; ++clustered) {
+        SolverOptions options{.residual = 1e-5};
+        if (clustered) options.flatPatches = 0;
+        LitScene lit(placed, kFine, options);
+        lit.solver().settle();
+        const std::vector<Rgb> radiosity = lit.solver().radiosity();
+        for (std::size_t p = 0; p < radiosity.size(); ++p)
+            power[clustered] += double(lit.patches().patches[p].area * radiosity[p].g);
+        entries[clustered] = lit.solver().statistics().entries;
+    }
+    EXPECT_NEAR(power[1] / power[0], 1, 0.005);
+    EXPECT_LT(entries[1], entries[0] * 2 / 3);
+}
+
+} // namespace
+
+} // namespace penumbra

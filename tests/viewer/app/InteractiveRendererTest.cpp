@@ -1,0 +1,156 @@
+// The walkthrough's pictures: InteractiveRenderer with HdrTarget, TonePass and LuminanceMeter.
+#include "tests/viewer/gl/LitScenes.h"
+
+#include "io/image/PngWriter.h"
+#include "scenegraph/Mesh.h"
+#include "viewer/app/InteractiveRenderer.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace penumbra {
+
+namespace {
+
+class InteractiveRendererTest : public WithContext {
+protected:
+    static constexpr int kSize = 48;
+
+    void draw(InteractiveRenderer& interactive, const View& view) {
+        interactive.drawScene(listVisible(root, Frustum(view.worldToClip())), view, preview, kSize,
+                              kSize);
+    }
+    UnlitLighting preview;
+};
+
+const InteractiveOptions kExact{.samples = 1, .precision = HdrTarget::Precision::single};
+
+/// A square with a material of its own, facing +z.
+std::shared_ptr<Mesh> paintedSquare(Rgb reflectance) {
+    MeshData data;
+    data.points = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    data.faceVertexCounts = {4};
+    data.faceVertexIndices = {0, 1, 2, 3};
+    data.materials = {std::make_shared<Material>("paint")};
+    data.materials[0]->setReflectance(reflectance);
+    return std::make_shared<Mesh>("square", std::move(data));
+}
+
+TEST_F(InteractiveRendererTest, DrawsTheLuminancesThatTheFrameRendererDraws) {
+    LitMeshData data = litSquare({kRho, {3, 2, 1}});
+    for (std::size_t i = 0; i < 4; ++i) data.direct[i] = Rgb(50 + 20 * float(i));
+    root.add(placed(moved(0.3, 0.1, 0), litNode(std::move(data))));
+    const View view = viewFrom(1.7, kSize, kSize);
+    InteractiveRenderer interactive(kExact);
+    draw(interactive, view);
+    const std::vector<Rgb> screen = interactive.readLuminances();
+    Renderer still({.samples = 1});
+    const FrameLayers frame = renderFrame(*context, still, root, view, kSize, kSize);
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x)
+            expectNear(screen[frame.index(x, kSize - 1 - y)], frame.beauty[frame.index(x, y)],
+                       1e-5f);
+    EXPECT_EQ(interactive.statistics().lit, 1u);
+    EXPECT_EQ(interactive.statistics().uploads, 1u);
+    draw(interactive, view);
+    EXPECT_EQ(interactive.statistics().uploads, 0u) << "uploaded once";
+}
+
+TEST_F(InteractiveRendererTest, WhatIsNotLitYetIsSeenByHeadlightAndLights) {
+    // Head on: ambient / 2 + ambient / 2; a lamp of 9 cd at 3 m without area gives 1 lux.
+    root.add(paintedSquare(kRho));
+    preview.ambient = Rgb(10);
+    preview.lights.push_back({{0, 0, 3}, {0, 0, -1}, Rgb(9), 0});
+    InteractiveRenderer interactive(kExact);
+    draw(interactive, viewFrom(2, kSize + 1, kSize + 1));
+    const std::vector<Rgb> screen = interactive.readLuminances();
+    const Rgb centre = screen[std::size_t(kSize / 2) * kSize + kSize / 2];
+    expectNear(centre, kRho * (11 / 3.14159265f), 2e-3f);
+    EXPECT_EQ(interactive.statistics().unlit, 1u);
+}
+
+TEST_F(InteractiveRendererTest, TheBackOfAnUnlitSheetIsNotDrawnUnlessItIsDoubleSided) {
+    MeshData both = paintedSquare(kRho)->data();
+    both.doubleSided = true;
+    const auto turned = glm::rotate(glm::dmat4(1.0), 3.14159265358979, glm::dvec3(0, 1, 0));
+    auto place = placed(turned, paintedSquare(kRho));
+    root.add(place);
+    preview.ambient = Rgb(10);
+    InteractiveRenderer interactive(kExact);
+    const std::size_t centre = std::size_t(kSize / 2) * kSize + kSize / 2;
+    draw(interactive, viewFrom(2, kSize, kSize));
+    EXPECT_EQ(interactive.readLuminances()[centre], Rgb());
+    place->add(std::make_shared<Mesh>("both", both));
+    draw(interactive, viewFrom(2, kSize, kSize));
+    EXPECT_GT(interactive.readLuminances()[centre].g, 0);
+}
+
+TEST_F(InteractiveRendererTest, LightsAndBackgroundDoNotCountForExposure) {
+    LitMeshData wall = litSquare(); // 0.25 / pi * 205 = 16.31 nit of green
+    LitMeshData emissive = litSquare({Rgb(0), Rgb(5000)});
+    root.add(placed(moved(-0.5, 0, 0), litNode(std::move(wall))));
+    root.add(placed(moved(1.2, 0, 0.2), litNode(std::move(emissive))));
+    InteractiveRenderer interactive(kExact);
+    draw(interactive, viewFrom(2, kSize, kSize));
+    const auto luminances = interactive.luminances(true);
+    ASSERT_TRUE(luminances);
+    ASSERT_GT(luminances->size(), 100u);
+    const float expected = luminance(kRho * (kDirect + kIndirect)) / 3.14159265f;
+    for (const float y : *luminances) EXPECT_NEAR(y, expected, 1e-2f * expected);
+    EXPECT_FALSE(interactive.luminances()) << "each measurement is given once";
+}
+
+TEST_F(InteractiveRendererTest, TheScreenShowsWhatTheToneCurveSays) {
+    // Against the same curve, transfer function and dithering on the processor: no pixel differs
+    // by more than a step, and hardly any by that, which is rounding.
+    LitMeshData data = litSquare();
+    for (std::size_t i = 0; i < 4; ++i) data.direct[i] = Rgb(float(i) * 700, 40 * float(3 - i), 9);
+    root.add(litNode(std::move(data)));
+    InteractiveRenderer interactive(kExact);
+    draw(interactive, viewFrom(0.9, kSize, kSize));
+    const std::vector<Rgb> luminances = interactive.readLuminances();
+    for (const ToneStyle style : {ToneStyle::agx, ToneStyle::aces, ToneStyle::srgb}) {
+        HdrTarget display(kSize, kSize, 1, HdrTarget::Precision::single); // any framebuffer
+        display.begin(0);
+        GLint framebuffer = 0;
+        glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
+        const float middleGrey = 20;
+        interactive.show(unsigned(framebuffer), middleGrey, style);
+        const std::vector<Rgb> signal = display.read();
+        const ToneCurve curve(style);
+        std::vector<Rgb> shown;
+        for (const Rgb& c : luminances)
+            shown.push_back(curve.shown(c * (kMiddleGrey / middleGrey)));
+        const std::vector<std::uint8_t> expected = displayBytes(shown, kSize);
+        std::size_t differ = 0;
+        for (std::size_t i = 0; i < signal.size(); ++i) {
+            const float channels[] = {signal[i].r, signal[i].g, signal[i].b};
+            for (std::size_t c = 0; c < 3; ++c) {
+                const float level = 255 * channels[c];
+                EXPECT_NEAR(level, std::round(level), 1e-3f) << "whole steps";
+                EXPECT_NEAR(level, expected[3 * i + c], 1.01f);
+                differ += std::abs(level - float(expected[3 * i + c])) > 0.5f;
+            }
+        }
+        EXPECT_LT(differ, signal.size() / 50) << kToneStyleNames[std::size_t(style)];
+    }
+}
+
+TEST_F(InteractiveRendererTest, MultisamplingAveragesLightAtEdges) {
+    root.add(placed(moved(0.013, 0, 0), litNode(litSquare())));
+    InteractiveRenderer interactive({.samples = 4});
+    draw(interactive, viewFrom(2, kSize, kSize));
+    const std::vector<Rgb> screen = interactive.readLuminances();
+    std::vector<float> greens;
+    for (int x = 0; x < kSize; ++x) greens.push_back(screen[std::size_t(24 * kSize + x)].g);
+    const float full = *std::max_element(greens.begin(), greens.end());
+    const auto between = std::count_if(greens.begin(), greens.end(),
+                                       [&](float g) { return g > 0.1f * full && g < 0.9f * full; });
+    EXPECT_GE(between, 1);
+}
+
+} // namespace
+
+} // namespace penumbra

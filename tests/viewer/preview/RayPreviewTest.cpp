@@ -1,0 +1,165 @@
+// Light brought up to date by rays, corner by corner, against radiosity where things stand now.
+#include "viewer/preview/RayPreview.h"
+
+#include "tests/viewer/preview/PreviewScenes.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace penumbra {
+
+namespace {
+
+RadiosityOptions directRoom() {
+    RadiosityOptions options = fineRoom();
+    options.meshing = {.patchSize = 0.8f, .elementSize = 0.2f};
+    options.solving.samples = 16;
+    options.solving.directOnly = true;
+    return options;
+}
+
+/// The box stands on the floor, askew to its elements.
+glm::dmat4 posed(double x, double y, double angle) {
+    return glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(x, y, 0)), angle,
+                       glm::dvec3(0, 0, 1));
+}
+
+/// A room in which the box stands somewhere, settled.
+struct PosedRoom : PreviewRoom {
+    explicit PosedRoom(const glm::dmat4& place) : PreviewRoom(directRoom()) {
+        room.box->setMatrix(place);
+        settleAndShow();
+    }
+    void settleAndShow() {
+        EXPECT_TRUE(settle());
+        show(ownLight);
+        for (const LitObject& object : room.node->objects())
+            for (std::size_t v = 0; v < object.geometry->data().positions.size(); ++v)
+                shown[object.geometry.get()].factors[v] =
+                    LightFactors(object.geometry->data().direct[v].r / exitance().r);
+    }
+
+protected:
+    PosedRoom() : PreviewRoom(directRoom()) {}
+
+public:
+    RayPreview vertices{directRoom().solving.samples, [this] { return room.node->patches(); }};
+    RayPreview::ShownOf shownOf() {
+        return [this](const LitGeometry& geometry) { return &shown[&geometry]; };
+    }
+};
+
+/// The same with a movable mesh that shines in place of the lamp.
+struct GlowingRoom : PosedRoom {
+    GlowingRoom(const glm::dmat4& place, const glm::dmat4& panels) {
+        const auto glow = paint(Rgb(), Rgb(40));
+        const auto mesh = std::make_shared<Mesh>("mesh", twoPanels(glow, glow));
+        const auto thing = movable("panels", {mesh});
+        thing->setMatrix(panels);
+        room.node->add(thing);
+        room.light->setLuminance(Rgb());
+        room.box->setMatrix(place);
+        source = "/panels/mesh";
+        settleAndShow();
+        EXPECT_EQ(sceneState()->lights[0].size(), 2u) << "emitters";
+    }
+};
+
+/// The direct light of all corners of triangles as they are drawn.
+std::vector<float> drawnLight(const LitGeometry& geometry, const ShownLight* brought) {
+    const LitMeshData& data = geometry.data();
+    std::vector<std::uint32_t> indices = data.indices;
+    if (brought)
+        for (const auto& [entry, copy] : brought->redrawn)
+            indices[entry] = std::uint32_t(data.positions.size()) + copy;
+    std::vector<float> light;
+    for (const std::uint32_t v : indices)
+        light.push_back((brought ? brought->direct : data.direct)[v].r);
+    return light;
+}
+
+/// Corners at which the light of `before`, brought to where the box stands in `after`, is not what
+/// radiosity has there.
+std::size_t differing(PosedRoom& before, PosedRoom& after, SceneStatePtr then = nullptr) {
+    if (!then) then = before.sceneState();
+    before.vertices.update(before.preview(after.sceneState(), then), before.shownOf());
+    std::size_t wrong = 0;
+    const auto objects = before.room.node->objects();
+    for (std::size_t o = 0; o < objects.size(); ++o) {
+        const LitGeometry& geometry = *objects[o].geometry;
+        const std::vector<float> is = drawnLight(geometry, before.vertices.shown(geometry));
+        const std::vector<float> shouldBe =
+            drawnLight(*after.room.node->objects()[o].geometry, nullptr);
+        EXPECT_EQ(is.size(), shouldBe.size());
+        for (std::size_t i = 0; i < std::min(is.size(), shouldBe.size()); ++i) {
+            if (std::abs(is[i] - shouldBe[i]) <= 3e-3f * std::max(is[i], shouldBe[i]) + 1e-3f)
+                continue;
+            if (wrong++ > 4) continue;
+            const glm::vec3 at = geometry.data().positions[geometry.data().indices[i]];
+            ADD_FAILURE() << objects[o].path << " at (" << at.x << ", " << at.y << ", " << at.z
+                          << "): " << is[i] << " for " << shouldBe[i];
+        }
+    }
+    return wrong;
+}
+
+TEST(RayPreview, AThingThatStandsOnTheFloorHasItsContactsWhereverItIsPut) {
+    PosedRoom before(posed(0.3, 0.2, 0.3)), after(posed(-0.53, 0.61, 0.8));
+    EXPECT_EQ(differing(before, after), 0u);
+}
+
+TEST(RayPreview, AThingThatIsLiftedUncoversWhatItStoodOn) {
+    PosedRoom before(posed(0.3, 0.2, 0.3));
+    PosedRoom after(glm::translate(glm::dmat4(1.0), glm::dvec3(0.3, 0.2, 0.7)));
+    EXPECT_EQ(differing(before, after), 0u);
+}
+
+TEST(RayPreview, AThingThatIsPutDownTouchesTheFloor) {
+    PosedRoom before(glm::translate(glm::dmat4(1.0), glm::dvec3(0.3, 0.2, 0.7)));
+    PosedRoom after(posed(0.3, 0.2, 0.3));
+    EXPECT_EQ(differing(before, after), 0u);
+}
+
+TEST(RayPreview, AThingThatIsDraggedAlongLeavesNoTrace) {
+    // Frame by frame, with what was found for the frames before.
+    PosedRoom before(posed(0.3, 0.2, 0.3)), after(posed(-0.53, 0.61, 0.8));
+    const SceneStatePtr then = before.sceneState();
+    for (double way = 0.1; way < 1; way += 0.2) {
+        SceneState now = *then;
+        for (std::size_t o = 0; o < now.objects.size(); ++o)
+            if (before.room.node->objects()[o].path == "/box")
+                now.objects[o].toWorld =
+                    posed(0.3 - 0.83 * way, 0.2 + 0.41 * way, 0.3 + 0.5 * way) *
+                    before.room.node->objects()[o].toObject;
+        before.vertices.update(before.preview(std::make_shared<SceneState>(now), then),
+                               before.shownOf());
+    }
+    EXPECT_EQ(differing(before, after), 0u);
+}
+
+TEST(RayPreview, AThingThatMovesShadesAMeshThatShinesAsRadiosityHasIt) {
+    const glm::dmat4 hung = glm::translate(glm::dmat4(1.0), glm::dvec3(0.2, 0.3, 0));
+    GlowingRoom before(posed(0.3, 0.2, 0.3), hung), after(posed(-0.53, 0.61, 0.8), hung);
+    EXPECT_EQ(differing(before, after), 0u);
+}
+
+TEST(RayPreview, AMeshThatShinesTakesItsLightAlong) {
+    const glm::dmat4 box = posed(0.3, 0.2, 0.3);
+    GlowingRoom before(box, glm::translate(glm::dmat4(1.0), glm::dvec3(0.2, 0.3, 0)));
+    GlowingRoom after(box, posed(-0.4, -0.3, 0.7));
+    EXPECT_EQ(differing(before, after), 0u);
+}
+
+TEST(RayPreview, AMoveGoesOnFromWhatWasMadeReadyAtRest) {
+    PosedRoom before(posed(0.3, 0.2, 0.3)), after(posed(-0.53, 0.61, 0.8));
+    const SceneStatePtr then = before.sceneState();
+    PreviewLighting expected = before.preview(then, then);
+    expected.anchors.clear();
+    for (std::size_t o = 0; o < expected.objects.size(); ++o)
+        expected.objects[o].moves = before.room.node->objects()[o].path == "/box";
+    before.vertices.rest(expected, before.shownOf());
+    EXPECT_EQ(differing(before, after, then), 0u);
+}
+
+} // namespace
+
+} // namespace penumbra

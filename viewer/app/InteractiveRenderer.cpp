@@ -1,0 +1,231 @@
+#include "viewer/app/InteractiveRenderer.h"
+
+#include "base/Error.h"
+#include "scenegraph/Light.h"
+#include "scenegraph/LitGeometry.h"
+#include "scenegraph/Mesh.h"
+#include "viewer/gl/DrawState.h"
+#include "viewer/gl/LitItem.h"
+#include "viewer/gl/LuminanceMeter.h"
+#include "viewer/gl/Shaders.h"
+#include "viewer/gl/TonePass.h"
+#include "viewer/gl/UnlitGeometry.h"
+#include "viewer/overlay/OverlayPass.h"
+#include "viewer/overlay/OverlayTarget.h"
+#include "viewer/preview/DrawList.h"
+#include "viewer/shadowmaps/MapPreview.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cassert>
+#include <map>
+#include <utility>
+
+namespace penumbra {
+
+namespace {
+
+/// The lamps as the preview shader wants them, in the frame of the camera.
+void setPreviewLighting(const ShaderProgram& program, const UnlitLighting& lighting,
+                        const View& view) {
+    std::vector<glm::vec4> places, axes, intensities;
+    for (const UnlitLight& source : lighting.lights) {
+        const glm::dvec3 place(view.worldToCamera * glm::dvec4(source.position, 1));
+        const glm::dvec3 axis = glm::dmat3(view.worldToCamera) * source.axis;
+        places.emplace_back(glm::vec3(place), source.area);
+        axes.emplace_back(glm::vec3(axis), 0);
+        intensities.emplace_back(source.intensity.r, source.intensity.g, source.intensity.b, 0);
+    }
+    program.set("lampCount", int(lighting.lights.size()));
+    program.set("lampPlaces", places);
+    program.set("lampAxes", axes);
+    program.set("lampIntensities", intensities);
+    program.set("ambient", lighting.ambient);
+}
+
+} // namespace
+
+struct InteractiveRenderer::Impl {
+    explicit Impl(const InteractiveOptions& wanted) : options(wanted) {}
+
+    void requireTarget(int width, int height);
+    void drawLit(const std::vector<LitItem>& items);
+    void drawPreviewed(const std::vector<LitItem>& items);
+    void setMaterial(const LitItem& item, const MaterialRange& range);
+    void drawUnlit(const std::vector<UnlitItem>& items, const View& view,
+                   const UnlitLighting& lighting);
+    void drawUnlitItem(const UnlitItem& item, const View& view);
+    void drawOverlay(const std::vector<LitItem>& items);
+
+    InteractiveOptions options;
+    bool reversed = canReverseDepth();
+    ShaderProgram litProgram{kLitVertexShader, kScreenFragmentShader};
+    ShaderProgram previewProgram{kPreviewVertexShader, kPreviewFragmentShader};
+    std::optional<MapPreview> mapPreview; ///< when it is needed first
+    GeometryCache litCache;
+    UnlitCache previewCache;
+    std::optional<HdrTarget> target;
+    LuminanceMeter meter;
+    TonePass tonePass;
+    OverlayPass overlayPass;
+    OverlayPicture overlay;
+    std::optional<OverlayTarget> overlayTarget; ///< while there is an overlay
+    InteractiveStatistics statistics;
+};
+
+void InteractiveRenderer::Impl::requireTarget(int width, int height) {
+    if (target && target->width() == width && target->height() == height) return;
+    overlayTarget.reset();
+    target.reset(); // first: two may be more than the card can hold
+    target.emplace(width, height, options.samples, options.precision);
+}
+
+void InteractiveRenderer::Impl::setMaterial(const LitItem& item, const MaterialRange& range) {
+    const LitMaterial& material = item.geometry->data().materials[range.material];
+    litProgram.set("reflectance", material.reflectance);
+    litProgram.set("emission", material.emission);
+}
+
+void InteractiveRenderer::Impl::drawLit(const std::vector<LitItem>& items) {
+    litProgram.use();
+    for (const LitItem& item : items) {
+        setPose(litProgram, item.place);
+        item.gpu->bind();
+        for (const MaterialRange& range : item.gpu->ranges()) {
+            setMaterial(item, range);
+            drawRange(range);
+        }
+    }
+}
+
+/// The same, but triangles that a live change of light may reach are drawn by the live pass.
+void InteractiveRenderer::Impl::drawPreviewed(const std::vector<LitItem>& items) {
+    std::vector<MapPreview::Runs> preview;
+    litProgram.use();
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        const LitItem& item = items[i];
+        std::vector<IndexRuns> plain(item.gpu->ranges().size());
+        std::map<std::pair<std::size_t, unsigned>, IndexRuns> reached; // by range and lamps
+        for (const TriangleChunk& chunk : item.gpu->chunks()) {
+            const unsigned lights = mapPreview->reaching(item, chunk);
+            IndexRuns& runs = lights == 0 ? plain[chunk.range] : reached[{chunk.range, lights}];
+            runs.add(chunk.firstIndex, chunk.indexCount);
+        }
+        for (auto& [by, runs] : reached)
+            preview.push_back({i, by.first, by.second, std::move(runs)});
+        setPose(litProgram, item.place);
+        item.gpu->bind();
+        for (std::size_t r = 0; r < plain.size(); ++r) {
+            if (plain[r].empty()) continue;
+            setMaterial(item, item.gpu->ranges()[r]);
+            plain[r].draw();
+        }
+    }
+    mapPreview->draw(items, preview);
+}
+
+void InteractiveRenderer::Impl::drawUnlit(const std::vector<UnlitItem>& items, const View& view,
+                                          const UnlitLighting& lighting) {
+    if (items.empty()) return;
+    previewProgram.use();
+    setPreviewLighting(previewProgram, lighting, view);
+    for (const UnlitItem& item : items) drawUnlitItem(item, view);
+}
+
+void InteractiveRenderer::Impl::drawUnlitItem(const UnlitItem& item, const View& view) {
+    const UnlitGeometry& geometry = previewCache.get(item);
+    setPose(previewProgram, DrawPose(item.toWorld, view, reversed));
+    const bool doubleSided = item.mesh && item.mesh->data().doubleSided;
+    (doubleSided ? glDisable : glEnable)(GL_CULL_FACE);
+    geometry.bind();
+    for (const MaterialRange& range : geometry.ranges()) {
+        const Material* const material =
+            item.mesh ? item.mesh->data().materials[range.material].get() : nullptr;
+        previewProgram.set("reflectance", material ? material->reflectance() : Rgb());
+        previewProgram.set("emission", material ? material->emission() : item.light->luminance());
+        drawRange(range);
+    }
+    if (doubleSided) glEnable(GL_CULL_FACE);
+}
+
+void InteractiveRenderer::Impl::drawOverlay(const std::vector<LitItem>& items) {
+    if (overlay.empty()) {
+        overlayTarget.reset();
+        return;
+    }
+    if (!overlayTarget) overlayTarget.emplace(*target);
+    overlayTarget->begin();
+    overlayPass.draw(overlay, items, reversed);
+    overlayTarget->resolve();
+}
+
+InteractiveRenderer::InteractiveRenderer(const InteractiveOptions& options)
+    : impl_(std::make_unique<Impl>(options)) {}
+
+InteractiveRenderer::~InteractiveRenderer() = default;
+
+void InteractiveRenderer::drawScene(const DrawList& list, const View& view,
+                                    const UnlitLighting& unlit, int width, int height,
+                                    const PreviewLighting& preview) {
+    assert(width > 0 && height > 0);
+    Impl& impl = *impl_;
+    impl.requireTarget(width, height);
+    impl.litCache.dropDead();
+    impl.overlayPass.dropDead();
+    const std::size_t lightBytes = impl.litCache.lightBytes();
+    impl.previewCache.dropDead();
+    const std::size_t uploads = impl.litCache.uploads();
+    const std::size_t lightUploads = impl.litCache.lightUploads();
+    const std::vector<LitItem> lit = prepareLit(list, view, impl.reversed, impl.litCache);
+    if (preview.active()) {
+        if (!impl.mapPreview) impl.mapPreview.emplace();
+        impl.mapPreview->prepare(preview, impl.litCache);
+    }
+    {
+        const DrawState state(impl.reversed);
+        impl.target->begin(state.clearDepth());
+        if (preview.active())
+            impl.drawPreviewed(lit);
+        else
+            impl.drawLit(lit);
+        impl.drawUnlit(list.unlit, view, unlit);
+        impl.drawOverlay(lit);
+    }
+    impl.target->resolve();
+    impl.meter.measure(impl.target->texture());
+    impl.statistics = {lit.size(),
+                       list.unlit.size(),
+                       list.culled,
+                       impl.litCache.uploads() - uploads,
+                       impl.litCache.lightUploads() - lightUploads,
+                       impl.litCache.lightBytes() - lightBytes,
+                       preview.active() ? impl.mapPreview->statistics().maps : 0};
+}
+
+void InteractiveRenderer::setOverlay(OverlayPicture overlay) {
+    impl_->overlay = std::move(overlay);
+}
+
+void InteractiveRenderer::show(unsigned framebuffer, float middleGrey, ToneStyle style) {
+    assert(impl_->target);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, impl_->target->width(), impl_->target->height());
+    impl_->tonePass.draw(impl_->target->texture(), middleGrey, style,
+                         impl_->overlayTarget ? impl_->overlayTarget->texture() : 0);
+}
+
+std::optional<std::vector<float>> InteractiveRenderer::luminances(bool wait) {
+    return impl_->meter.take(wait);
+}
+
+std::vector<Rgb> InteractiveRenderer::readLuminances() const {
+    assert(impl_->target);
+    return impl_->target->read();
+}
+
+const InteractiveStatistics& InteractiveRenderer::statistics() const {
+    return impl_->statistics;
+}
+
+} // namespace penumbra

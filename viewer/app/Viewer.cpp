@@ -1,0 +1,458 @@
+#include "viewer/app/Viewer.h"
+
+#include "base/Error.h"
+#include "radiosity/process/ProcessLink.h"
+#include "radiosity/query/LightProbe.h"
+#include "viewer/app/FileWatcher.h"
+#include "viewer/app/InteractiveRenderer.h"
+#include "viewer/app/PictureSaver.h"
+#include "viewer/app/Replay.h"
+#include "viewer/app/SessionFile.h"
+#include "viewer/app/Signals.h"
+#include "viewer/app/ViewerSettings.h"
+#include "viewer/app/WalkLight.h"
+#include "viewer/input/SceneLoader.h"
+#include "viewer/input/Walkthrough.h"
+#include "viewer/input/Window.h"
+#include "viewer/overlay/OverlayViews.h"
+#include "viewer/panels/GuiLayer.h"
+#include "viewer/panels/PanelState.h"
+#include "viewer/panels/Panels.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <thread>
+#include <utility>
+
+namespace penumbra {
+
+namespace {
+
+constexpr double kLongestStep = 0.1;   // after a stall things don't jump further than this [s]
+constexpr double kIdlePoll = 1.0 / 60; // how long a picture that does not change is kept [s]
+constexpr int kAfterglow = 3;          // pictures that follow the last event: panels need some
+
+using Clock = std::chrono::steady_clock;
+
+/// Pictures by the processor: what costs little on a graphics card counts there.
+bool drawnInSoftware(const Window& window) {
+    const std::string name = window.renderer();
+    return name.find("llvmpipe") != name.npos || name.find("softpipe") != name.npos ||
+           name.find("SwiftShader") != name.npos;
+}
+
+class Viewer {
+public:
+    explicit Viewer(const ViewerOptions& options);
+    ~Viewer();
+    Viewer(const Viewer&) = delete;
+    Viewer& operator=(const Viewer&) = delete;
+
+    void run();
+
+private:
+    void takeEvents();
+    void perform(const Command& command);
+    void doAsAsked();
+    void takeScene();
+    void openScene(ReadyScene ready);
+    void lightScene();
+    void reload();
+    void advance(double seconds);
+    void draw(double seconds);
+    void drawPanelsOver();
+    void save();
+    void showTitle();
+    bool changing() const;
+    bool overlayChanging() const;
+    OverlayView overlayView();
+    OverlayView blockers() const;
+
+    const ViewerOptions& options_;
+    const std::string name_; ///< of the scene's file
+    ViewerSettings settings_;
+    Signals signals_; // before any thread
+    std::optional<SceneLoader> loader_;
+    Window window_;
+    const bool software_;
+    InteractiveRenderer renderer_;
+    Renderer stills_;
+    PanelState state_;
+    std::optional<Walkthrough> walk_;
+    std::optional<WalkLight> light_;
+    std::optional<Replay> replay_;
+    std::optional<SessionFile> session_;
+    FileWatcher watcher_;
+    UnlitLighting preview_;
+    std::uint64_t previewOf_ = 0; ///< revision of the walkthrough
+    Group nothing_{""};
+    std::optional<GuiLayer> gui_; // after what it draws over
+    std::string title_;
+    double highestPriority_ = 0; ///< of open work, since it is shown
+    bool quit_ = false;
+    int stale_ = kAfterglow; ///< pictures to be drawn whether anything changes or not
+};
+
+Viewer::Viewer(const ViewerOptions& options)
+    : options_(options), name_(std::filesystem::path(options.scene).filename().string()),
+      settings_(loadSettings()), loader_(std::in_place, options.scene, options.frame),
+      window_({.width = settings_.width,
+               .height = settings_.height,
+               .title = name_ + " (loading) - Penumbra",
+               .vsync = options.vsync}),
+      software_(drawnInSoftware(window_)),
+      renderer_({.samples = options.samples > 0 ? options.samples : (software_ ? 1 : 4)}) {
+    gui_.emplace(window_);
+    state_.sceneName = name_;
+    state_.renderer = window_.renderer();
+    state_.tone = settings_.tone;
+    state_.showPanels = settings_.panels;
+    state_.trigger = settings_.trigger;
+    state_.exposure.setCompensation(settings_.compensation);
+    state_.patchSize = options.light.meshing.patchSize;
+    state_.elementSize = options.light.meshing.elementSize;
+}
+
+Viewer::~Viewer() {
+    if (!window_.fullScreen() && window_.visible()) {
+        settings_.width = int(float(window_.size().x) / window_.contentScale());
+        settings_.height = int(float(window_.size().y) / window_.contentScale());
+    }
+    settings_.tone = state_.tone;
+    settings_.panels = state_.showPanels;
+    settings_.trigger = state_.trigger;
+    settings_.compensation = state_.exposure.compensation();
+    if (walk_) {
+        settings_.walkSpeed = walk_->rig().options.speed;
+        settings_.eyeHeight = walk_->rig().options.eyeHeight;
+        settings_.gravity = walk_->rig().options.gravity;
+        settings_.collision = walk_->rig().options.collision;
+        settings_.sensitivity = walk_->controls().sensitivity;
+    }
+    saveSettings(settings_);
+}
+
+/// The scene, when it has been read; a fault in it ends the program only if there is no other.
+void Viewer::takeScene() {
+    if (!loader_) return;
+    try {
+        auto ready = loader_->take();
+        if (ready) openScene(std::move(*ready));
+        if (!loader_->busy()) loader_.reset();
+    } catch (const Error& error) {
+        loader_.reset();
+        if (!light_) throw; // nothing to go on with
+        state_.notify(error.what(), 20);
+    }
+}
+
+void Viewer::openScene(ReadyScene ready) {
+    const bool again = walk_.has_value();
+    std::optional<CameraRig> before;
+    if (again) before = walk_->rig();
+    light_.reset();
+    replay_.reset();
+    if (!again && options_.reported) options_.reported(ready.loaded.diagnostics);
+    watcher_ = FileWatcher(ready.loaded.files);
+    walk_.emplace(std::move(ready));
+    previewOf_ = 0;
+    CameraRig& rig = walk_->rig();
+    if (before)
+        rig = *before;
+    else
+        rig.options = {.speed = settings_.walkSpeed,
+                       .gravity = settings_.gravity,
+                       .collision = settings_.collision,
+                       .eyeHeight = settings_.eyeHeight};
+    walk_->controls().sensitivity = settings_.sensitivity;
+    if (!again && !options_.camera.empty()) walk_->goTo(options_.camera, options_.scene);
+    state_.walk = &*walk_;
+    if (walk_->loaded().animation) replay_.emplace(*walk_, options_.replay && !again);
+    state_.hasAnimation = replay_.has_value();
+    if (!again && !options_.record.empty())
+        session_.emplace(*walk_, options_.scene, options_.record);
+    state_.recording = session_.has_value();
+    if (!again) state_.policy = options_.policy.value_or(optionsOf(walk_->scene()).solving.policy);
+    lightScene();
+    stale_ = kAfterglow;
+}
+
+void Viewer::lightScene() {
+    RadiosityOptions how = options_.light;
+    how.trigger = state_.trigger;
+    const RadiosityOptions asked = optionsOf(walk_->scene());
+    how.solving.policy = state_.policy;
+    how.meshing.patchSize = state_.patchSize > 0 ? state_.patchSize : asked.meshing.patchSize;
+    how.meshing.elementSize =
+        state_.elementSize > 0 ? state_.elementSize : asked.meshing.elementSize;
+    if (how.solving.residual == 0) how.solving.residual = asked.solving.residual;
+    light_.reset();
+    light_.emplace(
+        *walk_, how, makeProcessLink(),
+        BlendOptions{.by = bestPreviewMethod(software_, std::thread::hardware_concurrency())});
+}
+
+void Viewer::reload() {
+    if (loader_) return;
+    if (session_) {
+        state_.notify("The file is not read again while a session is being recorded");
+        return;
+    }
+    loader_.emplace(options_.scene, options_.frame);
+    state_.notify("Reading " + name_ + " again");
+}
+
+void Viewer::perform(const Command& command) {
+    constexpr float kStop = 1.0f / 3;
+    AutoExposure& exposure = state_.exposure;
+    switch (command.action) {
+    case Action::quit:
+        quit_ = true;
+        break;
+    case Action::help:
+        state_.showHelp = !state_.showHelp;
+        break;
+    case Action::panels:
+        state_.showPanels = !state_.showPanels;
+        break;
+    case Action::fullScreen:
+        window_.setFullScreen(!window_.fullScreen());
+        break;
+    case Action::brighterView:
+        exposure.setCompensation(exposure.compensation() + kStop);
+        break;
+    case Action::darkerView:
+        exposure.setCompensation(exposure.compensation() - kStop);
+        break;
+    case Action::autoExposure:
+        exposure.fix(exposure.automatic() ? std::optional(exposure.uncompensated()) : std::nullopt);
+        break;
+    case Action::nextTone:
+        state_.tone = ToneStyle((int(state_.tone) + 1) % int(kToneStyleNames.size()));
+        break;
+    case Action::nextOverlay:
+        state_.overlay = after(state_.overlay, 1);
+        break;
+    case Action::previousOverlay:
+        state_.overlay = after(state_.overlay, -1);
+        break;
+    case Action::update:
+        state_.wantsUpdate = true;
+        break;
+    case Action::save:
+        state_.wantsSave = true;
+        break;
+    case Action::reload:
+        state_.wantsReload = true;
+        break;
+    case Action::play:
+        if (replay_)
+            replay_->toggle(*walk_);
+        else
+            state_.notify("The file has no animation");
+        break;
+    case Action::cancel:
+        if (state_.showHelp) {
+            state_.showHelp = false;
+            break;
+        }
+        [[fallthrough]];
+    default:
+        if (walk_) walk_->perform(command);
+    }
+}
+
+/// What panels and keys asked for.
+void Viewer::doAsAsked() {
+    if (std::exchange(state_.wantsUpdate, false) && light_) light_->requestUpdate();
+    if (std::exchange(state_.wantsSave, false)) save();
+    if (std::exchange(state_.wantsReload, false)) reload();
+    if (std::exchange(state_.wantsRestart, false) && walk_) lightScene();
+    if (light_) light_->setTrigger(state_.trigger);
+    if (light_) light_->setPolicy(state_.policy);
+    if (light_) light_->watchDirty(watchesDirty(state_.overlay));
+    if (state_.overlay != Overlay::importance) highestPriority_ = 0;
+}
+
+void Viewer::takeEvents() {
+    for (const InputEvent& event : window_.takeEvents()) {
+        stale_ = kAfterglow;
+        const auto* const stroke = std::get_if<KeyEvent>(&event);
+        const auto* const button = std::get_if<ButtonEvent>(&event);
+        const bool lets = (stroke && !stroke->down) || (button && !button->down);
+        const bool typed = stroke || std::holds_alternative<TextEvent>(event);
+        if (!lets && typed && gui_->wantsKeyboard()) continue;
+        const bool pointed = button || std::holds_alternative<ScrollEvent>(event);
+        if (!lets && pointed && gui_->wantsPointer()) continue;
+        if (const auto command = commandOf(event)) perform(*command);
+        if (walk_) walk_->take(event, window_.pixels());
+    }
+    const bool held = walk_ && walk_->wantsPointer();
+    if (held != window_.pointerCaptured()) window_.capturePointer(held);
+}
+
+bool Viewer::changing() const {
+    return stale_ > 0 || !state_.exposure.settled() || (walk_ && walk_->moving()) ||
+           (replay_ && replay_->playing()) || gui_->busy() || overlayChanging();
+}
+
+/// Whether the overlay goes on changing by itself.
+bool Viewer::overlayChanging() const {
+    if (!light_) return false;
+    if (watchesDirty(state_.overlay)) return !light_->state().complete;
+    return state_.overlay == Overlay::age &&
+           walk_->time() - light_->ages().newest() < kAgeScale.first;
+}
+
+OverlayView Viewer::overlayView() {
+    if (!light_) return {};
+    switch (state_.overlay) {
+    case Overlay::none:
+        break;
+    case Overlay::mesh:
+        return meshView();
+    case Overlay::age:
+        return ageView(light_->objects(), light_->ages(), walk_->time());
+    case Overlay::dirtyBlocks:
+        return dirtyView(light_->objects(), light_->dirtyBlocks());
+    case Overlay::importance:
+        if (state_.policy != PolicyKind::importance) return noImportanceView();
+        return importanceView(light_->objects(), light_->dirtyBlocks(), highestPriority_);
+    case Overlay::blockers:
+        return blockers();
+    }
+    return {};
+}
+
+/// At the pointer, in the scene as it stands now, so that the answer keeps up with what is moved.
+OverlayView Viewer::blockers() const {
+    const std::optional<Touch> touch = walk_->pointedAt(window_.pixels());
+    const auto& selection = walk_->selection();
+    const bool one = selection && !selection->lights.empty();
+    std::vector<EmitterAccount> lights;
+    if (touch)
+        lights =
+            lightsOf(probeLight(walk_->placed(), walk_->rays(), touch->position, touch->normal),
+                     one ? selection->objectPath : std::string());
+    return blockersView(light_->objects(), light_->placed(), walk_->placed(), lights,
+                        one ? "selected, at the pointer" : "at the pointer");
+}
+
+void Viewer::save() {
+    if (!light_ || light_->state().blocksTaken == 0) {
+        state_.notify("There is no light to be saved yet");
+        return;
+    }
+    const Picture picture{freeStem(std::filesystem::path(name_).stem().string()),
+                          name_,
+                          state_.saveWidth,
+                          state_.saveHeight,
+                          state_.exposure.middleGrey(),
+                          state_.tone};
+    try {
+        savePicture(picture, stills_, light_->lit(),
+                    walk_->rig().view(picture.width, picture.height));
+        const bool whole = light_->state().phase == RadiosityState::Phase::settled;
+        state_.notify("Saved " + picture.stem + ".exr and .png" +
+                      (whole ? "" : ", before the light has settled"));
+    } catch (const Error& error) {
+        state_.notify(error.what(), 15);
+    }
+}
+
+void Viewer::advance(double seconds) {
+    state_.time += seconds;
+    if (!walk_) return;
+    if (replay_) replay_->advance(*walk_, seconds);
+    state_.playing = replay_ && replay_->playing();
+    walk_->advance(seconds);
+    if (session_)
+        if (const auto why = session_->take(*walk_)) state_.notify(*why + "; tried again", 10);
+    const glm::ivec2 size = glm::max(window_.pixels(), glm::ivec2(1));
+    if (light_->update(*walk_, walk_->rig().view(size.x, size.y))) stale_ = kAfterglow;
+    for (std::string& message : light_->takeMessages()) state_.notify(std::move(message), 15);
+    state_.light = light_->state();
+    if (std::exchange(previewOf_, walk_->revision()) != walk_->revision()) {
+        stale_ = kAfterglow;
+        if (!light_->complete()) preview_ = unlitLighting(walk_->placed());
+    }
+    if (watcher_.changed(state_.time)) reload();
+}
+
+/// The title says what the window is busy with, also to those who have it in the background.
+void Viewer::showTitle() {
+    using Phase = RadiosityState::Phase;
+    const Phase phase = state_.light.phase;
+    const bool done = walk_ && state_.light.queued == 0 &&
+                      (phase == Phase::settled || phase == Phase::off || phase == Phase::failed);
+    const char* const busy = !walk_ ? " (loading)" : done ? "" : " (lighting)";
+    if (std::exchange(title_, name_ + busy + " - Penumbra") != name_ + busy + " - Penumbra")
+        window_.setTitle(title_);
+}
+
+void Viewer::drawPanelsOver() {
+    gui_->begin();
+    drawSelectionBox(state_);
+    drawPanels(state_);
+    drawLegend(state_);
+    drawStatusLine(state_);
+    drawHelp(state_);
+    gui_->end();
+}
+
+void Viewer::draw(double seconds) {
+    const glm::ivec2 size = window_.pixels();
+    const View view = walk_ ? walk_->rig().view(size.x, size.y) : View{};
+    const Frustum frustum(view.worldToClip());
+    OverlayView overlay = overlayView();
+    state_.legend = std::move(overlay.legend);
+    renderer_.setOverlay(std::move(overlay.picture));
+    renderer_.drawScene(light_ ? light_->listVisible(frustum) : listVisible(nothing_, frustum),
+                        view, preview_, size.x, size.y,
+                        light_ ? light_->preview() : PreviewLighting());
+    if (const auto luminances = renderer_.luminances(!state_.exposure.measured() && walk_))
+        state_.exposure.measure(*luminances);
+    state_.exposure.advance(seconds, light_ && light_->fading());
+    state_.drawn = renderer_.statistics();
+    renderer_.show(0, state_.exposure.middleGrey(), state_.tone);
+    drawPanelsOver();
+    window_.swap();
+    stale_ = std::max(0, stale_ - 1);
+}
+
+void Viewer::run() {
+    Clock::time_point last = Clock::now();
+    double sinceCertificate = 0;
+    while (!quit_ && !window_.closing() && !signals_.endWanted()) {
+        window_.poll(changing() ? 0 : kIdlePoll);
+        takeEvents();
+        takeScene();
+        doAsAsked();
+        const Clock::time_point now = Clock::now();
+        const double passed = std::chrono::duration<double>(now - last).count();
+        last = now;
+        advance(std::min(kLongestStep, passed));
+        sinceCertificate += passed;
+        if (state_.light.meanRadiosity > 0 && sinceCertificate > 0.25) {
+            const double share = state_.light.certificate / state_.light.meanRadiosity;
+            state_.certificates.add(float(std::log10(std::max(share, 1e-6))));
+            sinceCertificate = 0;
+        }
+        showTitle();
+        if (!window_.visible() || !changing()) continue;
+        state_.frameMilliseconds.add(float(1000 * passed));
+        draw(std::min(kLongestStep, passed));
+    }
+    if (session_) session_->finish();
+}
+
+} // namespace
+
+void runViewer(const ViewerOptions& options) {
+    Viewer(options).run();
+}
+
+} // namespace penumbra

@@ -1,0 +1,32 @@
+// The walkthrough as a program: a window onto a scene.
+#pragma once
+
+#include "io/usd/layer/UsdDiagnostic.h"
+#include "radiosity/process/RadiosityOptions.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace penumbra {
+
+struct ViewerOptions {
+    std::string scene;                ///< USD text
+    std::optional<double> frame;      ///< time code to begin with; none: the file's start
+    RadiosityOptions light;           ///< its trigger is that of the user's settings
+    std::optional<PolicyKind> policy; ///< of its work; none: what the file asks for
+    std::string camera;               ///< path of the camera to begin with; empty: the first one
+    std::string record;               ///< layer to record the session in; empty: none
+    bool replay = false;              ///< play the file's animation from the start
+    bool vsync = true;
+    int samples = 0; ///< a pixel; 0: 4 with a graphics card, 1 without
+    /// Told what the reader has to say about the file, once.
+    std::function<void(const std::vector<Diagnostic>&)> reported;
+};
+
+/// Opens a window onto a scene, and returns when it was closed, or when the program was asked to
+/// end (SIGINT, SIGTERM, SIGHUP). \throws Error without a display, OpenGL 3.3 or a scene
+void runViewer(const ViewerOptions& options);
+
+} // namespace penumbra

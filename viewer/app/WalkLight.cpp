@@ -1,0 +1,115 @@
+#include "viewer/app/WalkLight.h"
+
+#include "viewer/input/Walkthrough.h"
+
+#include <algorithm>
+#include <unordered_set>
+#include <utility>
+
+namespace penumbra {
+
+WalkLight::WalkLight(const Walkthrough& walk, const RadiosityOptions& options,
+                     std::unique_ptr<LightingLink> link, const BlendOptions& blend)
+    : scene_(*walk.scene().root),
+      node_(std::make_shared<RadiosityNode>("lit", options, std::move(link))), blend_(blend),
+      by_(blend.by), limits_(previewLimits(blend.by)), trigger_(options.trigger),
+      policy_(options.solving.policy) {
+    limits_.most = std::min(limits_.most, blend.lights);
+    node_->add(walk.scene().root);
+    if (blend.by == PreviewMethod::rays)
+        vertices_.emplace(options.solving.samples, [this] { return node_->patches(); });
+}
+
+WalkLight::~WalkLight() = default;
+
+void WalkLight::setTrigger(Trigger trigger) {
+    if (std::exchange(trigger_, trigger) != trigger) node_->setTrigger(trigger);
+}
+
+/// Those of the selected thing: their light is there when somebody takes hold of it.
+void WalkLight::chooseLights(const Walkthrough& walk) {
+    const auto& selection = walk.selection();
+    if (!selection || !selection->movable()) return; // what was selected may be moved by undo
+    if (lightsFor_ == selection->object && lightsOf_ == walk.revision() && lightsLit_ == complete())
+        return; // meshes that shine are known when they are lit
+    const bool inHand = lightsFor_ == selection->object && walk.inHand();
+    if (inHand) return; // no other lamps in the middle of a move
+    lightsFor_ = selection->object;
+    lightsOf_ = walk.revision();
+    lightsLit_ = complete();
+    // The node's objects are the walkthrough's; its paths begin at the node.
+    blend_.want(
+        lightsThatMatter(previewableLights(*node_, by_), walk.rays(), selection->object, limits_));
+}
+
+/// By rays: brings the light of vertices up to date while something moves, and is ready for that
+/// when something may.
+void WalkLight::updateVertices(const Walkthrough& walk, const View& view) {
+    const auto shown = [&](const LitGeometry& geometry) { return blend_.shown(geometry); };
+    const auto& selection = walk.selection();
+    const std::vector<Object>& objects = node_->placed().objects; // as the walkthrough has them
+    if (blend_.preview().active())
+        vertices_->update(blend_.preview(), shown, &view);
+    else if (selection && selection->movable() && selection->object.value < objects.size())
+        vertices_->rest(blend_.expecting(*node_, objects[selection->object.value].path), shown,
+                        &view);
+    else
+        vertices_->rest({}, shown);
+}
+
+void WalkLight::setPolicy(PolicyKind policy) {
+    if (std::exchange(policy_, policy) != policy) node_->setPolicy(policy);
+}
+
+bool WalkLight::update(const Walkthrough& walk, const View& view) {
+    const std::shared_ptr<const Transform> inHand = walk.inHand();
+    if (inHand != inHand_) {
+        if (inHand_) node_->release(*inHand_);
+        if (inHand) node_->grab(*inHand);
+        inHand_ = inHand;
+    }
+    const glm::dmat4 seenFrom = view.worldToClip();
+    if (std::exchange(seenFrom_, seenFrom) != seenFrom) node_->setCamera(view);
+    node_->update();
+    chooseLights(walk);
+    blend_.advance(*node_, walk.time());
+    ages_.advance(node_->objects(), walk.time());
+    if (vertices_) updateVertices(walk, view);
+    const RadiosityState& state = node_->state();
+    const bool news = blend_.changing() || blocks_ != state.blocksTaken || phase_ != state.phase ||
+                      unlit_ != node_->unlit().size();
+    blocks_ = state.blocksTaken;
+    phase_ = state.phase;
+    unlit_ = node_->unlit().size();
+    return news;
+}
+
+bool WalkLight::complete() const {
+    return !node_->objects().empty() && node_->unlit().empty();
+}
+
+DrawList WalkLight::listVisible(const Frustum& frustum) const {
+    DrawList list = penumbra::listVisible(node_->lit(), frustum);
+    for (DrawItem& item : list.items) {
+        const ShownLight* const preview = vertices_ ? vertices_->shown(*item.geometry) : nullptr;
+        item.shown = preview ? preview : blend_.shown(*item.geometry);
+    }
+    if (complete()) return list;
+    std::unordered_set<std::string> litPaths;
+    for (const LitObject& object : node_->objects())
+        if (object.geometry) litPaths.insert(object.path);
+    std::unordered_set<const Node*> unlit;
+    for (const auto& mesh : node_->unlit()) unlit.insert(mesh.node);
+    const PlacedScene& placed = node_->placed();
+    for (const auto& light : placed.lights)
+        if (!litPaths.contains(placed.objects[light.object.value].path)) unlit.insert(light.node);
+    if (placed.objects.empty()) return penumbra::listVisible(scene_, frustum); // before update()
+    DrawList all = penumbra::listVisible(scene_, frustum);
+    for (const UnlitItem& item : all.unlit) {
+        const Node* const node = item.mesh ? static_cast<const Node*>(item.mesh) : item.light;
+        if (unlit.contains(node)) list.unlit.push_back(item);
+    }
+    return list;
+}
+
+} // namespace penumbra

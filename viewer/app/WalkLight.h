@@ -1,0 +1,95 @@
+// The light of a scene that is walked through.
+#pragma once
+
+#include "radiosity/process/LightingLink.h"
+#include "radiosity/process/RadiosityNode.h"
+#include "scenegraph/Frustum.h"
+#include "viewer/overlay/BlockAges.h"
+#include "viewer/preview/DrawList.h"
+#include "viewer/preview/LightBlend.h"
+#include "viewer/preview/PreviewLightChoice.h"
+#include "viewer/preview/RayPreview.h"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace penumbra {
+
+class Walkthrough;
+
+/// Keeps a RadiosityNode beside a walkthrough: tells it what is edited, held and seen, and lists
+/// what is to be drawn, lit or not yet. Never waits.
+class WalkLight {
+public:
+    /// \param walk its scene must outlive this
+    /// \param link where the light is computed: a process, or, for tests, a thread
+    WalkLight(const Walkthrough& walk, const RadiosityOptions& options,
+              std::unique_ptr<LightingLink> link, const BlendOptions& blend = {});
+    ~WalkLight();
+    WalkLight(const WalkLight&) = delete;
+    WalkLight& operator=(const WalkLight&) = delete;
+
+    /// To be called once a frame, at the walkthrough's time. Whether there is new light to be
+    /// drawn.
+    bool update(const Walkthrough& walk, const View& view);
+
+    void setTrigger(Trigger trigger);
+    void setPolicy(PolicyKind policy);
+    /// See RadiosityNode.
+    void watchDirty(bool watch) { node_->watchDirty(watch); }
+    std::span<const std::vector<DirtyStatus>> dirtyBlocks() const { return node_->dirtyBlocks(); }
+    void requestUpdate() { node_->requestUpdate(); }
+
+    /// What is to be drawn in a view: the lit surfaces, and the meshes and lights of objects that
+    /// have no light yet.
+    DrawList listVisible(const Frustum& frustum) const;
+    /// Lamps for the renderer to draw live: those that matter to what is selected, while it moves.
+    /// None with PreviewMethod::rays, when listVisible() has their light.
+    const PreviewLighting& preview() const { return vertices_ ? none_ : blend_.preview(); }
+    std::size_t lightsPreviewed() const { return blend_.preview().lights.size(); }
+    /// Whether direct light is on its way on the screen.
+    bool fading() const { return blend_.fading(); }
+    /// Whether vertices wait for their light, to be exact for how things stand.
+    bool waiting() const { return blend_.waiting(); }
+    /// Everything that has light.
+    const Group& lit() const { return node_->lit(); }
+    /// Whether all that is visible has light.
+    bool complete() const;
+
+    std::span<const LitObject> objects() const { return node_->objects(); }
+    const PlacedScene& placed() const { return node_->placed(); }
+    /// When the light of blocks was published, at the walkthrough's time.
+    const BlockAges& ages() const { return ages_; }
+    RadiosityNode& node() { return *node_; }
+    const RadiosityState& state() const { return node_->state(); }
+    /// One line each, once, for people.
+    std::vector<std::string> takeMessages() { return node_->takeMessages(); }
+
+private:
+    void chooseLights(const Walkthrough& walk);
+    void updateVertices(const Walkthrough& walk, const View& view);
+
+    const Group& scene_;
+    std::shared_ptr<RadiosityNode> node_;
+    LightBlend blend_;
+    BlockAges ages_;
+    std::optional<RayPreview> vertices_; ///< with PreviewMethod::rays
+    PreviewLighting none_;
+    PreviewMethod by_;
+    PreviewLimits limits_;
+    bool lightsLit_ = false;     ///< lightsFor_ was answered when all was lit
+    std::uint64_t lightsOf_ = 0; ///< revision of the walkthrough, and
+    ObjectId lightsFor_;         ///< the object, that live lamps were chosen for
+    std::shared_ptr<const Transform> inHand_;
+    Trigger trigger_;
+    PolicyKind policy_;
+    glm::dmat4 seenFrom_{0.0};
+    std::uint64_t blocks_ = 0;
+    RadiosityState::Phase phase_ = RadiosityState::Phase::off;
+    std::size_t unlit_ = 0;
+};
+
+} // namespace penumbra

@@ -1,0 +1,46 @@
+// What the picture's luminances are, read back without waiting for the graphics card.
+#pragma once
+
+#include "viewer/gl/GlObject.h"
+#include "viewer/gl/ScreenPass.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace penumbra {
+
+/// Samples a picture on a grid of kWidth x kHeight cells and brings the values back a frame or two
+/// later, when they have arrived.
+class LuminanceMeter {
+public:
+    static constexpr int kWidth = 64, kHeight = 36;
+
+    LuminanceMeter();
+    ~LuminanceMeter();
+    LuminanceMeter(const LuminanceMeter&) = delete;
+    LuminanceMeter& operator=(const LuminanceMeter&) = delete;
+
+    /// Begins a measurement unless all buffers are still under way.
+    /// \param texture as HdrTarget::texture(): its alpha is what counts
+    void measure(unsigned texture);
+
+    /// The latest measurement that has arrived, once: mean luminances of cells [nit], of what
+    /// counts in them; cells in which nothing does are left out. \param wait until there is one
+    std::optional<std::vector<float>> take(bool wait = false);
+
+private:
+    struct Transfer {
+        GlObject buffer;
+        void* fence = nullptr; ///< of OpenGL; null: free
+    };
+
+    std::optional<std::vector<float>> finish(Transfer& transfer, bool wait);
+
+    ScreenPass pass_;
+    GlObject texture_, framebuffer_;
+    std::array<Transfer, 3> transfers_;
+    std::size_t next_ = 0; ///< where the next measurement goes; the oldest one under way
+};
+
+} // namespace penumbra

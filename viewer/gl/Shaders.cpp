@@ -1,0 +1,150 @@
+#include "viewer/gl/Shaders.h"
+
+namespace penumbra {
+
+const char* const kLitVertexShader = R"(#version 330 core
+layout(location = 0) in vec3 position;   // local frame
+layout(location = 1) in vec3 normal;     // local frame, unit
+layout(location = 2) in vec3 direct;     // lux
+layout(location = 3) in vec3 indirect;   // lux
+
+uniform mat4 localToClip;
+uniform vec4 localToDepth;               // depth = dot(localToDepth, (p, 1))
+uniform mat3 normalToWorld;
+
+// Centroid: in a pixel that an edge crosses, the light is taken where the surface is. At the pixel's
+// centre, outside of the triangle, it would be extrapolated, even to less than nothing.
+centroid out vec3 surfaceDirect;
+centroid out vec3 surfaceIndirect;
+out vec3 surfaceNormal;
+out float surfaceDepth;
+
+void main() {
+    gl_Position = localToClip * vec4(position, 1.0);
+    surfaceDepth = dot(localToDepth, vec4(position, 1.0));
+    surfaceNormal = normalToWorld * normal;
+    surfaceDirect = direct;
+    surfaceIndirect = indirect;
+}
+)";
+
+const char* const kLightFragmentShader = R"(#version 330 core
+centroid in vec3 surfaceDirect;
+centroid in vec3 surfaceIndirect;
+
+uniform vec3 reflectance;
+uniform vec3 emission;                   // nit
+
+layout(location = 0) out vec4 beauty;
+layout(location = 1) out vec4 direct;
+layout(location = 2) out vec4 indirect;
+
+const float kInversePi = 0.31830988618;
+
+void main() {
+    vec3 lightDirect = reflectance * kInversePi * surfaceDirect;
+    vec3 lightIndirect = reflectance * kInversePi * surfaceIndirect;
+    beauty = vec4(emission + lightDirect + lightIndirect, 1.0);
+    direct = vec4(lightDirect, 1.0);
+    indirect = vec4(lightIndirect, 1.0);
+}
+)";
+
+const char* const kSurfaceFragmentShader = R"(#version 330 core
+centroid in vec3 surfaceDirect;
+centroid in vec3 surfaceIndirect;
+in vec3 surfaceNormal;
+in float surfaceDepth;
+
+uniform vec3 reflectance;
+uniform uint objectId;
+
+layout(location = 0) out vec4 normalAndDepth;
+layout(location = 1) out vec4 albedo;
+layout(location = 2) out vec4 illuminance;
+layout(location = 3) out uint object;
+
+void main() {
+    float length2 = dot(surfaceNormal, surfaceNormal);
+    vec3 unit = length2 > 0.0 ? surfaceNormal * inversesqrt(length2) : vec3(0.0);
+    normalAndDepth = vec4(unit, surfaceDepth);
+    albedo = vec4(reflectance, 1.0);
+    illuminance = vec4(surfaceDirect + surfaceIndirect, 1.0);
+    object = objectId;
+}
+)";
+
+const char* const kScreenFragmentShader = R"(#version 330 core
+centroid in vec3 surfaceDirect;
+centroid in vec3 surfaceIndirect;
+
+uniform vec3 reflectance;
+uniform vec3 emission;                   // nit
+
+layout(location = 0) out vec4 beauty;
+
+const float kInversePi = 0.31830988618;
+const float kMost = 65000.0;             // nit; 16-bit floats end at 65504
+
+void main() {
+    vec3 reflected = reflectance * kInversePi * (surfaceDirect + surfaceIndirect);
+    float shines = max(max(emission.r, emission.g), emission.b);
+    beauty = vec4(min(reflected + emission, kMost), shines > 0.0 ? 0.0 : 1.0);
+}
+)";
+
+const char* const kPreviewVertexShader = R"(#version 330 core
+layout(location = 0) in vec3 position;   // local frame
+
+uniform mat4 localToClip;
+uniform mat4 localToEye;
+
+out vec3 eyePosition;                    // the camera is at the origin and looks along -z [m]
+
+void main() {
+    gl_Position = localToClip * vec4(position, 1.0);
+    eyePosition = vec3(localToEye * vec4(position, 1.0));
+}
+)";
+
+const char* const kPreviewFragmentShader = R"(#version 330 core
+in vec3 eyePosition;
+
+uniform vec3 reflectance;
+uniform vec3 emission;                   // nit
+uniform int lampCount;
+uniform vec4 lampPlaces[16];             // position [m], area [m^2]
+uniform vec4 lampAxes[16];               // unit; zero: shines all round
+uniform vec4 lampIntensities[16];        // cd
+uniform vec3 ambient;                    // lux
+
+layout(location = 0) out vec4 beauty;
+
+const float kInversePi = 0.31830988618;
+const float kMost = 65000.0;
+
+vec3 illuminance(vec3 normal) {
+    float headOn = abs(dot(normal, normalize(eyePosition)));
+    vec3 sum = ambient * (0.5 + 0.5 * headOn);
+    for (int i = 0; i < lampCount; ++i) {
+        vec3 way = lampPlaces[i].xyz - eyePosition;
+        float distance2 = max(dot(way, way), 1e-8);
+        vec3 towards = way * inversesqrt(distance2);
+        vec3 axis = lampAxes[i].xyz;
+        float shape = dot(axis, axis) > 0.0 ? max(-dot(towards, axis), 0.0) : 1.0;
+        float facing = max(dot(normal, towards), 0.0);
+        sum += lampIntensities[i].rgb *
+               (shape * facing / (distance2 + lampPlaces[i].w * kInversePi));
+    }
+    return sum;
+}
+
+void main() {
+    vec3 normal = normalize(cross(dFdx(eyePosition), dFdy(eyePosition))); // towards the eye
+    vec3 reflected = reflectance * kInversePi * illuminance(normal);
+    float shines = max(max(emission.r, emission.g), emission.b);
+    beauty = vec4(min(reflected + emission, kMost), shines > 0.0 ? 0.0 : 1.0);
+}
+)";
+
+} // namespace penumbra

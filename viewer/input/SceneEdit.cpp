@@ -1,0 +1,112 @@
+#include "viewer/input/SceneEdit.h"
+
+#include <algorithm>
+#include <type_traits>
+
+namespace penumbra {
+
+namespace {
+
+void put(const MoveEdit& edit, const glm::dmat4& matrix) {
+    if (edit.node->matrix() != matrix) edit.node->setMatrix(matrix);
+}
+void put(const LoosenEdit& edit, bool movable) {
+    if (edit.node->movable() != movable) edit.node->setMovable(movable);
+}
+void put(const LightEdit& edit, Rgb luminance) {
+    if (edit.light->luminance() != luminance) edit.light->setLuminance(luminance);
+}
+void put(const PaintEdit& edit, const PaintEdit::Paint& paint) {
+    Material& material = *edit.material;
+    if (material.reflectance() != paint.reflectance) material.setReflectance(paint.reflectance);
+    if (material.emission() != paint.emission) material.setEmission(paint.emission);
+}
+
+const void* target(const MoveEdit& edit) {
+    return edit.node.get();
+}
+const void* target(const LoosenEdit& edit) {
+    return edit.node.get();
+}
+const void* target(const LightEdit& edit) {
+    return edit.light.get();
+}
+const void* target(const PaintEdit& edit) {
+    return edit.material.get();
+}
+
+/// Whether both do the same kind of thing to the same thing.
+bool sameThing(const SceneEdit& a, const SceneEdit& b) {
+    if (a.index() != b.index()) return false;
+    const auto thing = [](const SceneEdit& edit) {
+        return std::visit([](const auto& e) { return target(e); }, edit);
+    };
+    return thing(a) == thing(b);
+}
+
+/// Makes one edit of two of the same thing.
+void goOn(SceneEdit& first, const SceneEdit& second) {
+    std::visit(
+        [&](auto& edit) { edit.after = std::get<std::decay_t<decltype(edit)>>(second).after; },
+        first);
+}
+
+} // namespace
+
+void apply(const SceneEdit& edit) {
+    std::visit([](const auto& e) { put(e, e.after); }, edit);
+}
+
+void takeBack(const SceneEdit& edit) {
+    std::visit([](const auto& e) { put(e, e.before); }, edit);
+}
+
+bool changes(const SceneEdit& edit) {
+    return std::visit([](const auto& e) { return !(e.before == e.after); }, edit);
+}
+
+bool EditHistory::merge(const Step& step, double time) {
+    if (made_ == 0 || made_ < steps_.size() || time - last_ > kMergeSeconds) return false;
+    Step& before = steps_.back();
+    if (before.size() != step.size()) return false;
+    for (std::size_t i = 0; i < step.size(); ++i)
+        if (!sameThing(before[i], step[i])) return false;
+    for (std::size_t i = 0; i < step.size(); ++i) goOn(before[i], step[i]);
+    return true;
+}
+
+void EditHistory::push(const Step& step) {
+    steps_.resize(made_);
+    steps_.push_back(step);
+    ++made_;
+}
+
+void EditHistory::make(const Step& step, double time) {
+    if (std::none_of(step.begin(), step.end(), changes)) return;
+    for (const SceneEdit& edit : step) apply(edit);
+    if (!merge(step, time)) push(step);
+    last_ = time;
+}
+
+void EditHistory::note(const Step& step) {
+    if (std::none_of(step.begin(), step.end(), changes)) return;
+    push(step);
+    last_ = kNever;
+}
+
+bool EditHistory::undo() {
+    last_ = kNever;
+    if (made_ == 0) return false;
+    const Step& step = steps_[--made_];
+    for (auto edit = step.rbegin(); edit != step.rend(); ++edit) takeBack(*edit);
+    return true;
+}
+
+bool EditHistory::redo() {
+    last_ = kNever;
+    if (made_ == steps_.size()) return false;
+    for (const SceneEdit& edit : steps_[made_++]) apply(edit);
+    return true;
+}
+
+} // namespace penumbra

@@ -1,0 +1,34 @@
+#include "viewer/input/SceneLoader.h"
+
+#include "base/Error.h"
+
+#include <chrono>
+
+namespace penumbra {
+
+namespace {
+
+ReadyScene readyScene(const std::string& file, std::optional<double> frame) {
+    ReadyScene ready;
+    LoadOptions options;
+    options.time = frame;
+    ready.loaded = loadUsdScene(file, options);
+    ready.placed = placeScene(*ready.loaded.scene);
+    if (ready.placed.meshes.empty() && ready.placed.lights.empty())
+        throw SceneFileError({file}, "nothing to see: no visible mesh that can be read");
+    ready.rays = std::make_unique<SceneRays>(ready.placed);
+    return ready;
+}
+
+} // namespace
+
+SceneLoader::SceneLoader(std::string file, std::optional<double> frame)
+    : file_(std::move(file)), future_(std::async(std::launch::async, readyScene, file_, frame)) {}
+
+std::optional<ReadyScene> SceneLoader::take() {
+    if (!busy() || future_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        return std::nullopt;
+    return future_.get();
+}
+
+} // namespace penumbra

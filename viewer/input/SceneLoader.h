@@ -1,0 +1,38 @@
+// Reading a scene while the window is already there.
+#pragma once
+
+#include "io/usd/scene/UsdScene.h"
+#include "radiosity/query/SceneRays.h"
+#include "scenegraph/Objects.h"
+
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace penumbra {
+
+/// A scene with what the walkthrough needs of it at once.
+struct ReadyScene {
+    LoadedScene loaded;
+    PlacedScene placed;
+    std::unique_ptr<SceneRays> rays;
+};
+
+/// Reads a file in a thread of its own. Waits for it at destruction.
+class SceneLoader {
+public:
+    /// \param frame time code at which it is read; none: the file's start
+    explicit SceneLoader(std::string file, std::optional<double> frame = std::nullopt);
+
+    /// The scene, once, when it is there. \throws Error what reading it threw
+    std::optional<ReadyScene> take();
+    bool busy() const { return future_.valid(); }
+    const std::string& file() const { return file_; }
+
+private:
+    std::string file_;
+    std::future<ReadyScene> future_;
+};
+
+} // namespace penumbra

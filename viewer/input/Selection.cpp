@@ -1,0 +1,60 @@
+#include "viewer/input/Selection.h"
+
+#include "scenegraph/Find.h"
+
+#include <algorithm>
+
+namespace penumbra {
+
+namespace {
+
+std::shared_ptr<Light> findLight(const Scene& scene, const std::string& path) {
+    const std::vector<NodePtr> nodes = nodesAlong(*scene.root, path);
+    return nodes.empty() ? nullptr : std::dynamic_pointer_cast<Light>(nodes.back());
+}
+
+} // namespace
+
+Selection selectionOf(const Scene& scene, const PlacedScene& placed, const Touch& touch) {
+    Selection selection;
+    selection.object = touch.object;
+    selection.objectPath = placed.objects[touch.object.value].path;
+    selection.path = touch.path;
+    selection.position = touch.position;
+    selection.normal = touch.normal;
+    selection.material = touch.material;
+    const std::vector<NodePtr> nodes = nodesAlong(*scene.root, selection.objectPath);
+    if (!nodes.empty()) selection.node = std::dynamic_pointer_cast<Transform>(nodes.back());
+    if (!selection.node) { // of what belongs to no object, only the lamp that was touched
+        if (const auto light = findLight(scene, touch.path)) selection.lights.push_back(light);
+        return selection;
+    }
+    for (const auto& light : placed.lights)
+        if (light.object == touch.object)
+            if (const auto node = findLight(scene, light.path)) selection.lights.push_back(node);
+    return selection;
+}
+
+std::vector<std::shared_ptr<Light>> allLights(const Scene& scene, const PlacedScene& placed) {
+    std::vector<std::shared_ptr<Light>> lights;
+    for (const auto& light : placed.lights)
+        if (const auto node = findLight(scene, light.path))
+            if (std::find(lights.begin(), lights.end(), node) == lights.end())
+                lights.push_back(node);
+    return lights;
+}
+
+glm::dmat4 matrixFor(const Transform& node, const glm::dmat4& objectToWorld,
+                     const glm::dmat4& wanted) {
+    // objectToWorld = parent * matrix
+    const glm::dmat4 parent = objectToWorld * glm::inverse(node.matrix());
+    const glm::dmat4 toParent = glm::inverse(parent);
+    glm::dmat4 matrix = node.matrix();
+    if (glm::dmat3(wanted) == glm::dmat3(objectToWorld)) {
+        matrix[3] += toParent * (wanted[3] - objectToWorld[3]);
+        return matrix;
+    }
+    return toParent * wanted;
+}
+
+} // namespace penumbra

@@ -1,0 +1,94 @@
+// The selected object: lamps, paint, and why it is dark where it was clicked.
+#include "radiosity/query/LightProbe.h"
+#include "viewer/panels/PanelState.h"
+#include "viewer/panels/Panels.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace penumbra {
+
+namespace {
+
+/// A colour and how bright it is, of a luminance in nit.
+bool editLuminance(const char* name, Rgb& nits) {
+    const float most = maxChannel(nits);
+    float colour[3] = {1, 1, 1};
+    if (most > 0) colour[0] = nits.r / most, colour[1] = nits.g / most, colour[2] = nits.b / most;
+    float level = most;
+    ImGui::PushID(name);
+    bool edited = ImGui::ColorEdit3("colour", colour, ImGuiColorEditFlags_Float);
+    edited |= ImGui::DragFloat("nit", &level, std::max(1.0f, 0.01f * most), 0, 1e6f, "%.0f");
+    ImGui::PopID();
+    const float largest = std::max({colour[0], colour[1], colour[2], 1e-6f});
+    if (edited) nits = Rgb(colour[0], colour[1], colour[2]) * (level / largest);
+    return edited;
+}
+
+void editLights(Walkthrough& walk, const Selection& selection) {
+    for (const auto& light : selection.lights) {
+        ImGui::TextUnformatted(light->name().c_str());
+        Rgb nits = light->luminance();
+        if (editLuminance(light->name().c_str(), nits))
+            walk.make({LightEdit{light, light->luminance(), nits}});
+    }
+}
+
+void editPaint(Walkthrough& walk, const std::shared_ptr<Material>& material) {
+    const PaintEdit::Paint before{material->reflectance(), material->emission()};
+    PaintEdit::Paint after = before;
+    float colour[3] = {before.reflectance.r, before.reflectance.g, before.reflectance.b};
+    ImGui::Text("paint %s", material->name().c_str());
+    bool edited = ImGui::ColorEdit3("reflects", colour, ImGuiColorEditFlags_Float);
+    if (edited) {
+        const auto possible = [](float c) {
+            return std::clamp(c, 0.0f, Material::kMaxReflectance);
+        };
+        after.reflectance = {possible(colour[0]), possible(colour[1]), possible(colour[2])};
+    }
+    if (material->emissive()) edited |= editLuminance("shines", after.emission);
+    if (edited) walk.make({PaintEdit{material, before, after}});
+}
+
+void explainLight(const Walkthrough& walk, const Selection& selection) {
+    if (!ImGui::TreeNode("why is it as dark here")) return;
+    constexpr int kMost = 8;
+    int lines = 0;
+    for (const EmitterAccount& light :
+         probeLight(walk.placed(), walk.rays(), selection.position, selection.normal)) {
+        if (!(luminance(light.unoccluded) > 0) || ++lines > kMost) continue;
+        ImGui::Text("%s", light.path.c_str());
+        ImGui::Text("   %.3g of %.3g lux arrive", double(luminance(light.arrives)),
+                    double(luminance(light.unoccluded)));
+        for (std::size_t i = 0; i < std::min<std::size_t>(3, light.losses.size()); ++i) {
+            const LightLoss& loss = light.losses[i];
+            ImGui::TextDisabled("   %.3g lux to %s", double(luminance(loss.lux)),
+                                walk.placed().objects[loss.object.value].path.c_str());
+        }
+    }
+    if (lines == 0) ImGui::TextDisabled("no lamp shines on this side");
+    ImGui::TreePop();
+}
+
+} // namespace
+
+void drawSelectionPanel(PanelState& state) {
+    Walkthrough& walk = *state.walk;
+    if (!walk.selection()) {
+        ImGui::TextDisabled("click on something");
+        return;
+    }
+    const Selection selection = *walk.selection(); // edits may change it
+    ImGui::TextWrapped("%s", selection.path.c_str());
+    bool movable = selection.movable();
+    if (selection.node && ImGui::Checkbox("movable", &movable))
+        walk.make({LoosenEdit{selection.node, !movable, movable}});
+    editLights(walk, selection);
+    if (selection.material) editPaint(walk, selection.material);
+    explainLight(walk, selection);
+    ImGui::TextDisabled("undo %zu, redo %zu", walk.history().undoable(), walk.history().redoable());
+}
+
+} // namespace penumbra

@@ -1,0 +1,102 @@
+// What is always there: how far the light is, and what there is to say.
+#include "viewer/panels/PanelState.h"
+#include "viewer/panels/Panels.h"
+
+#include <imgui.h>
+
+#include <string>
+
+namespace penumbra {
+
+namespace {
+
+std::string phaseOf(const PanelState& state) {
+    using Phase = RadiosityState::Phase;
+    if (!state.walk) return "reading " + state.sceneName;
+    const auto percent = [&] { return std::to_string(int(100 * state.light.progress)) + " %"; };
+    switch (state.light.phase) {
+    case Phase::off:
+        return "light is off";
+    case Phase::connecting:
+        return "starting the light";
+    case Phase::meshing:
+        return "cutting surfaces into patches";
+    case Phase::solving:
+        return (state.light.task.empty() ? "light" : state.light.task) + " " + percent();
+    case Phase::settled:
+        return state.light.held > 0 ? "waiting for an update (U)" : "settled";
+    case Phase::failed:
+        break;
+    }
+    return "the light failed";
+}
+
+constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
+                                    ImGuiWindowFlags_AlwaysAutoResize;
+
+} // namespace
+
+void drawStatusLine(PanelState& state) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextWindowBgAlpha(0.55f);
+    ImGui::SetNextWindowPos({em / 2, display.y - em / 2}, ImGuiCond_Always, {0, 1});
+    if (ImGui::Begin("##status", nullptr, kPlain)) {
+        ImGui::TextUnformatted(phaseOf(state).c_str());
+        if (state.walk) {
+            ImGui::SameLine(0, 2 * em);
+            ImGui::TextDisabled("%s", kCameraModeNames[int(state.walk->rig().mode())]);
+        }
+        if (state.recording) {
+            ImGui::SameLine(0, 2 * em);
+            ImGui::TextColored({0.9f, 0.3f, 0.25f, 1}, "recording");
+        }
+        if (state.playing) {
+            ImGui::SameLine(0, 2 * em);
+            ImGui::TextUnformatted("playing (P)");
+        }
+        ImGui::SameLine(0, 2 * em);
+        ImGui::TextDisabled("? keys   N panels");
+    }
+    ImGui::End();
+
+    while (!state.notices.empty() && state.notices.front().until < state.time)
+        state.notices.pop_front();
+    if (state.notices.empty()) return;
+    ImGui::SetNextWindowBgAlpha(0.75f);
+    ImGui::SetNextWindowPos({em / 2, display.y - 3 * em}, ImGuiCond_Always, {0, 1});
+    if (ImGui::Begin("##notices", nullptr, kPlain))
+        for (const Notice& notice : state.notices) ImGui::TextUnformatted(notice.text.c_str());
+    ImGui::End();
+}
+
+void drawSelectionBox(const PanelState& state) {
+    if (!state.walk || !state.walk->selection()) return;
+    const Walkthrough& walk = *state.walk;
+    if (!walk.selection()->node) return; // the room itself
+    const Bounds box = walk.rays().bounds(walk.selection()->object);
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const View view = walk.rig().view(int(display.x), int(display.y));
+    const glm::dmat4 toClip = view.worldToClip();
+    const auto corner = [&](int i) {
+        const glm::vec3 p(i & 1 ? box.upper.x : box.lower.x, i & 2 ? box.upper.y : box.lower.y,
+                          i & 4 ? box.upper.z : box.lower.z);
+        return toClip * glm::dvec4(p, 1);
+    };
+    ImDrawList& lines = *ImGui::GetBackgroundDrawList();
+    const ImU32 colour = ImGui::GetColorU32({0.95f, 0.65f, 0.25f, 0.8f});
+    for (int i = 0; i < 8; ++i)
+        for (const int bit : {1, 2, 4}) {
+            if (i & bit) continue;
+            const glm::dvec4 a = corner(i), b = corner(i | bit);
+            if (a.w <= 0.01 || b.w <= 0.01) continue; // behind the eye
+            const auto place = [&](const glm::dvec4& p) {
+                return ImVec2(float((0.5 + 0.5 * p.x / p.w) * double(display.x)),
+                              float((0.5 - 0.5 * p.y / p.w) * double(display.y)));
+            };
+            lines.AddLine(place(a), place(b), colour, ImGui::GetFontSize() / 12);
+        }
+}
+
+} // namespace penumbra

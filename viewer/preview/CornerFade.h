@@ -1,0 +1,62 @@
+// Corners of triangles that come to be drawn with vertices which show another light.
+#pragma once
+
+#include "base/Rgb.h"
+#include "viewer/preview/ShownLight.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+
+namespace penumbra {
+
+/// When a thing touches a corner of an element no more, that corner is drawn with the vertex again
+/// that it shares with others (see Contact.h), which goes on with its own light. What was shown at
+/// the corner goes to that without a jump: it is drawn with a copy of the vertex that shows
+///
+///     vertex + over (1 - w),   w as in LightFade
+///
+/// and sets out with the vertex for its light, each time anew, so that both arrive together.
+/// `over` is what was shown there beyond the vertex, of all but the live lamps: these have the
+/// light of now at both.
+class CornerFade {
+public:
+    struct Over {
+        Rgb direct, indirect; ///< [lux]
+        friend bool operator==(const Over&, const Over&) = default;
+    };
+
+    /// Nothing is drawn with a copy.
+    bool empty() const { return corners_.empty(); }
+    /// How much an entry of LitMeshData::indices shows over its vertex.
+    Over over(std::uint32_t entry) const;
+
+    /// An entry has come to be drawn with this vertex, and showed so much more than that does.
+    void put(std::uint32_t entry, std::uint32_t vertex, const Over& over);
+    void clear();
+
+    /// When a vertex set out for its light last; none: it waits for it.
+    using FadeStart = std::function<std::optional<double>(std::uint32_t vertex)>;
+    /// \param time see LightFade::Frame
+    void advance(double time, double seconds, const FadeStart& fadeStart);
+
+    /// Adds copies, their light and what is drawn with them. \pre there are none
+    void show(ShownLight& shown) const;
+    /// Removes what show() added. \param vertices of the geometry
+    static void hide(ShownLight& shown, std::size_t vertices);
+
+private:
+    struct Corner {
+        std::uint32_t vertex = 0;
+        Over first, now; ///< when it set out; on its way
+        double start = kWaits;
+    };
+    static constexpr double kWaits = -1e30;
+
+    std::map<std::uint32_t, Corner> corners_; ///< by entry
+    std::uint64_t revision_ = 0;              ///< of which ones there are
+};
+
+} // namespace penumbra

@@ -1,0 +1,115 @@
+// From the light that radiosity has published to the light on the screen.
+#pragma once
+
+#include "viewer/preview/LightFade.h"
+#include "viewer/preview/PreviewLighting.h"
+
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace penumbra {
+
+class RadiosityNode;
+struct RadiosityState;
+
+/// How it is found out what live lamps reach.
+enum class PreviewMethod {
+    maps, ///< by shadow maps, in the vertex shader: MapPreview
+    rays  ///< by radiosity's rays, vertex by vertex: RayPreview
+};
+
+/// What is best: rays are radiosity's own, so that the fast shadow is the soft one, and maps cost a
+/// graphics card next to nothing.
+/// \param software the processor draws: then rays are faster, too
+/// \param threads  that the processor has: from 8 on it traces a frame's rays in the time of one or
+///                 two frames
+inline PreviewMethod bestPreviewMethod(bool software, unsigned threads) {
+    return software || threads >= 8 ? PreviewMethod::rays : PreviewMethod::maps;
+}
+
+struct BlendOptions {
+    double seconds = 0.25; ///< that a vertex takes from one light to the next; 0: it jumps
+    int points = 16;       ///< of a lamp for its fast shadows, at most 16
+    PreviewMethod by = PreviewMethod::maps;
+    std::size_t lights = kMostPreviewed; ///< emitters drawn live at most, see PreviewLimits
+};
+
+/// Follows the light of a RadiosityNode such that nothing on the screen jumps: when something
+/// begins to move the shader takes over for the live lamps (PreviewLighting), and vertex by vertex
+/// gives back when radiosity is ready (LightFade).
+///
+/// Vertices carry light of the arrangement that is *at rest*: the last one whose light became
+/// exact. The shader brings it up to date with how things stand *now*. When the light of a newer
+/// arrangement, the one that was *sent*, becomes exact, that one comes to rest: the share of the
+/// old one fades to it in all vertices at once, by one number; vertices that are not ready then
+/// keep the old one for themselves (they are *behind*) and follow one by one. Only one arrangement
+/// can be left behind at a time; if a third comes to rest before its vertices have followed, it
+/// waits until all are ready.
+///
+/// Indirect light is not exchanged. It fades to what was published when that has settled; if that
+/// takes long, every two seconds.
+///
+/// It makes no difference who moves things: a hand, arrow keys, undo, an animation. If nobody has
+/// asked for live lamps, light fades as it is published.
+class LightBlend {
+public:
+    explicit LightBlend(const BlendOptions& options = {}) : options_(options) {}
+
+    /// Which lamps are to be drawn live; their paths, see lightsThatMatter(), at most
+    /// kMostPreviewed. Takes effect when nothing is on its way.
+    void want(std::vector<std::string> lights);
+
+    /// To be called after each update() of the node. \param time that only grows [s]
+    void advance(RadiosityNode& node, double time);
+
+    /// What is shown of a geometry of the node; null: it is not known.
+    const ShownLight* shown(const LitGeometry& geometry) const;
+    /// The live part, for the renderer.
+    const PreviewLighting& preview() const { return preview_; }
+    /// What it would be of if an object began to move now; without anchors. \param object its path,
+    /// as LitObject has it
+    PreviewLighting expecting(const RadiosityNode& node, const std::string& object) const;
+
+    /// Whether the picture changes without new light: fades.
+    bool changing() const { return changing_; }
+    /// Whether light that was published, or is to come, is not taken yet.
+    bool waiting() const { return waiting_; }
+    /// Whether direct light is drawn live or on its way: exposure had better stay.
+    bool fading() const { return fading_ || preview_.active(); }
+
+private:
+    struct Entry {
+        std::string path;
+        std::shared_ptr<LitGeometry> geometry;
+        std::unique_ptr<LightFade> fade;
+    };
+
+    bool followObjects(const RadiosityNode& node);
+    void followLights(RadiosityNode& node);
+    void observe(const RadiosityNode& node);
+    void restAnew();
+    bool quiet() const;
+    bool indirectFadeStarts(const RadiosityState& state, double time);
+    LightFade::Frame frameAt(double time, bool fresh) const;
+    void comeToRest(double time);
+    void advanceFades(const LightFade::Frame& frame);
+    float restShare(double time) const;
+    void describePreview(const RadiosityNode& node, double time);
+    void describeLights(const RadiosityNode& node, PreviewLighting& light) const;
+
+    BlendOptions options_;
+    std::vector<std::string> wanted_, lights_;
+    std::vector<Entry> entries_;
+    std::unordered_map<const LitGeometry*, const LightFade*> byGeometry_;
+    SceneStatePtr now_, sent_;
+    SceneStatePtr rest_, next_; ///< rest_ fades to next_, if there is one
+    SceneStatePtr behind_;      ///< what some vertices are left with
+    double since_ = 0;          ///< of next_ [s]
+    double indirectSince_ = 0;  ///< that indirect light set out last [s]
+    PreviewLighting preview_;
+    bool changing_ = false, fading_ = false, waiting_ = false;
+};
+
+} // namespace penumbra

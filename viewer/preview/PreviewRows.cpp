@@ -1,0 +1,309 @@
+#include "viewer/preview/PreviewRows.h"
+
+#include "base/Parallel.h"
+#include "radiosity/rays/Shaft.h"
+#include "scenegraph/Frustum.h"
+#include "viewer/preview/SceneStates.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace penumbra {
+
+void PreviewRows::require(const std::vector<std::shared_ptr<const LitGeometry>>& geometries) {
+    if (geometries == geometries_) return;
+    forget();
+    geometries_ = geometries;
+    surfaces_.clear();
+    stage_.reset();
+    std::optional<PatchSet> patches = patches_();
+    if (!patches || patches->objects.size() != geometries.size()) return;
+    stage_ = std::make_unique<PreviewScene>(std::move(*patches));
+    for (std::uint32_t o = 0; o < geometries.size(); ++o)
+        if (geometries[o] && !PreviewSurface::fits(*geometries[o], *stage_, o))
+            return stage_.reset();
+    for (std::uint32_t o = 0; o < geometries.size(); ++o)
+        surfaces_.push_back(geometries[o] ? PreviewSurface(geometries[o], *stage_, o)
+                                          : PreviewSurface());
+}
+
+bool PreviewRows::knows(const PreviewLighting& light) const {
+    const auto alike = [](const PreviewLighting::Object& object, bool moves) {
+        return object.moves == moves;
+    };
+    return light.anchors.empty() && slots_.size() == 1 && slots_.front().of == light.now &&
+           std::equal(light.objects.begin(), light.objects.end(), moves_.begin(), moves_.end(),
+                      alike);
+}
+
+/// Whether what is known still holds: the same things move, the same lamps are live.
+bool PreviewRows::sameMoves(const PreviewLighting& light) {
+    std::vector<bool> moves, lightMoves;
+    for (const auto& object : light.objects) moves.push_back(object.moves);
+    for (const auto& source : light.lights) lightMoves.push_back(source.moves);
+    const std::vector<std::vector<Emitter>>& lights = light.now->lights;
+    bool same = moves == moves_ && lightMoves == lightMoves_ && lights.size() == lights_.size();
+    for (std::size_t l = 0; same && l < lights.size(); ++l)
+        same = lightMoves[l] || sameLight(lights[l], lights_[l]);
+    moves_ = std::move(moves);
+    lightMoves_ = std::move(lightMoves);
+    lights_ = lights;
+    return same;
+}
+
+/// Triangles may be made of other vertices than in the last frame.
+void PreviewRows::followTriangles(const ShownOf& shown) {
+    for (std::uint32_t o = 0; o < surfaces_.size(); ++o) {
+        PreviewSurface& surface = surfaces_[o];
+        if (!surface || surface.isCurrent()) continue;
+        if (const ShownLight* const light = shown(*surface.geometry()))
+            carryOver(o, light->adopted);
+        surface.follow();
+        dropStandIns(o);
+    }
+}
+
+/// Vertices that begin with the light of others have, in the arrangements that this is of, been lit
+/// where those were.
+void PreviewRows::carryOver(std::uint32_t object, const std::vector<AdoptedVertex>& adopted) {
+    for (std::size_t s = 1; s < slots_.size(); ++s) {
+        std::vector<std::pair<Key, Receiver>> places;
+        for (const auto& [vertex, from] : adopted)
+            places.emplace_back(keyOf(object, vertex), receiver(slots_[s], object, from));
+        for (const auto& [vertex, place] : places) {
+            slots_[s].instead[vertex] = place;
+            const std::uint64_t bit = std::uint32_t(vertex) % kBlock;
+            for (std::size_t l = 0; l < kMostPreviewed; ++l) {
+                const Reached at{object, std::uint32_t(std::uint32_t(vertex) / kBlock)};
+                const auto known = slots_[s].table.find(keyOf(at, l));
+                if (known != slots_[s].table.end())
+                    known->second.vertices &= ~(std::uint64_t(1) << bit);
+            }
+        }
+    }
+}
+
+void PreviewRows::dropStandIns(std::uint32_t object) {
+    const std::size_t first = surfaces_[object].blocks().size();
+    const auto isStandIn = [&](const auto& entry) {
+        return entry.first >> 32 == object && std::uint32_t(entry.first) / kMostPreviewed >= first;
+    };
+    std::erase_if(clear_, isStandIn);
+    for (Slot& slot : slots_) std::erase_if(slot.table, isStandIn);
+}
+
+PreviewRows::Slot PreviewRows::makeSlot(const PreviewLighting& light, const SceneStatePtr& of) {
+    Slot slot;
+    slot.of = of;
+    const int base = std::min(samples_, int(kBlock));
+    for (const std::vector<Emitter>& source : of->lights) {
+        std::vector<EmitterSender>& senders = slot.senders.emplace_back();
+        for (const Emitter& emitter : source)
+            senders.emplace_back(emitter, base, std::min(4 * base, int(kBlock)));
+    }
+    for (std::uint32_t o = 0; o < surfaces_.size(); ++o) {
+        if (!light.objects[o].moves || !surfaces_[o]) continue;
+        const SceneState::ObjectState& place = of->objects[o];
+        slot.poses[o] = placementOf(place.toWorld).pose;
+        if (place.visible)
+            slot.things.push_back(transformed(surfaces_[o].geometry()->bounds(), place.toWorld));
+    }
+    stage_->pose(*of);
+    slot.touched = stage_->touched();
+    return slot;
+}
+
+/// Slot 0 is now, 1 ... are the anchors; keeps those that are there already.
+void PreviewRows::chooseSlots(const PreviewLighting& light) {
+    std::vector<SceneStatePtr> wanted{light.now};
+    for (const auto& anchor : light.anchors) wanted.push_back(anchor.sceneState);
+    std::vector<Slot> slots(wanted.size());
+    for (std::size_t s = wanted.size(); s-- > 0;) { // now last: things stay as they stand there
+        const auto known = std::find_if(slots_.begin(), slots_.end(),
+                                        [&](const Slot& slot) { return slot.of == wanted[s]; });
+        slots[s] = known != slots_.end() ? std::move(*known) : makeSlot(light, wanted[s]);
+        if (known != slots_.end()) known->of = nullptr;
+    }
+    slots_ = std::move(slots);
+}
+
+/// Lamps between which and a box something that moves may stand.
+unsigned PreviewRows::lightsThrough(const PreviewLighting& light, const Slot& slot,
+                                    const Bounds& box) const {
+    unsigned lights = 0;
+    for (std::size_t l = 0; l < light.lights.size(); ++l) {
+        const auto crossed = [&](const EmitterSender& sender) {
+            return std::any_of(slot.things.begin(), slot.things.end(), [&](const Bounds& thing) {
+                return shaftMeets(sender.box(), box, thing);
+            });
+        };
+        if (light.lights[l].moves || std::ranges::any_of(slot.senders[l], crossed))
+            lights |= 1u << l;
+    }
+    return lights;
+}
+
+/// Lamps whose light a change may take from what lies in a box of an object [m, local], or give it.
+unsigned PreviewRows::lightsReaching(const PreviewLighting& light, std::uint32_t object,
+                                     const Bounds& box) const {
+    unsigned lights = light.objects[object].moves ? (1u << light.lights.size()) - 1 : 0;
+    const Bounds place =
+        grown(transformed(box, light.now->objects[object].toWorld), stage_->skin());
+    for (const Slot& slot : slots_) lights |= lightsThrough(light, slot, place);
+    return lights;
+}
+
+/// Blocks with vertices that a change may reach and that can be seen, of one object. Of what moves,
+/// half looks away.
+std::vector<PreviewRows::Reached> PreviewRows::reachedOf(const PreviewLighting& light,
+                                                         std::uint32_t object, const View* view,
+                                                         const Frustum* frustum) const {
+    const PreviewSurface& surface = surfaces_[object];
+    std::vector<Reached> reached;
+    if (!surface) return reached;
+    const std::span<const Bounds> blocks = surface.blocks();
+    const glm::dmat4& toWorld = light.now->objects[object].toWorld;
+    std::vector<std::uint64_t> seen;
+    if (view && light.objects[object].moves)
+        seen = surface.turnedTo(glm::inverse(toWorld) * glm::dvec4(view->eye, 1));
+    for (std::uint32_t b = 0; b < blocks.size(); ++b) {
+        const std::uint64_t vertices = seen.empty() ? ~std::uint64_t(0) : seen[b];
+        if (blocks[b].empty() || vertices == 0) continue;
+        const Bounds drawn = grown(blocks[b], surface.largestElement());
+        if (frustum && !frustum->mayContain(transformed(drawn, toWorld))) continue;
+        if (const unsigned lights = lightsReaching(light, object, blocks[b]))
+            reached.push_back({object, b, lights, vertices});
+    }
+    addReachedStandIns(light, object, reached);
+    return reached;
+}
+
+/// Vertices that stand for corners lie all over the object: each is looked at by itself. What
+/// touches one of the elements around a corner concerns it as well.
+void PreviewRows::addReachedStandIns(const PreviewLighting& light, std::uint32_t object,
+                                     std::vector<Reached>& reached) const {
+    for (const auto& [vertex, corner] : surfaces_[object].standIns()) {
+        const Bounds box = surfaces_[object].elementBox(corner);
+        const unsigned lights = lightsReaching(light, object, grown(box, box.diagonal()));
+        if (lights == 0) continue;
+        const auto block = std::uint32_t(vertex / kBlock);
+        if (reached.empty() || reached.back().block != block)
+            reached.push_back({object, block, 0, 0});
+        reached.back().lights |= lights;
+        reached.back().vertices |= std::uint64_t(1) << vertex % kBlock;
+    }
+}
+
+void PreviewRows::findReached(const PreviewLighting& light, const View* view) {
+    std::optional<Frustum> frustum;
+    if (view) frustum.emplace(view->worldToClip());
+    std::vector<std::vector<Reached>> of(surfaces_.size());
+    parallelFor(surfaces_.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t o = first; o < last; ++o)
+            of[o] = reachedOf(light, std::uint32_t(o), view, frustum ? &*frustum : nullptr);
+    });
+    reached_.clear();
+    for (const std::vector<Reached>& reached : of)
+        reached_.insert(reached_.end(), reached.begin(), reached.end());
+}
+
+/// Corners that are touched now and drawn with vertices that they share with others; what these are
+/// lit by must be known.
+void PreviewRows::findTouched(const PreviewLighting& light) {
+    touched_.clear();
+    const auto before = [](const Reached& a, const Reached& b) {
+        return std::tie(a.object, a.block) < std::tie(b.object, b.block);
+    };
+    std::vector<Reached> more;
+    for (const TouchedCorner& corner : slots_.front().touched) {
+        const PreviewSurface& surface = surfaces_[corner.object];
+        if (!surface) continue;
+        const std::uint32_t vertex = surface.drawnAt(corner.corner);
+        if (vertex >= surface.ownVertices()) continue;
+        touched_.push_back({corner.object, corner.corner, vertex});
+        more.push_back({corner.object, std::uint32_t(vertex / kBlock),
+                        (1u << light.lights.size()) - 1, std::uint64_t(1) << vertex % kBlock});
+    }
+    reached_.insert(reached_.end(), more.begin(), more.end());
+    std::sort(reached_.begin(), reached_.end(), before);
+    std::size_t kept = 0;
+    for (const Reached& at : reached_) {
+        if (kept == 0 || before(reached_[kept - 1], at))
+            reached_[kept++] = at;
+        else
+            reached_[kept - 1].lights |= at.lights, reached_[kept - 1].vertices |= at.vertices;
+    }
+    reached_.resize(kept);
+    for (Touched& touched : touched_) {
+        const Reached at{touched.object, std::uint32_t(touched.vertex / kBlock)};
+        touched.reached = std::size_t(
+            std::lower_bound(reached_.begin(), reached_.end(), at, before) - reached_.begin());
+    }
+}
+
+/// Where a vertex takes its light in an arrangement, whatever it carries.
+Receiver PreviewRows::ownReceiver(const Slot& slot, std::uint32_t object,
+                                  std::size_t vertex) const {
+    const PreviewSurface& surface = surfaces_[object];
+    if (vertex >= surface.ownVertices()) {
+        const std::optional<std::uint32_t> corner = surface.cornerOf(vertex);
+        if (!corner) return {};
+        const auto at =
+            std::lower_bound(slot.touched.begin(), slot.touched.end(), std::pair(object, *corner),
+                             [](const TouchedCorner& t, const auto& key) {
+                                 return std::pair(t.object, t.corner) < key;
+                             });
+        if (at != slot.touched.end() && at->object == object && at->corner == *corner)
+            return at->at;
+        vertex = surface.ownVertexAt(*corner);
+    }
+    const auto pose = slot.poses.find(object);
+    return pose != slot.poses.end() ? stage_->receiver(object, vertex, pose->second)
+                                    : stage_->receiver(object, vertex);
+}
+
+/// Where the light that it carries of an arrangement was taken.
+Receiver PreviewRows::receiver(const Slot& slot, std::uint32_t object, std::size_t vertex) const {
+    if (!slot.instead.empty()) {
+        const auto at = slot.instead.find(keyOf(object, vertex));
+        if (at != slot.instead.end()) return at->second;
+    }
+    return ownReceiver(slot, object, vertex);
+}
+
+void PreviewRows::prepare(const PreviewLighting& light, const ShownOf& shown, const View* view) {
+    std::vector<std::shared_ptr<const LitGeometry>> geometries;
+    for (const auto& object : light.objects) geometries.push_back(object.geometry);
+    require(geometries);
+    if (!stage_) return;
+    if (!sameMoves(light)) forget();
+    followTriangles(shown);
+    chooseSlots(light);
+    findReached(light, view);
+    findTouched(light);
+    // Now comes last: what all arrangements have in common is as it was when it was lit.
+    for (std::size_t s = slots_.size(); s-- > 0;) trace(light, slots_[s]);
+    traceTouched();
+}
+
+void PreviewRows::forget() {
+    slots_.clear();
+    clear_.clear();
+    reached_.clear();
+    touched_.clear();
+}
+
+float PreviewRows::unoccluded(const Reached& at, std::size_t source, std::size_t vertex) const {
+    const Slot& now = slots_.front();
+    const Receiver receiver = ownReceiver(now, at.object, vertex);
+    return isPadding(receiver) ? 0 : unoccluded(now.senders[source], receiver);
+}
+
+float PreviewRows::unoccluded(std::span<const EmitterSender> source, const Receiver& receiver) {
+    float sum = 0;
+    for (const EmitterSender& sender : source) sum += sender.formFactor(receiver);
+    return sum;
+}
+
+} // namespace penumbra

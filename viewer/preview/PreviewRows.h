@@ -1,0 +1,155 @@
+// What lamps give to vertices while things move, by rays.
+#pragma once
+
+#include "radiosity/rows/EmitterSender.h"
+#include "scenegraph/Camera.h"
+#include "viewer/preview/PreviewLighting.h"
+#include "viewer/preview/PreviewScene.h"
+#include "viewer/preview/PreviewSurface.h"
+#include "viewer/preview/ShownLight.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+namespace penumbra {
+
+class Frustum;
+class RowBuilder;
+
+/// Rows of the shadow-form-factor-list for the live lamps, of those vertices alone that a change
+/// may reach: the same closed forms, samples and rays as radiosity takes (RowBuilder), at the same
+/// places (PreviewScene), so that both come to the same light. Kept arrangement by arrangement as
+/// long as that is asked for: what stands still is traced once, and where what moves is not in the
+/// way of a lamp it does not matter where it is.
+///
+/// A vertex takes its light, in an arrangement, where it took it when it was lit: those that stand
+/// for corners at the place that was found for these then. Corners that something touches now are
+/// listed by themselves.
+class PreviewRows {
+public:
+    static constexpr std::size_t kBlock = LitGeometry::kBlock;
+
+    /// What surfaces are made of, see RadiosityNode::patches(); asked when there are others.
+    using PatchesOf = std::function<std::optional<PatchSet>()>;
+    using ShownOf = std::function<const ShownLight*(const LitGeometry&)>;
+
+    /// \param samples as SolverOptions::samples
+    PreviewRows(int samples, PatchesOf patches) : samples_(samples), patches_(std::move(patches)) {}
+
+    /// Indexes these geometries (null: none) for rays, unless they are.
+    void require(const std::vector<std::shared_ptr<const LitGeometry>>& geometries);
+    /// Whether what is known is of this arrangement, as it stands now.
+    bool knows(const PreviewLighting& light) const;
+
+    /// A block that a live change may reach, by which lamps, and which of its vertices: a bit each.
+    struct Reached {
+        std::uint32_t object = 0, block = 0;
+        unsigned lights = 0;
+        std::uint64_t vertices = ~std::uint64_t(0);
+    };
+    /// Traces what is missing. \param light of some lamps; without anchors: what it is like now, so
+    /// that little is missing when something begins to move \param shown what vertices carry
+    /// \param view from where it is looked at: what can't be seen is left out; null: nothing is
+    void prepare(const PreviewLighting& light, const ShownOf& shown, const View* view);
+    /// Drops what is known.
+    void forget();
+    std::span<const Reached> reached() const { return reached_; }
+
+    using Factors = std::array<float, kBlock>; ///< F V of the vertices of a block
+    /// Of a lamp that reaches the block. \param slot 0: now; 1 ...: the anchors \param at an index
+    /// of reached()
+    const Factors& factors(std::size_t slot, std::size_t at, std::size_t source) const {
+        return slots_[slot].found[at * kMostPreviewed + source]->factors;
+    }
+    /// What a lamp gives to a vertex now when nothing is in its way.
+    float unoccluded(const Reached& at, std::size_t source, std::size_t vertex) const;
+
+    /// A corner that something touches now, but is drawn with a vertex that it shares.
+    struct Touched {
+        std::uint32_t object = 0, corner = 0; ///< see TouchedCorner
+        std::uint32_t vertex = 0;             ///< that is drawn there
+        std::size_t reached = 0;              ///< the vertex's block in reached()
+        std::array<float, kMostPreviewed> factors{}, unoccluded{}; ///< now
+    };
+    std::span<const Touched> touched() const { return touched_; }
+    const PreviewSurface& surface(std::uint32_t object) const { return surfaces_[object]; }
+
+private:
+    using Key = std::uint64_t;
+    struct Known {
+        Factors factors{};
+        std::uint64_t vertices = 0; ///< bits: that are known
+    };
+    using Table = std::unordered_map<Key, Known>;
+    struct Slot {
+        SceneStatePtr of;
+        std::vector<std::vector<EmitterSender>> senders; ///< by lamp; none: hidden
+        std::vector<Bounds> things; ///< boxes around what moves, one a thing [m, world]
+        std::unordered_map<std::uint32_t, Pose> poses; ///< of objects that move
+        std::vector<TouchedCorner> touched;
+        std::unordered_map<Key, Receiver> instead; ///< of vertices that are lit somewhere else
+        Table table;
+        /// What is known of what is reached, by index of reached() and lamp; null: not reached.
+        std::vector<const Known*> found;
+    };
+    struct Task {
+        const Slot* slot;
+        const Reached* at;
+        std::size_t source;
+        Known* known;
+        Known* clear; ///< of vertices that nothing that moves is before; null: not to be asked
+        std::uint64_t missing;
+    };
+    static Key keyOf(std::uint32_t object, std::uint64_t piece) {
+        return Key(object) << 32 | piece;
+    }
+    static Key keyOf(const Reached& at, std::size_t source) {
+        return keyOf(at.object, at.block * std::uint64_t(kMostPreviewed) + source);
+    }
+    static float unoccluded(std::span<const EmitterSender> source, const Receiver& receiver);
+
+    bool sameMoves(const PreviewLighting& light);
+    void followTriangles(const ShownOf& shown);
+    void carryOver(std::uint32_t object, const std::vector<AdoptedVertex>& adopted);
+    void dropStandIns(std::uint32_t object);
+    void chooseSlots(const PreviewLighting& light);
+    Slot makeSlot(const PreviewLighting& light, const SceneStatePtr& of);
+    unsigned lightsThrough(const PreviewLighting& light, const Slot& slot, const Bounds& box) const;
+    unsigned lightsReaching(const PreviewLighting& light, std::uint32_t object,
+                            const Bounds& box) const;
+    void findReached(const PreviewLighting& light, const View* view);
+    std::vector<Reached> reachedOf(const PreviewLighting& light, std::uint32_t object,
+                                   const View* view, const Frustum* frustum) const;
+    void addReachedStandIns(const PreviewLighting& light, std::uint32_t object,
+                            std::vector<Reached>& reached) const;
+    void findTouched(const PreviewLighting& light);
+    std::vector<unsigned> lightsInDoubt(const PreviewLighting& light, const Slot& slot) const;
+    const RayScene& raysOf(const Slot& slot);
+    void trace(const PreviewLighting& light, Slot& slot);
+    void traceTouched();
+    bool isClear(const Task& task, std::size_t vertex, const Receiver& receiver) const;
+    void run(const Task& task, RowBuilder& builder) const;
+    Receiver receiver(const Slot& slot, std::uint32_t object, std::size_t vertex) const;
+    Receiver ownReceiver(const Slot& slot, std::uint32_t object, std::size_t vertex) const;
+
+    int samples_;
+    PatchesOf patches_;
+    std::vector<std::shared_ptr<const LitGeometry>> geometries_; ///< that were required
+    std::unique_ptr<PreviewScene> stage_;
+    std::vector<PreviewSurface> surfaces_; ///< by object
+    std::vector<Slot> slots_;
+    Table clear_; ///< where nothing that moves is in the way
+    std::vector<bool> moves_, lightMoves_;
+    std::vector<std::vector<Emitter>> lights_; ///< that clear_ is of
+    std::vector<Reached> reached_;
+    std::vector<Touched> touched_;
+};
+
+} // namespace penumbra

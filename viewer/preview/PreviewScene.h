@@ -1,0 +1,67 @@
+// Where lit things stand for live rays, and what they touch there.
+#pragma once
+
+#include "radiosity/mesh/PatchSet.h"
+#include "radiosity/mesh/PosedPatches.h"
+#include "viewer/preview/PreviewLighting.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace penumbra {
+
+/// A corner of an element that something touches or covers, and where its light is taken instead
+/// (see Contact.h).
+struct TouchedCorner {
+    std::uint32_t object = 0;
+    std::uint32_t corner = 0; ///< 4 * element + corner, elements counted within the object
+    Receiver at;              ///< [m, world]
+};
+
+/// Radiosity's own patches, rays and contacts, brought to where things stand in an arrangement, so
+/// that light is looked for at the same places.
+class PreviewScene {
+public:
+    /// \param set see RadiosityNode::patches()
+    explicit PreviewScene(PatchSet set);
+
+    /// Things stand as in this arrangement from now on; costs what changes.
+    void pose(const SceneState& sceneState);
+
+    const RayScene& rays() const { return posed_.rays(); }
+    /// Rays through things as they stand in another arrangement; what they touch there is not
+    /// looked for. Costs what changes from one call to the next.
+    const RayScene& raysAt(const SceneState& sceneState);
+    /// Where a vertex of an object takes its light when nothing touches it; as things stand, and in
+    /// a pose of the object.
+    Receiver receiver(std::uint32_t object, std::size_t vertex) const;
+    Receiver receiver(std::uint32_t object, std::size_t vertex, const Pose& pose) const;
+    /// What is touched as things stand, by object and corner.
+    std::vector<TouchedCorner> touched() const;
+
+    /// Vertices that an object has from the start; those behind them stand for corners.
+    std::size_t vertices(std::uint32_t object) const { return set_.objects[object].vertices.count; }
+    /// The elements of an object when nothing touches it; their vertices are the set's.
+    std::span<const Element> elements(std::uint32_t object) const;
+    std::uint32_t firstVertex(std::uint32_t object) const {
+        return set_.objects[object].vertices.first;
+    }
+    float skin() const { return set_.skin; } ///< how far receivers hover [m]
+
+private:
+    using ObjectPose = PosedPatches::ObjectPose;
+    using ObjectStates = std::vector<std::optional<SceneState::ObjectState>>;
+    void free(std::uint32_t object);
+    std::vector<ObjectPose> follow(ObjectStates& states, const SceneState& sceneState);
+
+    PatchSet set_;
+    PosedPatches posed_;
+    RayScene aside_;                     ///< of raysAt()
+    std::vector<ObjectPose> asidePoses_; ///< of what is in it, by object
+    ObjectStates poses_, asideAs_;       ///< what was asked for last
+};
+
+} // namespace penumbra

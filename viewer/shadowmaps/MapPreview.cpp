@@ -1,0 +1,130 @@
+#include "viewer/shadowmaps/MapPreview.h"
+
+#include "radiosity/rays/Shaft.h"
+#include "viewer/gl/Shaders.h"
+#include "viewer/shadowmaps/PreviewMaps.h"
+
+#include <epoxy/gl.h>
+
+#include <glm/gtc/matrix_inverse.hpp>
+
+#include <array>
+
+namespace penumbra {
+
+namespace {
+
+constexpr std::array<const char*, kPreviewSlots> kPlaceNames{"livePlaces[0]", "livePlaces[1]",
+                                                             "livePlaces[2]", "livePlaces[3]"};
+constexpr std::array<const char*, kPreviewSlots> kNormalNames{"liveNormals[0]", "liveNormals[1]",
+                                                              "liveNormals[2]", "liveNormals[3]"};
+
+constexpr std::array<const char*, kMostPreviewedByMaps> kLightNames{"lampList[0]", "lampList[1]",
+                                                                    "lampList[2]", "lampList[3]"};
+
+} // namespace
+
+struct MapPreview::Impl {
+    Impl() : program(previewVertexShader().c_str(), kScreenFragmentShader) {}
+
+    void setPlaces(const LitItem& item);
+    void setLights(unsigned mask);
+    bool moves(const LitItem& item) const {
+        const std::uint32_t object = item.geometry->object().value;
+        return object < light.objects.size() && light.objects[object].moves &&
+               light.objects[object].geometry.get() == item.geometry;
+    }
+
+    ShaderProgram program;
+    PreviewMaps maps;
+    PreviewLighting light;
+    PreviewStatistics statistics;
+};
+
+/// The item's places now and in the anchors, in the frame of the maps.
+void MapPreview::Impl::setPlaces(const LitItem& item) {
+    const bool own = moves(item);
+    program.set("ownMoves", int(own));
+    for (std::size_t s = 0; s <= light.anchors.size(); ++s) {
+        glm::dmat4 place = item.toWorld;
+        if (s > 0 && own)
+            place = light.anchors[s - 1].sceneState->objects[item.geometry->object().value].toWorld;
+        place[3] -= glm::dvec4(maps.origin(), 0);
+        program.set(kPlaceNames[s], glm::mat4(place));
+        program.set(kNormalNames[s], glm::mat3(glm::inverseTranspose(glm::dmat3(place))));
+    }
+}
+
+MapPreview::MapPreview() : impl_(std::make_unique<Impl>()) {}
+
+MapPreview::~MapPreview() = default;
+
+void MapPreview::prepare(const PreviewLighting& light, GeometryCache& cache) {
+    impl_->light = light;
+    impl_->statistics = {};
+    impl_->statistics.maps = impl_->maps.prepare(light, cache);
+}
+
+unsigned MapPreview::reaching(const LitItem& item, const TriangleChunk& chunk) const {
+    if (impl_->moves(item)) return (1u << impl_->light.lights.size()) - 1;
+    glm::dmat4 place = item.toWorld;
+    place[3] -= glm::dvec4(impl_->maps.origin(), 0);
+    const Bounds box = transformed(chunk.bounds, place);
+    unsigned lights = 0;
+    for (const PreviewMaps::Reach& reach : impl_->maps.reaches())
+        if (reach.everywhere || shaftMeets(reach.source, box, reach.thing))
+            lights |= 1u << reach.index;
+    return lights;
+}
+
+/// The lamps of a mask, one after the other.
+void MapPreview::Impl::setLights(unsigned mask) {
+    int count = 0;
+    for (int l = 0; l < int(kMostPreviewedByMaps); ++l)
+        if (mask >> l & 1) program.set(kLightNames[std::size_t(count++)], l);
+    program.set("liveLamps", count);
+}
+
+void MapPreview::draw(const std::vector<LitItem>& items, const std::vector<Runs>& runs) {
+    const ShaderProgram& program = impl_->program;
+    const PreviewLighting& light = impl_->light;
+    program.use();
+    impl_->maps.bind(program);
+    program.set("liveAnchors", int(light.anchors.size()));
+    std::vector<glm::vec4> exitances, shares(1);
+    for (const auto& source : light.lights)
+        exitances.emplace_back(source.exitance.r, source.exitance.g, source.exitance.b, 0);
+    for (const auto& anchor : light.anchors) shares.emplace_back(anchor.rest, anchor.behind, 0, 0);
+    program.set("liveExitances", exitances);
+    program.set("anchorShares", shares);
+    glVertexAttrib4f(kFactors, -1, -1, -1, -1); // of surfaces that have none
+    glVertexAttrib1f(kBehind, 0);
+    const LitItem* last = nullptr;
+    for (const Runs& run : runs) {
+        const LitItem& item = items[run.item];
+        if (&item != last) {
+            setPose(program, item.place);
+            impl_->setPlaces(item);
+            item.gpu->bind();
+            last = &item;
+        }
+        const LitMaterial& material =
+            item.geometry->data().materials[item.gpu->ranges()[run.range].material];
+        program.set("reflectance", material.reflectance);
+        program.set("emission", material.emission);
+        impl_->setLights(run.lights);
+        run.runs.draw();
+    }
+    for (const GLenum unit : {GL_TEXTURE2, GL_TEXTURE1}) {
+        glActiveTexture(unit);
+        glBindTexture(GL_TEXTURE_2D_ARRAY, 0);
+    }
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, 0);
+}
+
+const PreviewStatistics& MapPreview::statistics() const {
+    return impl_->statistics;
+}
+
+} // namespace penumbra
