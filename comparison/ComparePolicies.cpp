@@ -1,20 +1,15 @@
 #include "comparison/ComparePolicies.h"
 
+#include "base/Clock.h"
 #include "comparison/EditPlayer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <utility>
 
 namespace penumbra {
 
 namespace {
-
-double now() {
-    using namespace std::chrono;
-    return duration<double>(steady_clock::now().time_since_epoch()).count();
-}
 
 constexpr int kPanSteps = 20; ///< in which a viewer turns
 
@@ -49,15 +44,15 @@ public:
         for (double next = options_.firstLook; more;
              next = std::max(next, work()) * options_.growth) {
             while (more && work() < next) {
-                const double start = now();
+                const double start = steadySeconds();
                 more = solver.work(std::size_t(std::clamp((next - work()) / 8, 512.0, 65536.0)));
-                seconds_ += now() - start;
+                seconds_ += steadySeconds() - start;
                 if (cut_ > 0 && work() >= cut_) cut_ = 0, sendPolicy(false);
                 if (turn() && knowsTheView(policy_)) sendPolicy(false);
             }
-            const double start = now();
+            const double start = steadySeconds();
             solver.sumUp();
-            seconds_ += now() - start;
+            seconds_ += steadySeconds() - start;
             aim();
         }
         result_.work.push_back(work());
@@ -68,9 +63,9 @@ public:
 
 private:
     void sendPolicy(bool beforeCut) {
-        const double start = now();
+        const double start = steadySeconds();
         player_.policy(policy_, truth_, beforeCut);
-        seconds_ += now() - start;
+        seconds_ += steadySeconds() - start;
     }
     /// Turns the viewer as far as the work has come; whether that is any further.
     bool turn() {

@@ -1,9 +1,10 @@
 #include "tools/ProgressBar.h"
 
+#include "base/Clock.h"
+
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 
 namespace penumbra {
@@ -17,8 +18,7 @@ ProgressBar::~ProgressBar() {
 
 void ProgressBar::show(const std::string& phase, double done) {
     if (!on_) return;
-    using namespace std::chrono;
-    const double now = duration<double>(steady_clock::now().time_since_epoch()).count();
+    const double now = steadySeconds();
     const std::lock_guard lock(guard_);
     if (phase == phase_ && now - lastShown_ < 0.1) return;
     phase_ = phase;

@@ -1,5 +1,6 @@
 #include "tools/SceneSolution.h"
 
+#include "base/Clock.h"
 #include "base/Error.h"
 
 #include <CLI/CLI.hpp>
@@ -7,22 +8,12 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <tuple>
 #include <utility>
 
 namespace penumbra {
-
-namespace {
-
-double now() {
-    using namespace std::chrono;
-    return duration<double>(steady_clock::now().time_since_epoch()).count();
-}
-
-} // namespace
 
 void addSolveOptions(CLI::App& command, SolveSettings& settings) {
     command.add_option("SCENE", settings.scene, "USD text file (.usda) to light")->required();
@@ -163,9 +154,9 @@ void addCosts(SolveStatistics& sum, const SolveStatistics& s) {
 
 } // namespace
 
-SceneSolution::PhaseTimer::PhaseTimer(double& sum) : sum_(sum), start_(now()) {}
+SceneSolution::PhaseTimer::PhaseTimer(double& sum) : sum_(sum), start_(steadySeconds()) {}
 SceneSolution::PhaseTimer::~PhaseTimer() {
-    sum_ += now() - start_;
+    sum_ += steadySeconds() - start_;
 }
 
 SceneSolution::SceneSolution(const SolveSettings& settings)
@@ -185,7 +176,7 @@ SceneSolution::SceneSolution(const SolveSettings& settings)
     if (placed_.meshes.empty() && placed_.lights.empty())
         throw SceneFileError({settings.scene},
                              "nothing to light: no visible mesh that can be read");
-    const double start = now();
+    const double start = steadySeconds();
     MeshingOptions meshing = settings.meshing;
     if (meshing.patchSize == 0) meshing.patchSize = float(loaded_.scene->patchSize);
     if (meshing.elementSize == 0) meshing.elementSize = float(loaded_.scene->elementSize);
@@ -194,7 +185,7 @@ SceneSolution::SceneSolution(const SolveSettings& settings)
     if (settings.frames.empty()) return;
     const SolveStatistics s = solver().statistics();
     frames_.push_back({double(frameRange(settings.frames).first), 0, true, s.shots, s.certificate,
-                       now() - start, s.direct, s.indirect, s.detail});
+                       steadySeconds() - start, s.direct, s.indirect, s.detail});
 }
 
 void SceneSolution::mesh(const MeshingOptions& meshing) {
@@ -247,7 +238,7 @@ SolveStatistics SceneSolution::statistics() const {
 void SceneSolution::show(double frame) {
     if (loaded_.animation) loaded_.animation->setTime(frame);
     placed_ = placeScene(*loaded_.scene);
-    const double start = now();
+    const double start = steadySeconds();
     FrameCost cost;
     SolveStatistics before = solver().statistics();
     if (settings_.fromScratch) {
@@ -266,7 +257,7 @@ void SceneSolution::show(double frame) {
     light();
     const SolveStatistics after = solver().statistics();
     cost.frame = frame;
-    cost.seconds = now() - start;
+    cost.seconds = steadySeconds() - start;
     cost.shots = after.shots - before.shots;
     cost.certificate = after.certificate;
     cost.direct = after.direct - before.direct;

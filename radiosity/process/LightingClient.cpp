@@ -1,10 +1,10 @@
 #include "radiosity/process/LightingClient.h"
 
+#include "base/Clock.h"
 #include "base/Error.h"
 #include "radiosity/process/memory/Doorbell.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <new>
@@ -23,11 +23,6 @@ constexpr std::uint64_t kCameraKey = std::uint64_t(1) << 62, kLightsKey = kCamer
 constexpr double kStart = 20;                           ///< a process has so long to begin [s]
 constexpr double kStandstill = 120;                     ///< a step of the work takes less [s]
 constexpr double kFirstDelay = 0.1, kLongestDelay = 10; ///< before another worker is tried [s]
-
-double seconds() {
-    using namespace std::chrono;
-    return duration<double>(steady_clock::now().time_since_epoch()).count();
-}
 
 /// The head of a message; flush() puts in its serial number when it goes out.
 ByteWriter messageOf(MessageKind kind) {
@@ -51,7 +46,7 @@ void LightingClient::start() {
     running_ = true;
     hopeless_ = false;
     retryAt_ = retryDelay_ = 0;
-    lastTurn_ = seconds();
+    lastTurn_ = steadySeconds();
 }
 
 void LightingClient::stop() {
@@ -111,9 +106,9 @@ void LightingClient::failed(const std::string& why) {
     if (!std::exchange(reportedFailure_, true))
         say("radiosity: " + why + "; starting anew, with the light that there is until then");
     ++restarts_;
-    retryAt_ = seconds() + retryDelay_;
+    retryAt_ = steadySeconds() + retryDelay_;
     retryDelay_ = std::clamp(2 * retryDelay_, kFirstDelay, kLongestDelay);
-    if (unlitSince_ == 0) unlitSince_ = seconds();
+    if (unlitSince_ == 0) unlitSince_ = steadySeconds();
 }
 
 void LightingClient::distrust(const std::string& why) {
@@ -135,12 +130,12 @@ void LightingClient::sendScene() {
     body.text(message.region->name());
     message.body = body.take();
     queue_.push_back(std::move(message));
-    if (unlitSince_ == 0) unlitSince_ = seconds();
+    if (unlitSince_ == 0) unlitSince_ = steadySeconds();
 }
 
 void LightingClient::send(const GraphEdit& edit) {
     hopeless_ = false;
-    if (unlitSince_ == 0) unlitSince_ = seconds();
+    if (unlitSince_ == 0) unlitSince_ = steadySeconds();
     if (!control_) return; // the next worker is told with the scene
     ByteWriter body = messageOf(MessageKind::edit);
     write(body, edit);
@@ -152,7 +147,7 @@ void LightingClient::invalidate(const Bounds& box) {
     ByteWriter body = messageOf(MessageKind::invalidate);
     body.put(box);
     if (control_) queue(kNoKey, std::move(body));
-    if (unlitSince_ == 0) unlitSince_ = seconds();
+    if (unlitSince_ == 0) unlitSince_ = steadySeconds();
 }
 
 void LightingClient::setCamera(const View& view) {
@@ -224,7 +219,7 @@ bool LightingClient::knowsEdits(std::uint64_t serial) const {
 }
 
 void LightingClient::turn() {
-    const double now = seconds();
+    const double now = steadySeconds();
     const double passed = std::min(now - lastTurn_, 0.1); // not when this side itself stood still
     lastTurn_ = now;
     if (!running_ || hopeless_) return;
@@ -320,7 +315,7 @@ RadiosityState LightingClient::state() const {
     state.dirtyBlocks = status_.dirtyBlocks;
     state.dirtyMarked = control_ && knowsEdits(status_.marked);
     state.complete = control_ && knowsEdits(status_.complete) && unlitSince_ == 0;
-    state.age = unlitSince_ == 0 ? 0 : seconds() - unlitSince_;
+    state.age = unlitSince_ == 0 ? 0 : steadySeconds() - unlitSince_;
     state.restarts = restarts_;
     if (!running_)
         state.phase = Phase::off;

@@ -1,11 +1,11 @@
 #include "radiosity/process/LightingWorker.h"
 
+#include "base/Clock.h"
 #include "base/Error.h"
 #include "radiosity/process/memory/Doorbell.h"
 #include "scenegraph/Objects.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 
@@ -19,11 +19,6 @@ constexpr double kBetweenScans = 0.1;      ///< at the indirect light while it i
 constexpr double kBetweenWork = 0.03;      ///< that open work is published [s]
 constexpr std::size_t kMostBlocks = 1024;  ///< published in one turn
 constexpr std::size_t kMostSums = 1 << 16; ///< of direct light in one turn [rays]
-
-double seconds() {
-    using namespace std::chrono;
-    return duration<double>(steady_clock::now().time_since_epoch()).count();
-}
 
 [[noreturn]] void senseless(const char* what) {
     throw Error(std::string("radiosity: ") + what +
@@ -160,7 +155,7 @@ void LightingWorker::takeLights(ByteReader& message) {
 
 /// Whether edits may be followed now, or are to wait for the light of those before.
 bool LightingWorker::mayFollow() const {
-    return !lit_ || complete_ || pace_.mayTake(seconds());
+    return !lit_ || complete_ || pace_.mayTake(steadySeconds());
 }
 
 /// The last message that what is worked on takes in.
@@ -171,9 +166,9 @@ std::uint64_t LightingWorker::followed() const {
 void LightingWorker::followScene() {
     edited_ = false;
     followed_ = status_.taken;
-    pace_.taken(seconds());
+    pace_.taken(steadySeconds());
     settled_ = complete_ = marked_ = shown_ = false;
-    nextScan_ = seconds() + kTurn; // its direct light comes first
+    nextScan_ = steadySeconds() + kTurn; // its direct light comes first
     nextWork_ = 0;
     if (!graph_) return;
     if (!lit_) return build();
@@ -261,9 +256,9 @@ bool LightingWorker::work(double budget) {
 
 /// For those who watch: what is open now.
 void LightingWorker::showWork() {
-    if (seconds() < nextWork_ || !publisher_->hasStore() || !mesh_.empty()) return;
+    if (steadySeconds() < nextWork_ || !publisher_->hasStore() || !mesh_.empty()) return;
     publisher_->publishDirty(question_);
-    nextWork_ = seconds() + kBetweenWork;
+    nextWork_ = steadySeconds() + kBetweenWork;
 }
 
 /// Until the light is settled; then goes on with what was put off.
@@ -274,19 +269,19 @@ void LightingWorker::solve(double budget) {
         directDone_ |= std::strcmp(phase, "direct light") != 0;
     };
     Solver& solver = lit_->solver();
-    viewer_.update(solver, seconds());
+    viewer_.update(solver, steadySeconds());
     bool done = false; // this much
     if (!settled_)
         done = settled_ = solver.stepUntilReady(budget, progress);
     else
         done = complete_ = solver.step(budget);
-    pace_.worked(seconds(), solver.direct().dirtyKnown());
+    pace_.worked(steadySeconds(), solver.direct().dirtyKnown());
     directDone_ |= settled_;
     if (!settled_) status_.phase = WorkerStatus::solving;
     if (directDone_) solver.sumUp(kMostSums); // the first light comes all at once
-    if (done || seconds() >= nextScan_) {
+    if (done || steadySeconds() >= nextScan_) {
         publisher_->solverWorked(done);
-        nextScan_ = seconds() + kBetweenScans;
+        nextScan_ = steadySeconds() + kBetweenScans;
     } else {
         publisher_->directWorked();
     }

@@ -1,5 +1,6 @@
 #include "radiosity/rays/RayScene.h"
 
+#include "base/Bits.h"
 #include "base/Error.h"
 
 #include <embree3/rtcore.h>
@@ -307,8 +308,7 @@ void RayScene::trace(void* scene, ShadowRays& rays) const {
     QueryContext context;
     context.blocker = rays.blocker;
     rtcOccluded16(valid, static_cast<RTCScene>(scene), &context.context, &packet);
-    for (std::uint32_t left = context.doubts; left != 0; left &= left - 1) {
-        const int i = std::countr_zero(left);
+    for (const int i : bitsOf(context.doubts)) {
         if (rays.blocker[i] != ObjectId::kNone) continue;
         const RayHit hit = nearestIn(scene, {rays.originX[i], rays.originY[i], rays.originZ[i]},
                                      {rays.directionX[i], rays.directionY[i], rays.directionZ[i]},

@@ -1,5 +1,6 @@
 #include "radiosity/rows/EmitterSender.h"
 
+#include "base/Frame.h"
 #include "radiosity/rows/FormFactor.h"
 #include "radiosity/rows/SenderSamples.h"
 
@@ -78,8 +79,7 @@ void EmitterSender::sampleGroup(const Receiver& receiver, int first, SampleGroup
 void EmitterSender::sphereGroup(const Receiver& receiver, int first, SampleGroup& group) const {
     const glm::vec3 p = receiver.position;
     const TangentDisk disk = tangentDisk(p, emitter_->centre, emitter_->radius);
-    const glm::vec3 helper = std::abs(disk.axis.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-    const glm::vec3 u = disk.radius * glm::normalize(glm::cross(disk.axis, helper));
+    const glm::vec3 u = disk.radius * Frame(disk.axis).u;
     const glm::vec3 v = glm::cross(disk.axis, u);
     group.rays.used = 0;
     for (int i = 0; i < 16; ++i) {

@@ -1,6 +1,7 @@
 // Malley's method: points of the unit disk lifted onto the hemisphere are spread by the cosine.
 #include "radiosity/rows/HemisphereRays.h"
 
+#include "base/Frame.h"
 #include "radiosity/rows/SenderSamples.h"
 
 #include <cmath>
@@ -13,20 +14,6 @@ HemisphereRays::HemisphereRays(int count) {
         local_.emplace_back(p, std::sqrt(std::max(0.0f, 1 - glm::dot(p, p))));
     }
 }
-
-namespace {
-
-struct Frame {
-    glm::vec3 u, v, normal;
-
-    explicit Frame(glm::vec3 n) : normal(n) {
-        const glm::vec3 helper = std::abs(n.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-        u = glm::normalize(glm::cross(n, helper));
-        v = glm::cross(n, u);
-    }
-};
-
-} // namespace
 
 glm::vec3 HemisphereRays::direction(int index, glm::vec3 normal) const {
     const Frame frame(normal);

@@ -1,5 +1,6 @@
 #include "radiosity/rows/RowBuilder.h"
 
+#include "base/Bits.h"
 #include "radiosity/rays/Shaft.h"
 #include "radiosity/rows/FormFactor.h"
 #include "radiosity/rows/SenderSamples.h"
@@ -142,8 +143,7 @@ bool RowBuilder::retestEmitterEntry(const EmitterSender& sender, const Receiver&
                 again |= 1u << i;
         }
         const auto note = [&](std::uint32_t lanes) {
-            for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
-                const int i = std::countr_zero(left);
+            for (const int i : bitsOf(lanes)) {
                 changed |= pair.blocker[first + i] != group.rays.blocker[i];
                 pair.blocker[first + i] = group.rays.blocker[i];
                 if (group.rays.blocker[i] != kNone) visible &= ~(1u << i);

@@ -1,5 +1,6 @@
 #include "radiosity/rows/SenderSamples.h"
 
+#include "base/Frame.h"
 #include "radiosity/mesh/LightShapes.h"
 
 #include <algorithm>
@@ -94,9 +95,7 @@ EmitterSamples sampleEmitter(const Emitter& emitter, std::size_t count) {
     }
     glm::vec3 u(1, 0, 0), v(0, 1, 0);
     if (emitter.kind == Emitter::Kind::disk) {
-        const glm::vec3 helper =
-            std::abs(emitter.axis.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-        u = emitter.radius * glm::normalize(glm::cross(emitter.axis, helper));
+        u = emitter.radius * Frame(emitter.axis).u;
         v = glm::cross(emitter.axis, u);
     }
     for (std::uint32_t i = 0; i < count; ++i) {

@@ -1,5 +1,7 @@
 #include "radiosity/schedule/ChangeProbe.h"
 
+#include "base/Bits.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -200,8 +202,7 @@ void ChangeProbe::trace(Packet& packet, std::span<const MovedObject> moved) {
         rayCount_.single += std::uint64_t(std::popcount(some));
         traced(some);
     }
-    for (; blocked != 0; blocked &= blocked - 1) {
-        const auto i = std::size_t(std::countr_zero(blocked));
+    for (const std::size_t i : bitsOf(blocked)) {
         packet.answers[i]->blocked |= std::uint64_t(1) << packet.receivers[i];
     }
     packet.rays.used = 0;

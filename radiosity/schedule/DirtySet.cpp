@@ -1,5 +1,7 @@
 #include "radiosity/schedule/DirtySet.h"
 
+#include "base/Bits.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -113,8 +115,7 @@ void DirtySet::rankReceivers(std::uint32_t row, Entry& entry) {
     const ExpectedFactors& expected = entry.partial->expected();
     std::array<float, ExpectedFactors::kSize> change, gains;
     change.fill(0); // what is done is not asked for
-    for (std::uint64_t left = entry.left; left != 0; left &= left - 1) {
-        const auto i = std::size_t(std::countr_zero(left));
+    for (const std::size_t i : bitsOf(entry.left)) {
         change[i] = float(double(r.reflectance) * double(expected.factor[i]) *
                           (rows_[row].power + double(r.light)));
     }

@@ -1,5 +1,7 @@
 #include "radiosity/schedule/KernelEstimate.h"
 
+#include "base/Bits.h"
+
 #include <algorithm>
 #include <bit>
 
@@ -33,8 +35,7 @@ float KernelEstimate::at(std::size_t receiver, std::uint64_t asked, std::uint64_
     if (yes == asked) return 1;
     const Receiver& middle = receivers_[receiver];
     float sum = 0, all = 0;
-    for (std::uint64_t left = asked; left != 0; left &= left - 1) {
-        const int r = std::countr_zero(left);
+    for (const int r : bitsOf(asked)) {
         const Receiver& other = receivers_[std::size_t(r)];
         const glm::vec3 way = other.position - middle.position;
         const float near = std::max(0.0f, 1 - glm::dot(way, way) * perReach2_);

@@ -1,9 +1,10 @@
 // How large pieces of work are to be.
 #pragma once
 
+#include "base/Clock.h"
+
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstddef>
 #include <utility>
 
@@ -20,7 +21,7 @@ public:
     explicit Pace(std::size_t effort) : most_(effort), least_(effort) {}
     using Clock = double (*)(); ///< [s]
     /// Pieces that follow the time.
-    explicit Pace(Clock clock = &steadyTime) : clock_(clock) { perRay_.fill(kFirstGuess); }
+    explicit Pace(Clock clock = &steadySeconds) : clock_(clock) { perRay_.fill(kFirstGuess); }
 
     /// How long pieces should take from now on [s], and how large they may be at most [rays].
     void aim(double seconds, std::size_t most) {
@@ -45,11 +46,6 @@ public:
 private:
     static constexpr double kFirstGuess = 1e-6; ///< [s/ray]
 
-    static double steadyTime() {
-        using namespace std::chrono;
-        return duration<double>(steady_clock::now().time_since_epoch()).count();
-    }
-
     std::size_t effortOf(Kind kind) const {
         const double wanted = perRay_[kind] > 0 ? aim_ / perRay_[kind] : 0;
         return std::size_t(std::clamp(wanted, double(least_), double(most_)));
@@ -69,7 +65,7 @@ private:
 
     std::array<double, kKinds> perRay_{}; ///< [s]
     std::array<double, kKinds> faster_{}; ///< than known: the piece before, if it was
-    Clock clock_ = &steadyTime;
+    Clock clock_ = &steadySeconds;
     double aim_ = 0;
     std::size_t most_ = 0, least_ = 128;
 };

@@ -1,5 +1,7 @@
 #include "radiosity/schedule/PartialUpdate.h"
 
+#include "base/Bits.h"
+
 #include <algorithm>
 #include <bit>
 
@@ -25,8 +27,7 @@ void PartialUpdate::rank(std::uint64_t left, std::span<const float> gains, std::
     };
     std::array<Ranked, ExpectedFactors::kSize> ranked;
     count_ = first_ = 0;
-    for (; left != 0; left &= left - 1) {
-        const auto i = std::size_t(std::countr_zero(left));
+    for (const std::size_t i : bitsOf(left)) {
         ranked[count_++] = {gains[i] / entryCost(expected_, i), std::uint8_t(i)};
     }
     std::sort(ranked.begin(), ranked.begin() + std::ptrdiff_t(count_),

@@ -1,5 +1,6 @@
 #include "radiosity/schedule/ViewPriority.h"
 
+#include "base/Bits.h"
 #include "radiosity/rays/Shaft.h"
 #include "radiosity/schedule/KernelEstimate.h"
 
@@ -46,8 +47,7 @@ void ViewPriority::forgetViewSamples(std::span<const ObjectId> objects, const Bo
     });
     for (auto& [block, sample] : viewSamples_) {
         if (!stale(sample.box)) continue;
-        for (std::uint64_t left = sample.asked; left != 0; left &= left - 1) {
-            const auto r = std::size_t(std::countr_zero(left));
+        for (const std::size_t r : bitsOf(sample.asked)) {
             const glm::vec3 p = patches_.vertices[block * PatchSet::kBlock + r].receiver.position;
             const std::uint64_t bit = std::uint64_t(1) << r;
             const Bounds point{p, p};
@@ -115,8 +115,7 @@ void ViewPriority::evaluate(std::uint32_t block, std::uint64_t which, Values& va
         receivers[r] = patches_.vertices[first + r].receiver;
     const KernelEstimate share(receivers);
     values.known |= which;
-    for (; which != 0; which &= which - 1) {
-        const auto r = std::size_t(std::countr_zero(which));
+    for (const std::size_t r : bitsOf(which)) {
         ReceiverCluster cluster = clusters_.atVertex(first + r, light_()[first + r]);
         cluster.luminance += cluster.reflectance * float(ambient_ * std::numbers::inv_pi);
         std::optional<float> pixels;
@@ -138,8 +137,7 @@ const ViewPriority::ViewSample& ViewPriority::viewSampleOf(std::uint32_t block,
     which &= ~sample.asked;
     sample.asked |= which;
     ask(block, which, sample);
-    for (; which != 0; which &= which - 1) {
-        const auto r = std::size_t(std::countr_zero(which));
+    for (const std::size_t r : bitsOf(which)) {
         sample.box.add(
             patches_.vertices[std::size_t(block) * PatchSet::kBlock + r].receiver.position);
     }
@@ -166,8 +164,7 @@ void ViewPriority::ask(std::uint32_t block, std::uint64_t which, ViewSample& sam
         rays.used = 0;
         count = 0;
     };
-    for (; which != 0; which &= which - 1) {
-        const auto r = std::uint32_t(std::countr_zero(which));
+    for (const std::uint32_t r : bitsOf(which)) {
         const Receiver& receiver =
             patches_.vertices[std::size_t(block) * PatchSet::kBlock + r].receiver;
         const Bounds point{receiver.position, receiver.position};

@@ -1,5 +1,6 @@
 #include "radiosity/transport/DetailHits.h"
 
+#include "base/Bits.h"
 #include "base/Parallel.h"
 #include "radiosity/mesh/Interpolation.h"
 #include "radiosity/rays/Shaft.h"
@@ -151,9 +152,8 @@ bool DetailHits::workOn(DirtyGroups& open, std::size_t rays, std::size_t effort,
             rayCount_ += outcomes[i].rays;
             spent += kVisit + outcomes[i].rays;
             ways.push_back(outcomes[i].ways);
-            for (std::uint32_t left = outcomes[i].changed; left != 0; left &= left - 1)
-                for (const std::uint32_t p :
-                     nodePatches_.of(groups[i] * kGroup + std::uint32_t(std::countr_zero(left))))
+            for (const int node : bitsOf(outcomes[i].changed))
+                for (const std::uint32_t p : nodePatches_.of(groups[i] * kGroup + std::uint32_t(node)))
                     revisit(p, false);
         }
         groupsVisited_ += ways.size();
@@ -233,8 +233,7 @@ bool DetailHits::anyAffected(std::uint32_t group, const DetailRays::Moved& moved
                                      hits.subspan(kRays, kRays), kFar))
             return true;
     }
-    for (std::uint32_t left = known.probed; left != 0; left &= left - 1) {
-        const auto slot = std::uint32_t(std::countr_zero(left));
+    for (const std::uint32_t slot : bitsOf(known.probed)) {
         if (affects(patches_.vertices[group * kGroup + slot].receiver, DetailRays::kAllProbes,
                     known.probes[slot], patches_.patchSize))
             return true;

@@ -1,5 +1,7 @@
 #include "radiosity/transport/DetailRays.h"
 
+#include "base/Bits.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -66,8 +68,7 @@ DetailRays::DetailRays(const PatchSet& patches, const DrawnSurface& surface, flo
 
 int DetailRays::follow(const Receiver& receiver, std::uint64_t which, bool slits,
                        Hits& hits) const {
-    for (std::uint64_t left = which; left != 0; left &= left - 1) {
-        const int i = std::countr_zero(left);
+    for (const int i : bitsOf(which)) {
         const glm::vec3 direction = rays_.direction(i, receiver.normal);
         const DrawnHit hit = surface_.nearest(receiver.position, direction, 1e30f);
         std::uint32_t& element = hits.elements[std::size_t(i)];
@@ -105,8 +106,7 @@ std::uint64_t DetailRays::affected(const Receiver& receiver, std::uint64_t which
         if (!inFront(box, receiver) || distanceTo(box, receiver.position) > reach) continue;
         const std::uint64_t towards =
             rays_.towards(box.centre() - receiver.position, 0.5f * box.diagonal(), receiver.normal);
-        for (std::uint64_t left = which & towards & ~affected; left != 0; left &= left - 1) {
-            const int i = std::countr_zero(left);
+        for (const int i : bitsOf(which & towards & ~affected)) {
             const float at = entry(box, receiver.position, rays_.direction(i, receiver.normal));
             const std::uint32_t hit = hits[std::size_t(i)];
             if (at > reach) continue;

@@ -1,5 +1,6 @@
 #include "radiosity/transport/DirectLight.h"
 
+#include "base/Bits.h"
 #include "base/Parallel.h"
 
 #include <algorithm>
@@ -212,8 +213,7 @@ std::uint64_t DirectLight::hidden(std::uint32_t emitter, std::uint32_t block,
     const std::uint32_t first = block * kBlock;
     if (first < set_.firstPrivate) return wallBefore(emitter, first).valid() ? which : 0;
     std::uint64_t found = 0;
-    for (; which != 0; which &= which - 1) {
-        const auto r = std::uint32_t(std::countr_zero(which));
+    for (const std::uint32_t r : bitsOf(which)) {
         if (!isPadding(receivers_[first + r]) && wallBefore(emitter, first + r).valid())
             found |= std::uint64_t(1) << r;
     }

@@ -1,11 +1,11 @@
 #include "radiosity/transport/Solver.h"
 
+#include "base/Clock.h"
 #include "base/Parallel.h"
 #include "radiosity/mesh/Interpolation.h"
 #include "radiosity/schedule/ViewPriority.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -22,11 +22,6 @@ constexpr double kDirectMayStayDirty = 0.15, kIndirectMayStayDirty = 0.35;
 /// A piece of work within a prompt budget takes about so long; within others it takes the budget,
 /// up to so long [s]: small pieces have threads wait for each other, and work take longer in all.
 constexpr double kPause = 3e-4, kLongest = 0.05;
-
-double seconds() {
-    using namespace std::chrono;
-    return duration<double>(steady_clock::now().time_since_epoch()).count();
-}
 
 Rgb toRgb(glm::dvec3 v) {
     return {float(v.x), float(v.y), float(v.z)};
@@ -118,12 +113,12 @@ constexpr double kAging = 0.5;
 /// \param until it becomes true, if that is not null
 /// \return whether there is nothing left to do
 bool Solver::run(double budget, const bool* until, const Progress& progress) {
-    const double start = seconds();
+    const double start = steadySeconds();
     const bool prompt = budget < kPrompt;
     const std::size_t most = prompt ? kMostPromptEffort : kMostEffort;
     const double piece = prompt ? kPause : std::min(budget, kLongest);
     for (double left = budget; left > 0 && !(until && *until);
-         left = budget - (seconds() - start)) {
+         left = budget - (steadySeconds() - start)) {
         direct_.setAging(kAging / pace_.secondsPerRay(Pace::direct));
         pace_.aim(std::min(piece, std::max(left, 0.5 * kPause)), most);
         if (!work(pace_, progress)) return true;
@@ -162,14 +157,14 @@ bool Solver::work(Pace& pace, const Progress& progress) {
 
 /// The same, but for what may be put off.
 bool Solver::workOnce(Pace& pace, const Progress& progress) {
-    const double start = seconds();
+    const double start = steadySeconds();
     if (pace.work(Pace::direct,
                   [&](std::size_t effort) {
                       return direct_.update(effort, mayStayDirty(kDirectMayStayDirty));
                   }) ||
         pace.work(Pace::sums, [&](std::size_t effort) { return direct_.sum(effort); })) {
         handedOver_ = false;
-        directSeconds_ += seconds() - start;
+        directSeconds_ += steadySeconds() - start;
         if (progress) progress("direct light", direct_.updates().share());
         return true;
     }
@@ -204,18 +199,18 @@ bool Solver::workOnce(Pace& pace, const Progress& progress) {
             progress("indirect light", span > 0 ? std::log(firstCertificate_ / now) / span : 1.0);
         }
     }
-    indirectSeconds_ += seconds() - start;
+    indirectSeconds_ += steadySeconds() - start;
     return more;
 }
 
 bool Solver::workOnDetail(Pace& pace, const Progress& progress) {
     if (detail_->swept()) return false;
-    const double start = seconds();
+    const double start = steadySeconds();
     if (!pace.work(Pace::detail, [&](std::size_t effort) { return detail_->trace(effort); })) {
         if (!detail_->sweeping()) detail_->beginSweeps(direct_.vertices(), nodeIlluminance());
         pace.work(Pace::sweeps, [&](std::size_t effort) { return detail_->sweep(effort), true; });
     }
-    detailSeconds_ += seconds() - start;
+    detailSeconds_ += steadySeconds() - start;
     if (progress) progress("fine shadows", detail_->hits().share());
     return true;
 }

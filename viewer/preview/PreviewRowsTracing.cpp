@@ -1,4 +1,5 @@
 // The rays of PreviewRows: of what is missing, in one arrangement.
+#include "base/Bits.h"
 #include "base/Parallel.h"
 #include "radiosity/rays/Shaft.h"
 #include "radiosity/rows/RowBuilder.h"
@@ -37,16 +38,14 @@ void PreviewRows::run(const Task& task, RowBuilder& builder) const {
     std::array<Receiver, kBlock> receivers{};
     std::uint64_t wanted = 0, clear = 0;
     const std::size_t begin = task.at->block * kBlock;
-    for (std::uint64_t bits = task.missing; bits != 0; bits &= bits - 1) {
-        const auto i = std::size_t(std::countr_zero(bits));
+    for (const std::size_t i : bitsOf(task.missing)) {
         const std::uint64_t bit = std::uint64_t(1) << i;
         receivers[i] = receiver(*task.slot, task.at->object, begin + i);
         if (isPadding(receivers[i])) continue;
         if (isClear(task, begin + i, receivers[i])) clear |= bit;
         if (!(clear & bit) || !(task.clear->vertices & bit)) wanted |= bit;
     }
-    for (std::uint64_t bits = wanted & clear; bits != 0; bits &= bits - 1)
-        task.clear->factors[std::size_t(std::countr_zero(bits))] = 0;
+    for (const int i : bitsOf(wanted & clear)) task.clear->factors[i] = 0;
     for (const EmitterSender& sender : task.slot->senders[task.source]) {
         if (wanted == 0) break;
         RowBlock block;
@@ -58,8 +57,7 @@ void PreviewRows::run(const Task& task, RowBuilder& builder) const {
     }
     if (clear == 0) return;
     task.clear->vertices |= clear;
-    for (std::uint64_t bits = clear; bits != 0; bits &= bits - 1) {
-        const auto i = std::size_t(std::countr_zero(bits));
+    for (const std::size_t i : bitsOf(clear)) {
         task.known->factors[i] = task.clear->factors[i];
     }
 }
@@ -101,8 +99,7 @@ void PreviewRows::trace(const PreviewLighting& light, Slot& slot) {
             slot.found[i * kMostPreviewed + l] = &known;
             const std::uint64_t missing = at.vertices & ~known.vertices;
             known.vertices |= missing;
-            for (std::uint64_t bits = missing; bits != 0; bits &= bits - 1)
-                known.factors[std::size_t(std::countr_zero(bits))] = 0;
+            for (const int v : bitsOf(missing)) known.factors[std::size_t(v)] = 0;
             if (missing == 0 || slot.senders[l].empty()) continue;
             const bool some = inTheWay && !moves && !light.lights[l].moves;
             tasks.push_back(

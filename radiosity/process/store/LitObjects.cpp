@@ -1,11 +1,11 @@
 #include "radiosity/process/store/LitObjects.h"
 
+#include "base/Clock.h"
 #include "base/Error.h"
 #include "radiosity/mesh/LightShapes.h"
 #include "radiosity/process/store/LitPatches.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 namespace penumbra {
@@ -16,11 +16,6 @@ constexpr std::size_t kBlock = LitGeometry::kBlock;
 static_assert(kBlock == PatchSet::kBlock);
 constexpr std::size_t kMostBlocks = 1024; ///< taken at once
 constexpr double kMostTime = 0.002;       ///< for reading objects [s]
-
-double seconds() {
-    using namespace std::chrono;
-    return duration<double>(steady_clock::now().time_since_epoch()).count();
-}
 
 [[noreturn]] void senseless() {
     throw Error("the process wrote nonsense");
@@ -77,8 +72,8 @@ void LitObjects::setLights(const Lights& lights) {
 }
 
 void LitObjects::take(const Colour& colour) {
-    const double start = seconds();
-    while (!mesh_.done() && seconds() - start < kMostTime) takeObject(colour);
+    const double start = steadySeconds();
+    while (!mesh_.done() && steadySeconds() - start < kMostTime) takeObject(colour);
     if (!mesh_.done()) return;
     got_.clear();
     store_->read(kMostBlocks, got_);
