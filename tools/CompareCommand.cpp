@@ -7,6 +7,7 @@
 #include "tools/Commands.h"
 #include "tools/ComparisonJson.h"
 #include "tools/Machine.h"
+#include "tools/OutputFiles.h"
 #include "tools/SceneSolution.h"
 
 #include <CLI/CLI.hpp>
@@ -150,13 +151,14 @@ void run(CompareCommand command) {
     const ThreadLimit limit(command.solve.threads);
     if (command.json.empty())
         command.json = std::filesystem::path(command.output).replace_extension(".json").string();
-    checkOutputs(command.solve.scene, {command.output, command.json});
+    checkOutputs({command.solve.scene}, {command.output, command.json});
     ProgressBar progress(command.solve.quiet      ? ProgressBar::When::never
                          : command.solve.progress ? ProgressBar::When::always
                                                   : ProgressBar::When::terminal);
     LoadOptions load;
     load.time = frameRange(command.solve.frames).first;
     LoadedScene loaded = loadUsdScene(command.solve.scene, load);
+    checkOutputs(loaded.files, {command.output, command.json});
     if (!command.solve.quiet) reportDiagnostics(loaded.diagnostics, command.solve.verbose);
     if (!loaded.animation)
         throw SceneFileError({command.solve.scene},

@@ -7,6 +7,7 @@
 #include "scenegraph/Camera.h"
 #include "tools/CameraChoice.h"
 #include "tools/Commands.h"
+#include "tools/OutputFiles.h"
 #include "tools/SceneSolution.h"
 #include "tools/Statistics.h"
 #include "viewer/gl/OffscreenContext.h"
@@ -22,6 +23,7 @@
 #include <initializer_list>
 #include <memory>
 #include <string_view>
+#include <utility>
 
 namespace penumbra {
 
@@ -113,14 +115,18 @@ void checkFormats(const RenderCommand& command) {
                                    fmt::format("'{}' would be PNG: name it .png", command.png));
 }
 
-void run(const RenderCommand& command) {
+void run(RenderCommand command) {
     const ThreadLimit limit(command.solve.threads);
     checkFormats(command);
-    checkOutputs(command.solve.scene, {command.output, command.png, command.solve.stats});
     checkNumbered(command.output, command.solve.frames);
     checkNumbered(command.png, command.solve.frames);
     const std::string& frames = command.solve.frames;
     const FrameRange range = frames.empty() ? FrameRange{} : frameRange(frames);
+    std::vector<std::string>& outputs = command.solve.outputs;
+    outputs = {command.solve.stats};
+    for (const std::string& pattern : {command.output, command.png})
+        for (std::string& name : everyName(pattern, range)) outputs.push_back(std::move(name));
+    checkOutputs({command.solve.scene}, outputs);
     SceneSolution solution(command.solve);
     for (int frame = range.first; frame <= range.last; ++frame) {
         if (frame > range.first) solution.show(frame);

@@ -2,14 +2,13 @@
 
 #include "base/Clock.h"
 #include "base/Error.h"
+#include "tools/OutputFiles.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cstdio>
-#include <filesystem>
 #include <tuple>
 #include <utility>
 
@@ -75,30 +74,6 @@ void addSolveOptions(CLI::App& command, SolveSettings& settings) {
     command.add_flag("--progress", settings.progress,
                      "Show progress even when standard error is no terminal");
     command.add_flag("--quiet", settings.quiet, "Show neither progress nor a summary");
-}
-
-void checkOutputs(const std::string& scene, const std::vector<std::string>& outputs) {
-    namespace fs = std::filesystem;
-    const auto clusterOf = [](const fs::path& path) {
-        std::error_code none; // a pipe given as a file, /dev/fd/63, has no canonical name
-        const fs::path place = fs::weakly_canonical(path, none);
-        return none ? path : place;
-    };
-    std::vector<fs::path> taken{clusterOf(scene)};
-    for (const std::string& output : outputs) {
-        if (output.empty() || output == "-") continue;
-        const fs::path folder = fs::path(output).parent_path();
-        if (!folder.empty() && !fs::is_directory(folder))
-            throw Error(fmt::format("{}: error: can't write: no folder '{}' (create it first)",
-                                    output, folder.string()));
-        if (fs::is_directory(output))
-            throw Error(fmt::format("{}: error: can't write: is a folder (name a file)", output));
-        const fs::path place = clusterOf(output);
-        if (std::find(taken.begin(), taken.end(), place) != taken.end() &&
-            fs::path(output) != "/dev/null")
-            throw CLI::ValidationError(output, "would overwrite the scene or another result");
-        taken.push_back(place);
-    }
 }
 
 FrameRange frameRange(const std::string& text) {
@@ -171,6 +146,7 @@ SceneSolution::SceneSolution(const SolveSettings& settings)
         return loadUsdScene(settings.scene, options);
     });
     progress_.clear();
+    checkOutputs(loaded_.files, settings.outputs);
     if (!settings.quiet) reportDiagnostics(loaded_.diagnostics, settings.verbose);
     placed_ = placeScene(*loaded_.scene);
     if (placed_.meshes.empty() && placed_.lights.empty())

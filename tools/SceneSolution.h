@@ -34,6 +34,7 @@ struct SolveSettings {
     std::optional<PolicyKind> policy; ///< none: what the file asks for, or importance
     unsigned threads = 0;
     std::string stats;
+    std::vector<std::string> outputs; ///< names of all results: none may be a layer of the scene
     bool verbose = false;
     bool progress = false;
     bool quiet = false;
@@ -41,11 +42,6 @@ struct SolveSettings {
 
 /// Adds the shared options to a command; `settings` must outlive the parsing.
 void addSolveOptions(CLI::App& command, SolveSettings& settings);
-
-/// Fails before the work when a result could not be written after it: no such folder, a folder in
-/// its place; or when it would take the place of the scene or of another result (a wrong command
-/// line). \param outputs paths, empty ones are left out \throws Error, CLI::ValidationError
-void checkOutputs(const std::string& scene, const std::vector<std::string>& outputs);
 
 /// Reads "A:B" or "A". \throws CLI::ValidationError
 FrameRange frameRange(const std::string& text);

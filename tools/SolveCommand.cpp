@@ -4,6 +4,7 @@
 #include "radiosity/query/LitSurface.h"
 #include "radiosity/query/PointGather.h"
 #include "tools/Commands.h"
+#include "tools/OutputFiles.h"
 #include "tools/SceneSolution.h"
 #include "tools/SensorFile.h"
 #include "tools/Statistics.h"
@@ -54,13 +55,15 @@ std::vector<Rgb> readSensorValues(SceneSolution& solution, const std::vector<Rec
     return values;
 }
 
-void run(const SolveCommand& command) {
+void run(SolveCommand command) {
     const ThreadLimit limit(command.solve.threads);
-    checkOutputs(command.solve.scene, {command.sensors, command.values, command.solve.stats});
-    std::vector<Receiver> sensors; // read first: a wrong list should not cost a solution
-    if (!command.sensors.empty()) sensors = readSensors(command.sensors);
     const std::string& frames = command.solve.frames;
     const FrameRange range = frames.empty() ? FrameRange{} : frameRange(frames);
+    command.solve.outputs = everyName(command.values, range);
+    command.solve.outputs.push_back(command.solve.stats);
+    checkOutputs({command.solve.scene, command.sensors}, command.solve.outputs);
+    std::vector<Receiver> sensors; // read first: a wrong list should not cost a solution
+    if (!command.sensors.empty()) sensors = readSensors(command.sensors);
     const bool everyFrame = command.values.find('#') != std::string::npos;
     SceneSolution solution(command.solve);
     for (int frame = range.first; frame <= range.last; ++frame) {

@@ -1,10 +1,13 @@
 #include "tools/Commands.h"
+#include "tools/OutputFiles.h"
 #include "tools/SceneSolution.h"
 #include "viewer/app/Viewer.h"
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <memory>
+#include <vector>
 
 namespace penumbra {
 
@@ -16,7 +19,7 @@ struct ViewCommand {
 };
 
 void run(ViewCommand& command) {
-    checkOutputs(command.solve.scene, {command.viewer.record});
+    checkOutputs({command.solve.scene}, {command.viewer.record});
     ViewerOptions& options = command.viewer;
     options.scene = command.solve.scene;
     options.frame = command.solve.frame;
@@ -26,6 +29,9 @@ void run(ViewCommand& command) {
     options.light.threads = command.solve.threads;
     options.reported = [&](const std::vector<Diagnostic>& diagnostics) {
         if (!command.solve.quiet) reportDiagnostics(diagnostics, command.solve.verbose);
+    };
+    options.opened = [&](const std::vector<std::filesystem::path>& layers) {
+        checkOutputs(layers, {options.record});
     };
     runViewer(options);
 }

@@ -82,11 +82,17 @@ std::pair<int, std::string> openTemporary(const fs::path& folder) {
 
 } // namespace
 
-void writeFileAtomically(const std::string& path, std::span<const std::byte> bytes) {
+fs::path writtenPlace(const fs::path& path) {
     std::error_code ignored; // of what can't be looked at; opening it will say why
     fs::path target = path;
     for (int links = 0; links < kMostLinks && fs::is_symlink(target, ignored); ++links)
         target = target.parent_path() / fs::read_symlink(target, ignored);
+    return target;
+}
+
+void writeFileAtomically(const std::string& path, std::span<const std::byte> bytes) {
+    std::error_code ignored; // of what can't be looked at; opening it will say why
+    const fs::path target = writtenPlace(path);
     const fs::file_status status = fs::status(target, ignored);
     if (fs::is_directory(status)) fail(path, EISDIR);
     if (fs::exists(status) && !fs::is_regular_file(status)) return writeStraight(path, bytes);

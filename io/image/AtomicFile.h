@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,5 +16,9 @@ namespace penumbra {
 /// error: can't write: reason` (no such folder, no permission, disk full, ...)
 void writeFileAtomically(const std::string& path, std::span<const std::byte> bytes);
 void writeFileAtomically(const std::string& path, std::string_view text);
+
+/// The file that would be written: `path`, or what the symbolic links there lead to, which need not
+/// exist.
+std::filesystem::path writtenPlace(const std::filesystem::path& path);
 
 } // namespace penumbra

@@ -40,6 +40,20 @@ def without_a_display():
               f"one line that names penumbra render: {done.stderr.strip()}")
 
 
+def recording_over_a_layer(display):
+    """A session is never recorded over a layer that the scene is read from."""
+    walls = OUTPUT / "walls.usda"
+    shutil.copy(SCENES / "cornell.usda", walls)
+    (OUTPUT / "over.usda").write_text("#usda 1.0\n(\n    subLayers = [@./walls.usda@]\n)\n")
+    before = walls.read_bytes()
+    done = subprocess.run([PENUMBRA, "view", "over.usda", "--record", "walls.usda"],
+                          env=dict(display.environment, XDG_CONFIG_HOME=str(OUTPUT / "config")),
+                          cwd=OUTPUT, capture_output=True, text=True, timeout=60)
+    check(done.returncode == 2 and "would overwrite" in done.stderr,
+          f"--record over a sublayer: exit code {done.returncode}, {done.stderr.strip()}")
+    check(walls.read_bytes() == before, "the sublayer is as it was")
+
+
 class View:
     """A running walkthrough."""
 
@@ -319,6 +333,7 @@ def main():
     shutil.rmtree(OUTPUT, ignore_errors=True)
     OUTPUT.mkdir(parents=True)
     with xwindow.Display() as display:
+        recording_over_a_layer(display)
         walk_about(display)
         overlays(display)
         take, last = office_session(display)

@@ -155,6 +155,7 @@ void Viewer::openScene(ReadyScene ready) {
     if (again) before = walk_->rig();
     light_.reset();
     replay_.reset();
+    if (!again && options_.opened) options_.opened(ready.loaded.files);
     if (!again && options_.reported) options_.reported(ready.loaded.diagnostics);
     watcher_ = FileWatcher(ready.loaded.files);
     walk_.emplace(std::move(ready));

@@ -4,6 +4,7 @@
 #include "io/usd/layer/UsdDiagnostic.h"
 #include "radiosity/process/RadiosityOptions.h"
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -23,6 +24,8 @@ struct ViewerOptions {
     int samples = 0; ///< a pixel; 0: 4 with a graphics card, 1 without
     /// Told what the reader has to say about the file, once.
     std::function<void(const std::vector<Diagnostic>&)> reported;
+    /// Told which files the scene was read from, once, before anything is written. May throw.
+    std::function<void(const std::vector<std::filesystem::path>&)> opened;
 };
 
 /// Opens a window onto a scene, and returns when it was closed, or when the program was asked to

@@ -15,8 +15,9 @@ constexpr std::size_t kMaxLayers = 4096; // in all: a tree that doubles at each 
 
 class StackReader {
 public:
-    StackReader(const UsdLayerLimits& limits, Diagnostics& diagnostics)
-        : limits_(limits), diagnostics_(diagnostics) {}
+    StackReader(const UsdLayerLimits& limits, Diagnostics& diagnostics,
+                std::vector<fs::path>* unread)
+        : limits_(limits), diagnostics_(diagnostics), unread_(unread) {}
 
     std::vector<UsdStackedLayer> read(const fs::path& root) {
         add(root, load(root), {});
@@ -62,6 +63,7 @@ private:
         try {
             layer = load(file);
         } catch (const SceneFileError& error) {
+            if (unread_ && fs::is_regular_file(file, ignored)) unread_->push_back(file);
             return skip(error.what());
         }
         add(file, layer, combined(outer, sub, parent, *layer, where));
@@ -81,6 +83,7 @@ private:
 
     UsdLayerLimits limits_;
     Diagnostics& diagnostics_;
+    std::vector<fs::path>* unread_;
     std::vector<UsdStackedLayer> stack_;
     std::vector<fs::path> open_; // the files from the root down to the one being added
     std::map<fs::path, std::shared_ptr<const UsdLayer>> layers_;
@@ -102,8 +105,9 @@ double timeCodesPerSecond(const UsdLayer& layer) {
 
 std::vector<UsdStackedLayer> readUsdLayerStack(const std::filesystem::path& root,
                                                const UsdLayerLimits& limits,
-                                               Diagnostics& diagnostics) {
-    return StackReader(limits, diagnostics).read(root);
+                                               Diagnostics& diagnostics,
+                                               std::vector<std::filesystem::path>* unread) {
+    return StackReader(limits, diagnostics, unread).read(root);
 }
 
 } // namespace penumbra

@@ -19,9 +19,11 @@ struct UsdStackedLayer {
 /// offsets and the ratio of timeCodesPerSecond. A sublayer that is missing, unreadable or part of a
 /// cycle is warned of and left out, as OpenUSD does; only the root layer's own faults are thrown.
 /// Asset paths are relative to the layer that has them.
-std::vector<UsdStackedLayer> readUsdLayerStack(const std::filesystem::path& root,
-                                               const UsdLayerLimits& limits,
-                                               Diagnostics& diagnostics);
+/// \param unread if not null: takes the files that are there but were left out, since they could
+///               not be read or understood
+std::vector<UsdStackedLayer>
+readUsdLayerStack(const std::filesystem::path& root, const UsdLayerLimits& limits,
+                  Diagnostics& diagnostics, std::vector<std::filesystem::path>* unread = nullptr);
 
 /// The layer's timeCodesPerSecond, else its framesPerSecond, else 24.
 double timeCodesPerSecond(const UsdLayer& layer);

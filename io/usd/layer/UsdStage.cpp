@@ -30,7 +30,7 @@ const UsdValue* strongestMetadata(const std::vector<UsdOpinion>& opinions, std::
 
 UsdStage UsdStage::open(const std::filesystem::path& root, const UsdLayerLimits& limits) {
     UsdStage stage;
-    stage.layers_ = readUsdLayerStack(root, limits, stage.diagnostics_);
+    stage.layers_ = readUsdLayerStack(root, limits, stage.diagnostics_, &stage.unread_);
     stage.compose();
     return stage;
 }
@@ -38,6 +38,7 @@ UsdStage UsdStage::open(const std::filesystem::path& root, const UsdLayerLimits&
 std::vector<std::filesystem::path> UsdStage::files() const {
     std::vector<std::filesystem::path> files;
     for (const UsdStackedLayer& stacked : layers_) files.push_back(stacked.layer->file);
+    files.insert(files.end(), unread_.begin(), unread_.end());
     return files;
 }
 

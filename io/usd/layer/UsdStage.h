@@ -66,7 +66,7 @@ public:
     const std::vector<UsdPrim>& prims() const { return prims_; }
     const UsdPrim* find(std::string_view path) const;
     const UsdLayer& rootLayer() const { return *layers_.front().layer; }
-    /// The files of all layers, the root layer's first.
+    /// The files of all layers, the root layer's first; then those that could not be understood.
     std::vector<std::filesystem::path> files() const;
     Diagnostics& diagnostics() { return diagnostics_; }
 
@@ -98,6 +98,7 @@ private:
     void warnOfArcs(const UsdOpinion& opinion);
 
     std::vector<UsdStackedLayer> layers_;
+    std::vector<std::filesystem::path> unread_; ///< sublayers that are there but were left out
     std::vector<UsdPrim> prims_;
     std::unordered_map<std::string, std::uint32_t> indexOf_;
     Diagnostics diagnostics_;

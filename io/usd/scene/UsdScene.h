@@ -26,7 +26,8 @@ struct LoadedScene {
     std::shared_ptr<UsdAnimation> animation; ///< plays the file's time samples; null: nothing moves
     std::vector<Diagnostic> diagnostics;     ///< what was not understood or left out; see summary()
     UsdAddresses addresses;                  ///< where in the file the nodes come from
-    std::vector<std::filesystem::path> files; ///< all layers that were read, the file itself first
+    /// All layers, also sublayers that could not be understood; the file itself first.
+    std::vector<std::filesystem::path> files;
 };
 
 /// Reads a USD text file as a scene graph. Below the root everything is in metres, in the file's
