@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <sstream>
@@ -72,11 +73,13 @@ ComparisonOptions optionsOf(const CompareCommand& command, const LoadedScene& lo
     options.growth = command.growth;
     if (command.dirty == "perfect") options.dirty = DirtySetKind::perfect;
     const FrameRange range = frameRange(command.solve.frames);
-    options.filmFrame = command.filmFrame == 0 ? 0 : command.filmFrame - range.first - 1;
-    if (options.filmFrame < 0 || options.filmFrame >= range.last - range.first)
+    const std::int64_t film =
+        command.filmFrame == 0 ? 0 : std::int64_t(command.filmFrame) - range.first - 1;
+    if (film < 0 || film >= range.last - range.first)
         throw CLI::ValidationError("--film",
                                    fmt::format("{} is no frame from {} to {}", command.filmFrame,
                                                range.first + 1, range.last));
+    options.filmFrame = int(film);
     options.filmSeconds = {0};
     for (double ms = 1; ms < 70'000; ms *= 2) options.filmSeconds.push_back(1e-3 * ms);
     return options;

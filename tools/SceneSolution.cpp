@@ -88,6 +88,11 @@ FrameRange frameRange(const std::string& text) {
         }();
     if (error != std::errc() || at != end || range.last < range.first)
         throw CLI::ValidationError("--frames", fmt::format("'{}' is not A:B with A <= B", text));
+    if (range.first < -kFarthestFrame || range.last > kFarthestFrame ||
+        range.last - range.first >= kMostFrames)
+        throw CLI::ValidationError("--frames",
+                                   fmt::format("'{}': {} frames are played at most, none beyond {}",
+                                               text, kMostFrames, kFarthestFrame));
     return range;
 }
 

@@ -18,6 +18,9 @@ class App;
 
 namespace penumbra {
 
+inline constexpr int kMostFrames = 100'000;          ///< more than an hour, 25 a second
+inline constexpr int kFarthestFrame = 1'000'000'000; ///< frames are counted in int
+
 /// Frames to play, in steps of one.
 struct FrameRange {
     int first = 0, last = 0;
@@ -43,7 +46,8 @@ struct SolveSettings {
 /// Adds the shared options to a command; `settings` must outlive the parsing.
 void addSolveOptions(CLI::App& command, SolveSettings& settings);
 
-/// Reads "A:B" or "A". \throws CLI::ValidationError
+/// Reads "A:B" or "A": at most kMostFrames, none farther from 0 than kFarthestFrame. \throws
+/// CLI::ValidationError
 FrameRange frameRange(const std::string& text);
 /// Puts a frame's number in the place of the last run of '#' in a file name.
 std::string numberedPath(const std::string& pattern, int frame);

@@ -96,6 +96,22 @@ TEST_F(Frames, ThatMakeNoSenseAreAWrongCommandLine) {
     }
 }
 
+TEST_F(Frames, ThatNeverEndAreAWrongCommandLine) {
+    for (const char* frames : {"2147483640:2147483647", "-2147483648:2147483647", "1:2147483646",
+                               "-2147483648:-2147483647", "1:100001", "1:99999999999"}) {
+        const Outcome outcome = run(
+            "solve", {"--frames", frames, "--sensors", sensors, "--values", here.path("v.#.csv")});
+        EXPECT_EQ(outcome.exitCode, 2) << frames;
+        EXPECT_THAT(outcome.err, HasSubstr("--frames")) << frames;
+        EXPECT_THAT(outcome.err, HasSubstr(frames));
+    }
+    EXPECT_THAT(here.files(), ElementsAre("in.csv", "room.usda"));
+    solve("v", {"--frames", "999999999:1000000000"});
+    EXPECT_EQ(
+        run("render", {"-o", here.path("a#.exr"), "--frames", "-2147483648:2147483647"}).exitCode,
+        2);
+}
+
 TEST_F(Frames, ThatWouldOverwriteEachOtherAreAWrongCommandLine) {
     const Outcome outcome = run("render", {"-o", here.path("a.exr"), "--frames", "1:2"});
     EXPECT_EQ(outcome.exitCode, 2);
