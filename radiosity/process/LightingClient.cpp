@@ -205,7 +205,7 @@ void LightingClient::flush() {
         serial_ = serial;
         if (message.key != kCameraKey) editSerial_ = serial;
         sent = true;
-        if (message.region) sent_.push_back(std::move(message.region));
+        if (message.region) sent_.emplace_back(serial, std::move(message.region));
         queue_.pop_front();
     }
     if (sent) ring(control().doorbell);
@@ -261,7 +261,7 @@ void LightingClient::readStatus() {
     if (!control().status.read(status) || control().status.version() == 0) return;
     control_->unlink(); // the worker has it
     status_ = status;
-    if (status_.taken >= 1 && !sent_.empty()) sent_.clear();
+    while (!sent_.empty() && sent_.front().first <= status_.taken) sent_.pop_front();
     const bool lit =
         status_.phase == WorkerStatus::settled && knowsEdits(status_.lit) && opened_ == granted_;
     if (lit) {

@@ -16,6 +16,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace penumbra {
@@ -87,7 +88,9 @@ private:
     bool reportedFailure_ = false;
     RegionPtr control_; ///< null: there is no worker
     std::optional<RingSender> ring_;
-    std::vector<RegionPtr> sent_; ///< scenes on their way
+    /// Scenes on their way, with the serial numbers of their messages, in order: each stays until
+    /// the worker says that it has taken that message.
+    std::deque<std::pair<std::uint64_t, RegionPtr>> sent_;
     std::deque<Message> queue_;
     std::uint64_t serial_ = 0;     ///< of the last message in the ring
     std::uint64_t editSerial_ = 0; ///< of the last one that is no camera

@@ -1,0 +1,68 @@
+// What the node hands to its worker stays there until the worker has it.
+#include "tests/support/LitNode.h"
+#include "tests/support/SteppedLink.h"
+
+#include <gtest/gtest.h>
+
+namespace penumbra {
+
+namespace {
+
+/// A room whose other side takes a turn when it is told to.
+struct SteppedRoom {
+    SteppedLink* link = nullptr;
+    LitRoom room{[this] {
+        auto stepped = std::make_unique<SteppedLink>();
+        link = stepped.get();
+        return stepped;
+    }()};
+
+    bool settle() {
+        return updateUntil(*room.node, [this] {
+            link->step();
+            return room.node->state().complete;
+        });
+    }
+};
+
+TEST(LightingClient, ASceneStaysUntilItIsOpenedThoughAnEarlierOneIsTaken) {
+    SteppedRoom stepped;
+    RadiosityNode& node = *stepped.room.node;
+    ASSERT_TRUE(stepped.settle()) << describe(node);
+    stepped.room.box->setMovable(false); // meshed anew, so the scene goes out once more
+    node.update();                       // and so it does; what the worker says is of the first one
+    stepped.link->step();
+    node.update();
+    EXPECT_EQ(node.state().restarts, 0u) << describe(node);
+    ASSERT_TRUE(stepped.settle()) << describe(node);
+    EXPECT_EQ(node.state().restarts, 0u) << describe(node);
+    EXPECT_EQ(stepped.room.difference(), "");
+}
+
+TEST(LightingClient, OfSeveralScenesOnTheirWayEachIsThere) {
+    SteppedRoom stepped;
+    RadiosityNode& node = *stepped.room.node;
+    node.update(); // the first
+    for (const bool movable : {false, true, false}) {
+        stepped.room.box->setMovable(movable);
+        node.update();
+    }
+    stepped.link->step(); // takes in all of them
+    stepped.room.box->setMovable(true);
+    node.update();
+    ASSERT_TRUE(stepped.settle()) << describe(node);
+    EXPECT_EQ(node.state().restarts, 0u) << describe(node);
+    EXPECT_EQ(stepped.room.difference(), "");
+}
+
+TEST(LightingClient, ASceneThatWasTakenIsNotKept) {
+    SteppedRoom stepped;
+    ASSERT_TRUE(stepped.settle()) << describe(*stepped.room.node);
+    std::size_t kept = 0;
+    for (const auto& region : stepped.link->watched.all) kept += !region.expired();
+    EXPECT_EQ(kept, 2u) << "the control block and the light";
+}
+
+} // namespace
+
+} // namespace penumbra
