@@ -9,6 +9,7 @@
 #include "tools/Machine.h"
 #include "tools/OutputFiles.h"
 #include "tools/SceneSolution.h"
+#include "viewer/input/StartSizes.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -64,15 +65,15 @@ Playback playbackOf(const CompareCommand& command, LoadedScene& loaded) {
 
 ComparisonOptions optionsOf(const CompareCommand& command, const LoadedScene& loaded) {
     ComparisonOptions options;
-    options.meshing = command.solve.meshing;
+    const FrameRange range = frameRange(command.solve.frames);
+    options.meshing =
+        startSizes(command.solve.scene, loaded, double(range.first), command.solve.meshing);
     options.solving = command.solve.solver;
     if (options.solving.residual == 0) options.solving.residual = loaded.scene->residual;
-    if (options.meshing.patchSize == 0) options.meshing.patchSize = float(loaded.scene->patchSize);
     options.width = command.width;
     options.height = command.height;
     options.growth = command.growth;
     if (command.dirty == "perfect") options.dirty = DirtySetKind::perfect;
-    const FrameRange range = frameRange(command.solve.frames);
     const std::int64_t film =
         command.filmFrame == 0 ? 0 : std::int64_t(command.filmFrame) - range.first - 1;
     if (film < 0 || film >= range.last - range.first)

@@ -3,6 +3,7 @@
 #include "base/Clock.h"
 #include "base/Error.h"
 #include "tools/OutputFiles.h"
+#include "viewer/input/StartSizes.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -144,12 +145,10 @@ SceneSolution::SceneSolution(const SolveSettings& settings)
                                      : settings.progress ? ProgressBar::When::always
                                                          : ProgressBar::When::terminal) {
     progress_.show("reading", 0);
-    loaded_ = timed("read", [&] {
-        LoadOptions options;
-        options.time = settings.frame;
-        if (!settings.frames.empty()) options.time = frameRange(settings.frames).first;
-        return loadUsdScene(settings.scene, options);
-    });
+    LoadOptions options;
+    options.time = settings.frame;
+    if (!settings.frames.empty()) options.time = frameRange(settings.frames).first;
+    loaded_ = timed("read", [&] { return loadUsdScene(settings.scene, options); });
     progress_.clear();
     checkOutputs(loaded_.files, settings.outputs);
     if (!settings.quiet) reportDiagnostics(loaded_.diagnostics, settings.verbose);
@@ -158,10 +157,9 @@ SceneSolution::SceneSolution(const SolveSettings& settings)
         throw SceneFileError({settings.scene},
                              "nothing to light: no visible mesh that can be read");
     const double start = steadySeconds();
-    MeshingOptions meshing = settings.meshing;
-    if (meshing.patchSize == 0) meshing.patchSize = float(loaded_.scene->patchSize);
-    if (meshing.elementSize == 0) meshing.elementSize = float(loaded_.scene->elementSize);
-    mesh(meshing);
+    mesh(timed("read", [&] {
+        return startSizes(settings.scene, loaded_, options.time, settings.meshing);
+    }));
     light();
     if (settings.frames.empty()) return;
     const SolveStatistics s = solver().statistics();

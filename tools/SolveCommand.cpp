@@ -3,6 +3,7 @@
 #include "radiosity/mesh/Contact.h"
 #include "radiosity/query/LitSurface.h"
 #include "radiosity/query/PointGather.h"
+#include "radiosity/rays/Margins.h"
 #include "tools/Commands.h"
 #include "tools/OutputFiles.h"
 #include "tools/SceneSolution.h"
@@ -37,9 +38,10 @@ std::vector<Rgb> readSensorValues(SceneSolution& solution, const std::vector<Rec
         for (std::size_t i = first; i < last; ++i) {
             const PatchSet& patches = solution.patches();
             Receiver lifted = sensors[i];
-            lifted.position += patches.skin * lifted.normal;
+            const float hover = hoverAt(patches.skin, lifted.position);
+            lifted.position += hover * lifted.normal;
             const Lie lie = lieOf(solution.rays(), patches.rayMeshes, lifted.position,
-                                  lifted.normal, coverDistance(patches.elementSize, patches.skin));
+                                  lifted.normal, coverDistance(patches.elementSize, hover));
             if (lie == Lie::buried) continue; // no light gets there
             if (!gather && lie == Lie::free) {
                 const auto drawn = surface.under(sensors[i].position, sensors[i].normal);

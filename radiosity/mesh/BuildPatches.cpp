@@ -6,6 +6,7 @@
 #include "radiosity/mesh/PatchAssembly.h"
 #include "radiosity/mesh/SurfaceMesh.h"
 #include "radiosity/mesh/Tessellation.h"
+#include "radiosity/rays/Margins.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Mesh.h"
 
@@ -230,12 +231,13 @@ void addWalls(const Surface& surface, PatchSet& set) {
         Wall wall;
         wall.object = surface.object;
         wall.normal = glm::vec3(glm::normalize(normal));
-        bool flat = true;
-        for (std::uint32_t corner : corners) {
-            wall.outline.push_back(surface.mesh.points[corner]);
-            const glm::vec3 d = wall.outline.back() - wall.outline[0];
-            flat &= std::abs(glm::dot(wall.normal, d)) <= 1e-6f * set.extent;
-        }
+        for (std::uint32_t corner : corners) wall.outline.push_back(surface.mesh.points[corner]);
+        const bool flat =
+            std::all_of(wall.outline.begin(), wall.outline.end(), [&](glm::vec3 corner) {
+                const float reach = std::max(magnitude(corner), magnitude(wall.outline[0]));
+                const float height = glm::dot(wall.normal, corner - wall.outline[0]);
+                return std::abs(height) <= roundingAt(reach);
+            });
         if (flat) set.walls.push_back(std::move(wall));
     }
 }
@@ -252,7 +254,21 @@ void refuseTooMuch(const PatchSet& set, double area) {
                     " million elements (choose a larger --element-size)");
 }
 
+MeshingOptions resolved(MeshingOptions sizes, double area) {
+    if (!(sizes.patchSize > 0)) sizes.patchSize = defaultPatchSize(area);
+    if (!(sizes.elementSize > 0)) sizes.elementSize = sizes.patchSize / 8;
+    sizes.patchSize = std::max(sizes.patchSize, sizes.elementSize);
+    return sizes;
+}
+
 } // namespace
+
+MeshingOptions resolvedSizes(const PlacedScene& scene, MeshingOptions sizes) {
+    PatchSet set;
+    listObjects(scene, set);
+    std::vector<MeshData> lightMeshes;
+    return resolved(sizes, litArea(placeSurfaces(scene, set, lightMeshes)));
+}
 
 float defaultPatchSize(double area) {
     constexpr double kRoom =
@@ -277,12 +293,13 @@ BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& option
             out.polygons += surface.mesh.used;
         }
     }
-    out.patchSize = options.patchSize > 0 ? options.patchSize : defaultPatchSize(litArea(surfaces));
-    out.elementSize = options.elementSize > 0 ? options.elementSize : out.patchSize / 8;
-    out.patchSize = std::max(out.patchSize, out.elementSize);
-    out.extent = options.extent > 0 ? options.extent : out.bounds.diagonal();
-    refuseTooMuch(out, litArea(surfaces));
-    out.skin = skinOf(out.extent);
+    const double area = litArea(surfaces);
+    const MeshingOptions sizes = resolved(options, area);
+    out.patchSize = sizes.patchSize;
+    out.elementSize = sizes.elementSize;
+    refuseTooMuch(out, area);
+    out.skin = skinOf(out.patchSize);
+    out.farthest = magnitude(out.bounds);
 
     for (const Surface& surface : surfaces) addWalls(surface, out);
     PatchAssembly assembly(out);

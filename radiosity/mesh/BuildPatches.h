@@ -18,13 +18,12 @@ struct MeshingOptions {
     float patchSize =
         0; ///< longest edge of a patch [m]; 0: follows the scene, see defaultPatchSize()
     float elementSize = 0; ///< longest edge of an element [m]; 0: an eighth of a patch
-    float extent = 0; ///< diagonal of the scene that rounding errors are judged by [m]; 0: its own
 };
 
 /// The sizes that a scene was meshed with. A scene in which things have moved is meshed alike with
 /// these, but perhaps not with sizes that follow the scene.
 inline MeshingOptions sizesOf(const PatchSet& set) {
-    return {set.patchSize, set.elementSize, set.extent};
+    return {set.patchSize, set.elementSize};
 }
 
 /// The node that a colour or an exitance was taken from; one of the two. Owned by the scene.
@@ -49,6 +48,11 @@ struct BuiltPatches {
 /// Movable objects are meshed as if nothing touched them; a Coverage sees to what they touch.
 /// \throws Error if the scene is too wide to trace rays in, or would make too many elements
 BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& options = {});
+
+/// The same sizes, with those that follow the scene filled in: what buildPatches() would choose.
+/// They are to be resolved once, for the scene as it stands at its start, or a thing that grows
+/// later would change how all others are meshed.
+MeshingOptions resolvedSizes(const PlacedScene& scene, MeshingOptions sizes);
 
 /// sqrt(area / 1650), so that a room has some thousand patches whether it is half a metre wide or
 /// ten; beyond half a metre the number grows before the size does, up to sqrt(area / 6000). \param

@@ -1,6 +1,7 @@
 #include "radiosity/mesh/Contact.h"
 
 #include "base/Parallel.h"
+#include "radiosity/rays/Margins.h"
 
 #include <algorithm>
 #include <array>
@@ -25,22 +26,22 @@ constexpr int kGrid = 5;
 ContactResolver::Result ContactResolver::examine(const Element& element) const {
     Result result;
     const Frame frame = frameOf(element);
-    const float cover = coverDistance(frame.size, skin_);
+    const float cover = coverDistance(frame.size, hoverAt(skin_, frame.middle));
     std::array<glm::vec3, 4> corner;
     std::array<bool, 4> cornerFree{};
     for (std::size_t i = 0; i < frame.count; ++i) {
         corner[i] = cornerOf(element, i);
         cornerFree[i] = isFree(corner[i], frame.normal, cover);
     }
-    glm::vec3 anchor = frame.middle + skin_ * frame.normal;
+    glm::vec3 anchor = over(frame.middle, frame.normal);
     result.free = isFree(anchor, frame.normal, cover);
     for (std::size_t i = 0; !result.free && i < frame.count; ++i)
         if (cornerFree[i]) anchor = corner[i], result.free = true;
     for (int i = 0; !result.free && i < kGrid * kGrid;
          ++i) { // a slit between things that lie on it
-        const glm::vec3 p =
-            pointOf(element, (float(i % kGrid) + 0.5f) / kGrid, (float(i / kGrid) + 0.5f) / kGrid) +
-            skin_ * frame.normal;
+        const glm::vec3 p = over(
+            pointOf(element, (float(i % kGrid) + 0.5f) / kGrid, (float(i / kGrid) + 0.5f) / kGrid),
+            frame.normal);
         if (isFree(p, frame.normal, cover)) anchor = p, result.free = true;
     }
     if (!result.free) return result;
@@ -54,7 +55,11 @@ ContactResolver::Result ContactResolver::examine(const Element& element) const {
 
 glm::vec3 ContactResolver::cornerOf(const Element& element, std::size_t i) const {
     const Frame frame = frameOf(element);
-    return glm::mix(vertex(element, i).position, frame.middle, kPullIn) + skin_ * frame.normal;
+    return over(glm::mix(vertex(element, i).position, frame.middle, kPullIn), frame.normal);
+}
+
+glm::vec3 ContactResolver::over(glm::vec3 point, glm::vec3 normal) const {
+    return point + hoverAt(skin_, point) * normal;
 }
 
 ContactResolver::Frame ContactResolver::frameOf(const Element& element) const {
@@ -82,7 +87,10 @@ glm::vec3 ContactResolver::endOfWay(glm::vec3 from, glm::vec3 to, glm::vec3 norm
     for (int i = 0; i < kBisections; ++i) {
         const float t = 0.5f * (free + covered);
         const glm::vec3 p = glm::mix(from, to, t);
-        (!rays_.occluded(from, p) && isFree(p, normal, cover) ? free : covered) = t;
+        // No surface is at `p` that the segment would have to end before: the wall behind which it
+        // lies may be nearer to it than that.
+        const bool reached = !rays_.nearest(from, p - from, 1).met();
+        (reached && isFree(p, normal, cover) ? free : covered) = t;
     }
     return glm::mix(from, to, 0.98f * free);
 }
@@ -150,8 +158,8 @@ void pullReceiversIn(float skin, const std::vector<Element>& elements, const Fan
             }
             Vertex& vertex = vertices[v];
             const glm::vec3 middle = count > 0 ? sum / count : vertex.position;
-            vertex.receiver.position =
-                glm::mix(vertex.position, middle, kPullIn) + skin * vertex.receiver.normal;
+            const glm::vec3 in = glm::mix(vertex.position, middle, kPullIn);
+            vertex.receiver.position = in + hoverAt(skin, in) * vertex.receiver.normal;
         }
     });
 }
@@ -175,12 +183,8 @@ void makePrivate(const std::vector<ContactResolver::Result>& results,
 
 } // namespace
 
-float skinOf(float extent) {
-    return std::max(1e-5f * extent, 1e-7f);
-}
-
-float coverDistance(float elementSize, float skin) {
-    return std::max(kCover * elementSize, 4 * skin);
+float coverDistance(float elementSize, float hover) {
+    return std::max(kCover * elementSize, 4 * hover);
 }
 
 Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point, glm::vec3 normal,

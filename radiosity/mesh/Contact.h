@@ -18,7 +18,7 @@ namespace penumbra {
 ///
 /// Changes `elements` to use such private vertices, which are appended to `vertices`, and moves
 /// every receiver clear of the edges of its surface.
-/// \param skin    how far receivers hover over the surface [m]
+/// \param skin    how far receivers hover over the surface, see hoverAt() [m]
 /// \param fixed   1: elements to look at; others are taken to be free
 /// \return        for each element whether any of it is free
 std::vector<std::uint8_t> resolveContacts(const RayScene& rays, std::span<const RayMesh> meshes,
@@ -37,11 +37,9 @@ enum class Lie {
 Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point, glm::vec3 normal,
           float cover, ObjectId* by = nullptr);
 
-/// How far receivers hover over their surfaces in a scene with that diagonal [m].
-float skinOf(float extent);
-
 /// Something this close above a surface with elements of this size counts as lying on it [m].
-float coverDistance(float elementSize, float skin);
+/// \param hover how far receivers hover there, see hoverAt() [m]
+float coverDistance(float elementSize, float hover);
 
 /// Looks at single elements.
 class ContactResolver {
@@ -71,6 +69,7 @@ private:
     };
     Frame frameOf(const Element& element) const;
     glm::vec3 pointOf(const Element& element, float s, float t) const;
+    glm::vec3 over(glm::vec3 point, glm::vec3 normal) const;
     const Vertex& vertex(const Element& element, std::size_t i) const {
         return vertices_[element.vertices[i]];
     }

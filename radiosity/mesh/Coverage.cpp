@@ -1,6 +1,7 @@
 #include "radiosity/mesh/Coverage.h"
 
 #include "base/Parallel.h"
+#include "radiosity/rays/Margins.h"
 #include "radiosity/rays/Shaft.h"
 
 #include <algorithm>
@@ -75,7 +76,8 @@ void Coverage::updateChunk(std::size_t chunk) {
 /// Elements whose lie an object within `box` may decide: those that it can touch or hold.
 void Coverage::collectNear(const Bounds& box, std::vector<std::uint32_t>& elements) const {
     if (box.empty()) return;
-    const float reach = coverDistance(largest_, set_.skin) + 8 * set_.skin;
+    const float hover = hoverAt(set_.skin, magnitude(box));
+    const float reach = coverDistance(largest_, hover) + 8 * hover;
     const Bounds target = grown(box, reach);
     places_.query([&](std::size_t n) { return target.overlaps(places_.node(n)); },
                   [&](std::size_t chunk) {
@@ -235,7 +237,7 @@ std::uint32_t Coverage::takeVertex(ObjectId object) {
 Receiver Coverage::placeOfNode(std::uint32_t node) const {
     const ObjectPart& part = set_.objects[set_.nodeBlockObject[node / PatchSet::kBlock].value];
     Receiver wanted = set_.uncoveredNodes[node];
-    const float cover = coverDistance(set_.elementSize, set_.skin);
+    const float cover = coverDistance(set_.elementSize, hoverAt(set_.skin, wanted.position));
     ObjectId by;
     const bool free =
         lieOf(rays_, set_.rayMeshes, wanted.position, wanted.normal, cover, &by) == Lie::free;

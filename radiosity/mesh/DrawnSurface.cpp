@@ -58,7 +58,7 @@ RayMesh meshOf(const PatchSet& patches, std::uint32_t object,
 } // namespace
 
 DrawnSurface::DrawnSurface(const PatchSet& patches, Which which)
-    : patches_(patches), partOf_(patches.objects.size()), rays_(meshes(which), patches.extent) {
+    : patches_(patches), partOf_(patches.objects.size()), rays_(meshes(which), patches.skin) {
     for (std::uint32_t p = 0; p < parts_.size(); ++p)
         if (!patches.objects[parts_[p].object].present) rays_.show({p}, false);
     rays_.commit();

@@ -200,7 +200,7 @@ void PatchAssembly::resolveFixedContacts(std::vector<std::uint8_t>& free) {
         if (!out_.objects[o].movable) meshes[o] = out_.rayMeshes[o];
     for (std::size_t e = 0; e < fixed.size(); ++e)
         fixed[e] = !out_.objects[out_.elementObject[e].value].movable;
-    free = resolveContacts(RayScene(meshes, out_.extent), meshes, out_.skin, fixed, out_.elements,
+    free = resolveContacts(RayScene(meshes, out_.skin), meshes, out_.skin, fixed, out_.elements,
                            out_.vertices);
 }
 

@@ -1,14 +1,15 @@
 #include "radiosity/mesh/PatchSet.h"
 
+#include "radiosity/rays/Margins.h"
+
 namespace penumbra {
 
-namespace {
-
-Receiver placed(const Receiver& receiver, const Pose& pose) {
-    return {pose.point(receiver.position), pose.direction(receiver.normal)};
+Receiver placedReceiver(const Receiver& own, const Pose& pose, float skin) {
+    Receiver receiver{pose.point(own.position), pose.direction(own.normal)};
+    const float lift = hoverAt(skin, receiver.position) - hoverAt(skin, own.position);
+    if (lift > 0) receiver.position += lift * receiver.normal;
+    return receiver;
 }
-
-} // namespace
 
 Emitter placedEmitter(const Emitter& own, const Pose& pose) {
     Emitter emitter = own;
@@ -24,11 +25,12 @@ void placeObject(PatchSet& set, ObjectId object, const Pose& pose) {
     const ObjectShape& shape = part.shape;
     part.pose = pose;
     for (std::uint32_t i = 0; i < part.vertices.count; ++i)
-        set.vertices[part.vertices.first + i] = {pose.point(shape.vertices[i].position),
-                                                 placed(shape.vertices[i].receiver, pose)};
+        set.vertices[part.vertices.first + i] = {
+            pose.point(shape.vertices[i].position),
+            placedReceiver(shape.vertices[i].receiver, pose, set.skin)};
     for (std::uint32_t i = 0; i < part.nodes.count; ++i)
         set.nodes[part.nodes.first + i] = set.uncoveredNodes[part.nodes.first + i] =
-            placed(shape.nodes[i], pose);
+            placedReceiver(shape.nodes[i], pose, set.skin);
     for (std::uint32_t i = 0; i < part.corners.count; ++i)
         set.corners[part.corners.first + i] = pose.point(shape.corners[i]);
     for (std::uint32_t i = 0; i < part.patches.count; ++i) {
@@ -45,6 +47,7 @@ void placeObject(PatchSet& set, ObjectId object, const Pose& pose) {
     RayMesh& rays = set.rayMeshes[object.value];
     for (std::size_t i = 0; i < rays.vertices.size(); ++i)
         rays.vertices[i] = pose.point(shape.rayVertices[i]);
+    set.farthest = std::max(set.farthest, magnitude(boundsOf(set, object)));
 }
 
 Bounds boundsOf(const PatchSet& set, ObjectId object) {

@@ -168,8 +168,10 @@ struct PatchSet {
     double area = 0;                      ///< of all elements [m^2]
     std::size_t polygons = 0;             ///< faces of the scene that were meshed
     float patchSize = 0, elementSize = 0; ///< as used [m]
-    float extent = 0;                     ///< diagonal of the bounds when it was built [m]
-    float skin = 0;                       ///< how far receivers hover over their surface [m]
+    float skin = 0; ///< how far receivers hover over their surface, at least: see hoverAt() [m]
+    /// Largest coordinate that anything has had so far [m]. Says how far to look around what moves,
+    /// never what is found there.
+    float farthest = 0;
 
     /// Whether any of an element is lit and seen.
     bool receives(std::uint32_t element) const {
@@ -178,6 +180,9 @@ struct PatchSet {
     }
 };
 
+/// A receiver of an object's own frame, as seen from a pose, where it may have to hover higher.
+/// \param skin of the set [m]
+Receiver placedReceiver(const Receiver& own, const Pose& pose, float skin);
 /// An emitter of an object's own frame, as seen from a pose.
 Emitter placedEmitter(const Emitter& own, const Pose& pose);
 /// Writes a movable object's share of the arrays as seen from `pose`.

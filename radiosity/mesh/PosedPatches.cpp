@@ -3,7 +3,7 @@
 namespace penumbra {
 
 RayScene raysThrough(const PatchSet& set) {
-    RayScene rays(set.rayMeshes, set.extent);
+    RayScene rays(set.rayMeshes, set.skin);
     for (std::uint32_t o = 0; o < set.objects.size(); ++o)
         if (!set.objects[o].present) rays.show({o}, false);
     rays.commit();

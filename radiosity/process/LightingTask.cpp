@@ -6,12 +6,11 @@ namespace penumbra {
 
 void write(ByteWriter& out, const LightingTask& task, const SceneSnapshot& scene) {
     // Named one by one: an option that is new does not compile before it is sent.
-    const auto& [patchSize, elementSize, extent] = task.meshing;
+    const auto& [patchSize, elementSize] = task.meshing;
     const auto& [samples, residual, directOnly, policy, detail, mostShots, rowMemory, flatPatches] =
         task.solving;
     out.put(patchSize);
     out.put(elementSize);
-    out.put(extent);
     out.put(std::int32_t(samples));
     out.put(residual);
     out.put(std::uint8_t(directOnly));
@@ -32,7 +31,6 @@ std::optional<LightingTask> readLightingTask(ByteReader& in) {
     LightingTask task;
     task.meshing.patchSize = size();
     task.meshing.elementSize = size();
-    task.meshing.extent = size();
     task.solving.samples = in.get<std::int32_t>();
     task.solving.residual = in.get<double>();
     task.solving.directOnly = in.get<std::uint8_t>() != 0;

@@ -73,7 +73,6 @@ void RadiosityNode::Impl::writeTask(ByteWriter& out) const {
         const MeshingOptions& sizes = shown->sizes();
         if (task.meshing.patchSize == 0) task.meshing.patchSize = sizes.patchSize;
         if (task.meshing.elementSize == 0) task.meshing.elementSize = sizes.elementSize;
-        task.meshing.extent = sizes.extent;
     }
     write(out, task, table.snapshot());
 }

@@ -1,5 +1,6 @@
 #include "radiosity/query/LitSurface.h"
 
+#include "radiosity/rays/Margins.h"
 #include "scenegraph/LitGeometry.h"
 
 namespace penumbra {
@@ -64,7 +65,7 @@ std::optional<SurfaceSample> LitSurface::trace(glm::vec3 origin, glm::vec3 direc
 
 std::optional<SurfaceSample> LitSurface::under(glm::vec3 position, glm::vec3 normal) const {
     // Close enough not to land on a sheet of paper that covers the sensor, far enough for rounding.
-    const float height = 2 * patches_.skin;
+    const float height = 2 * hoverAt(patches_.skin, position);
     return sample(position + height * normal, -normal, 4 * height);
 }
 

@@ -1,5 +1,7 @@
 #include "radiosity/query/NearestDrawn.h"
 
+#include "radiosity/rays/Margins.h"
+
 #include <algorithm>
 
 namespace penumbra {
@@ -46,6 +48,7 @@ Weights nearestWeights(const Corners& corners, glm::vec3 point) {
 DrawnHit nearestDrawn(const PatchSet& patches, glm::vec3 point, float reach) {
     DrawnHit best;
     float least = std::numeric_limits<float>::infinity();
+    const float hover = hoverAt(patches.skin, point);
     const auto tryTriangle = [&](std::uint32_t e, std::array<std::uint32_t, 3> vertices) {
         Corners corners;
         for (std::size_t k = 0; k < 3; ++k) corners[k] = patches.vertices[vertices[k]].position;
@@ -56,8 +59,7 @@ DrawnHit nearestDrawn(const PatchSet& patches, glm::vec3 point, float reach) {
         const bool behind =
             glm::dot(away, glm::cross(corners[1] - corners[0], corners[2] - corners[0])) < 0;
         // A hair decides between surfaces in the same place.
-        const float rank =
-            distance + (behind ? patches.skin : 0) + (patches.receives(e) ? 0 : 2 * patches.skin);
+        const float rank = distance + (behind ? hover : 0) + (patches.receives(e) ? 0 : 2 * hover);
         if (rank >= least) return;
         least = rank;
         best = {e, vertices, weights, distance};

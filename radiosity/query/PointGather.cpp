@@ -1,5 +1,6 @@
 #include "radiosity/query/PointGather.h"
 
+#include "radiosity/rays/Margins.h"
 #include "radiosity/rows/FormFactor.h"
 #include "radiosity/rows/SenderSamples.h"
 
@@ -166,7 +167,7 @@ Receiver PointGather::receiverAt(const DrawnHit& hit, glm::vec3 position) const 
     for (std::size_t k = 0; k < 3; ++k)
         normal += hit.weights[k] * patches_.vertices[hit.vertices[k]].receiver.normal;
     normal = glm::normalize(normal);
-    return {position + patches_.skin * normal, normal};
+    return {position + hoverAt(patches_.skin, position) * normal, normal};
 }
 
 Rgb PointGather::indirectByForm(const Receiver& receiver) const {

@@ -54,7 +54,7 @@ void SceneRays::build(const PlacedScene& scene) {
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         meshes[i].vertices = placed(parts_[i]);
     }
-    rays_ = std::make_unique<RayScene>(meshes, scene.bounds.empty() ? 1 : scene.bounds.diagonal());
+    rays_ = std::make_unique<RayScene>(meshes);
     for (std::size_t i = 0; i < parts_.size(); ++i)
         if (!parts_[i].visible) rays_->show(ObjectId{std::uint32_t(i)}, false);
     rays_->commit();

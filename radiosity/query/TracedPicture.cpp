@@ -2,6 +2,7 @@
 
 #include "base/Parallel.h"
 #include "radiosity/query/LitSurface.h"
+#include "radiosity/rays/Margins.h"
 #include "radiosity/rows/EmitterSender.h"
 
 #include <algorithm>
@@ -52,7 +53,8 @@ public:
         out.normal = hit->normal;
         out.object = patches_.elementObject[hit->element];
         out.albedo = material.reflectance;
-        const Receiver receiver{hit->position + patches_.skin * hit->normal, hit->normal};
+        const float hover = hoverAt(patches_.skin, hit->position);
+        const Receiver receiver{hit->position + hover * hit->normal, hit->normal};
         Rgb lux;
         if (maxChannel(material.reflectance) > 0)
             for (const EmitterSender& sender : emitters_) {

@@ -2,6 +2,8 @@
 // tutorial", Ray Tracing News 11(1), 1998.
 #include "radiosity/rays/NearestHit.h"
 
+#include "radiosity/rays/Margins.h"
+
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -56,6 +58,23 @@ bool NearestHit::take(std::span<const glm::vec3, 3> corners, const RayHit& hit) 
     hit_.u = float(sideB / sum);
     hit_.v = float(sideC / sum);
     return true;
+}
+
+/// \param distance [in units of the direction] \return [m]
+float NearestHit::hairAt(double distance) const {
+    const glm::vec3 there(origin_ + distance * direction_);
+    return roundingAt(std::max(magnitude(glm::vec3(origin_)), magnitude(there)));
+}
+
+float NearestHit::searchEnd() const {
+    return float(distance_ + double(hairAt(distance_)) / glm::length(direction_));
+}
+
+bool NearestHit::inDoubt() const {
+    constexpr double kClose = 20; // hairs
+    if (!(doubt_.distance < distance_)) return false;
+    const double slack = kClose * double(hair()) / glm::length(direction_);
+    return double(doubt_.distance) + slack < distance_;
 }
 
 glm::vec3 NearestHit::beside(float hair, int i) const {

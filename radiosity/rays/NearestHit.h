@@ -51,8 +51,13 @@ public:
     double distance() const { return distance_; } ///< of what is met first; infinity: nothing
     const RayHit& hit() const { return hit_; }
 
-    /// Whether the ray passes by a triangle that was offered, with nothing behind it up to `slack`.
-    bool inDoubt(float slack) const { return doubt_.distance + slack < distance_; }
+    /// How far Embree has to go on once something is met: a hair farther, many times what it rounds
+    /// [in units of the direction].
+    float searchEnd() const;
+    /// Whether the ray passes by a triangle that was offered, with nothing close behind it.
+    bool inDoubt() const;
+    /// What rounding may make of a place as far away as that triangle [m]. \pre inDoubt()
+    float hair() const { return hairAt(doubt_.distance); }
     const RayHit& doubt() const { return doubt_; } ///< the triangle that was offered
     /// How far beside this ray, on all its sides, the i-th of kAround rays of the same direction
     /// begins: a hair [m].
@@ -63,6 +68,8 @@ public:
     glm::vec3 aside(float hair) const;
 
 private:
+    float hairAt(double distance) const;
+
     glm::dvec3 origin_, direction_;
     bool frontOnly_;
     double distance_ = std::numeric_limits<double>::infinity();

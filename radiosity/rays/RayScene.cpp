@@ -2,6 +2,7 @@
 
 #include "base/Bits.h"
 #include "base/Error.h"
+#include "radiosity/rays/Margins.h"
 
 #include <embree3/rtcore.h>
 
@@ -21,11 +22,10 @@ namespace {
 
 /// What our filters want to know of a query.
 struct QueryContext {
-    RTCIntersectContext context;      // first, so that Embree's pointer is ours
-    std::uint32_t* blocker = nullptr; // where to note who is in the way, one a ray
-    std::uint32_t doubts = 0;         // bits: rays to which a triangle was offered that they miss
-    NearestHit* nearest = nullptr;    // who judges what is met
-    float slack = 0; // how much farther Embree has to go on than the nearest [of the direction]
+    RTCIntersectContext context;        // first, so that Embree's pointer is ours
+    std::uint32_t* blocker = nullptr;   // where to note who is in the way, one a ray
+    std::uint32_t doubts = 0;           // bits: rays to which a triangle was offered that they miss
+    NearestHit* nearest = nullptr;      // who judges what is met
     std::vector<RayHit>* all = nullptr; // where to note every hit; none ends the ray
 
     QueryContext() {
@@ -102,7 +102,7 @@ void chooseHits(const RTCFilterFunctionNArguments* args) {
     }
     const Triangles& of = *static_cast<const Triangles*>(args->geometryUserPtr);
     if (context.nearest->take(of.at(hit.triangle), hit))
-        RTCRayN_tfar(args->ray, 1, 0) = float(context.nearest->distance()) + context.slack;
+        RTCRayN_tfar(args->ray, 1, 0) = context.nearest->searchEnd();
     else
         args->valid[0] = 0;
 }
@@ -201,15 +201,8 @@ struct RayScene::Impl {
     }
 };
 
-RayScene::RayScene(std::span<const RayMesh> objects, float extent)
-    : impl_(std::make_unique<Impl>()) {
-    if (extent <= 0) {
-        Bounds bounds;
-        for (const RayMesh& mesh : objects)
-            for (glm::vec3 vertex : mesh.vertices) bounds.add(vertex);
-        extent = bounds.empty() ? 0 : bounds.diagonal();
-    }
-    margin_ = 2e-5f * extent;
+RayScene::RayScene(std::span<const RayMesh> objects, float skin)
+    : impl_(std::make_unique<Impl>()), skin_(skin) {
     impl_->members.resize(objects.size());
     for (std::size_t i = 0; i < objects.size(); ++i)
         if (!objects[i].triangles.empty()) impl_->add(objects[i], unsigned(i));
@@ -261,8 +254,10 @@ RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
-float RayScene::reach(float length) const {
-    return 1 - std::max(1e-4f, margin_ / std::max(length, 1e-30f));
+float RayScene::reach(glm::vec3 origin, glm::vec3 direction) const {
+    const float far = std::max(magnitude(origin), magnitude(origin + direction));
+    const float length = std::max(glm::length(direction), 1e-30f);
+    return 1 - std::max(1e-4f, clearanceAt(skin_, far) / length);
 }
 
 void RayScene::occluded(ShadowRays& rays) const {
@@ -296,10 +291,10 @@ void RayScene::trace(void* scene, ShadowRays& rays) const {
         packet.dir_z[i] = used ? rays.directionZ[i] : 1;
         // Where the processor has no 16 lanes Embree does not ask which are valid.
         packet.tnear[i] = used ? 0.0f : 1.0f;
-        packet.tfar[i] = reaches[i] = used ? reach(std::sqrt(packet.dir_x[i] * packet.dir_x[i] +
-                                                             packet.dir_y[i] * packet.dir_y[i] +
-                                                             packet.dir_z[i] * packet.dir_z[i]))
-                                           : 0.0f;
+        packet.tfar[i] = reaches[i] =
+            used ? reach({packet.org_x[i], packet.org_y[i], packet.org_z[i]},
+                         {packet.dir_x[i], packet.dir_y[i], packet.dir_z[i]})
+                 : 0.0f;
         packet.time[i] = 0;
         packet.mask[i] = 0xffffffffu;
         packet.id[i] = unsigned(i);
@@ -319,7 +314,7 @@ void RayScene::trace(void* scene, ShadowRays& rays) const {
 
 bool RayScene::occluded(glm::vec3 origin, glm::vec3 target) const {
     const glm::vec3 d = target - origin;
-    const float far = reach(glm::length(d));
+    const float far = reach(origin, d);
     RTCRay ray{origin.x, origin.y, origin.z, 0, d.x, d.y, d.z, 0, far, 0xffffffffu, 0, 0};
     std::uint32_t blocker = ObjectId::kNone;
     QueryContext context;
@@ -347,9 +342,7 @@ RayHit RayScene::nearest(glm::vec3 origin, glm::vec3 direction, float reach, Fac
 
 RayHit RayScene::nearestIn(void* scene, glm::vec3 origin, glm::vec3 direction, float reach,
                            Faces faces) const {
-    constexpr int kTimes = 4;        // corners may need several
-    const float hair = margin_ / 20; // many times what Embree rounds [m]
-    const float length = glm::length(direction);
+    constexpr int kTimes = 4; // corners may need several
     for (int time = 1;; ++time) {
         NearestHit nearest(origin, direction, faces == Faces::front);
         const auto offer = [&](glm::vec3 from) {
@@ -359,15 +352,15 @@ RayHit RayScene::nearestIn(void* scene, glm::vec3 origin, glm::vec3 direction, f
             query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
             QueryContext context;
             context.nearest = &nearest;
-            context.slack = hair / length;
             rtcIntersect1(static_cast<RTCScene>(scene), &context.context, &query);
         };
         offer(origin);
-        if (!nearest.inDoubt(margin_ / length)) return nearest.hit();
+        if (!nearest.inDoubt()) return nearest.hit();
+        const float hair = nearest.hair();
         for (int i = 0; i < NearestHit::kAround; ++i) offer(origin + nearest.beside(hair, i));
-        if (!nearest.inDoubt(margin_ / length)) return nearest.hit();
+        if (!nearest.inDoubt()) return nearest.hit();
         if (time == kTimes) return nearest.doubt();
-        origin += nearest.aside(hair);
+        origin += nearest.aside(nearest.hair());
     }
 }
 

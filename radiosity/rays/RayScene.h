@@ -46,9 +46,10 @@ bool canBeTraced(glm::vec3 p);
 class RayScene {
 public:
     /// A segment is tested up to a hair before its end, for the target's own surface is no
-    /// obstacle: 1e-4 of its length, or 2e-5 of the scene's diagonal if that is more.
-    /// \param extent the scene's diagonal [m]; 0: of what is given
-    explicit RayScene(std::span<const RayMesh> objects, float extent = 0);
+    /// obstacle: 1e-4 of its length, or clearanceAt() of its ends if that is more.
+    /// \param skin how far a place may be off the triangles that stand for its surface, see
+    ///             skinOf() [m]
+    explicit RayScene(std::span<const RayMesh> objects, float skin = 0);
     ~RayScene();
     RayScene(RayScene&&) noexcept;
     RayScene& operator=(RayScene&&) noexcept;
@@ -76,14 +77,14 @@ public:
     void all(glm::vec3 origin, glm::vec3 direction, std::vector<RayHit>& hits) const;
 
 private:
-    float reach(float length) const;
+    float reach(glm::vec3 origin, glm::vec3 direction) const;
     void trace(void* scene, ShadowRays& rays) const;
     RayHit nearestIn(void* scene, glm::vec3 origin, glm::vec3 direction, float reach,
                      Faces faces) const;
 
     struct Impl;
     std::unique_ptr<Impl> impl_;
-    float margin_ = 0; ///< [m]
+    float skin_ = 0; ///< [m]
 };
 
 } // namespace penumbra

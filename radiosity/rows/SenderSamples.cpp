@@ -2,6 +2,7 @@
 
 #include "base/Frame.h"
 #include "radiosity/mesh/LightShapes.h"
+#include "radiosity/rays/Margins.h"
 
 #include <algorithm>
 #include <array>
@@ -131,6 +132,7 @@ void samplePatch(const PatchSet& set, const Patch& patch, glm::vec3* points) {
             const glm::vec3 edge = glm::mix(corners[k], corners[(k + 1) % n], around - float(k));
             p = glm::mix(patch.centre, edge, std::sqrt(st.y));
         }
+        glm::vec3 up = patch.normal;
         // A curved patch bulges over its outline: take the nearest point that is on its surface.
         if (elements.size() > 1) {
             float nearest = 1e30f;
@@ -148,10 +150,13 @@ void samplePatch(const PatchSet& set, const Patch& patch, glm::vec3* points) {
                 nearest = glm::dot(d, d);
                 normal = glm::normalize(normal);
                 best = p - glm::dot(d, normal) * normal; // onto the element's plane
+                up = normal;
             }
             p = best;
         }
-        points[i] = p;
+        // A point that rounding puts behind the surface is hidden by it from all that lies near its
+        // plane, as the foot of a wall far from the origin does.
+        points[i] = p + roundingAt(magnitude(p)) * up;
     }
 }
 

@@ -30,8 +30,8 @@ struct EmitterSamples {
 };
 EmitterSamples sampleEmitter(const Emitter& emitter, std::size_t count);
 
-/// kPatchSamples points on the elements of a patch, in 4 x 4 strata: 4 * i ... 4 * i + 3 lie in the
-/// same quarter i of the patch.
+/// kPatchSamples points on the elements of a patch, roundingAt() over them, in 4 x 4 strata: 4 * i
+/// ... 4 * i + 3 lie in the same quarter i of the patch.
 inline constexpr std::size_t kPatchSamples = 16;
 void samplePatch(const PatchSet& set, const Patch& patch, glm::vec3* points);
 

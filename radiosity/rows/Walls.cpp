@@ -1,5 +1,6 @@
 #include "radiosity/rows/Walls.h"
 
+#include "radiosity/rays/Margins.h"
 #include "radiosity/rays/Shaft.h"
 
 #include <algorithm>
@@ -28,19 +29,20 @@ float lowest(const Heights& heights) {
 
 } // namespace
 
-Walls::Walls(const PatchSet& set) : margin_(2e-5f * set.extent) {
+Walls::Walls(const PatchSet& set) : skin_(set.skin) {
     std::vector<Bounds> boxes;
     for (const Wall& wall : set.walls) {
-        Sides sides{wall.object, {wall.normal, glm::dot(wall.normal, wall.outline[0])}, {}};
+        Sides sides{wall.object, {wall.normal, glm::dot(wall.normal, wall.outline[0])}, {}, 0};
         Bounds box;
         for (std::size_t i = 0; i < wall.outline.size(); ++i) {
             const glm::vec3 from = wall.outline[i];
             const glm::vec3 along = wall.outline[(i + 1) % wall.outline.size()] - from;
             if (along == glm::vec3(0)) continue;
             const glm::vec3 inwards = glm::normalize(glm::cross(wall.normal, along));
-            sides.edges.push_back({inwards, glm::dot(inwards, from) + margin_});
+            sides.edges.push_back({inwards, glm::dot(inwards, from)});
             box.add(from);
         }
+        sides.farthest = magnitude(box);
         walls_.push_back(std::move(sides));
         boxes.push_back(box);
     }
@@ -48,13 +50,15 @@ Walls::Walls(const PatchSet& set) : margin_(2e-5f * set.extent) {
 }
 
 bool Walls::hides(const Sides& wall, const Bounds& a, const Bounds& b) const {
+    const float margin = clearanceAt(skin_, std::max({wall.farthest, magnitude(a), magnitude(b)}));
     Heights ha = heightsOf(a, wall.plane), hb = heightsOf(b, wall.plane);
     const float sign = ha[0] > 0 ? 1.0f : -1.0f;
     for (std::size_t i = 0; i < 8; ++i) ha[i] *= sign, hb[i] *= -sign;
-    if (lowest(ha) < margin_ || lowest(hb) < margin_) return false;
+    if (lowest(ha) < margin || lowest(hb) < margin) return false;
     // The segment between corners i and j meets the plane at (hb_j a_i + ha_i b_j) / (ha_i + hb_j).
     for (const Plane& edge : wall.edges) {
-        const Heights ea = heightsOf(a, edge), eb = heightsOf(b, edge);
+        const Plane inside{edge.normal, edge.offset + margin};
+        const Heights ea = heightsOf(a, inside), eb = heightsOf(b, inside);
         float least = 0;
         for (std::size_t i = 0; i < 8; ++i)
             for (std::size_t j = 0; j < 8; ++j)

@@ -22,20 +22,21 @@ public:
 
     /// An object with a face that every segment between the two boxes crosses, if there is one.
     /// Between convex regions all crossings lie within the hull of those of the 8 x 8 segments
-    /// between corners, so these decide. Exact up to rounding, on the side of not hiding.
+    /// between corners, so these decide. Exact up to clearanceAt(), on the side of not hiding.
     ObjectId between(const Bounds& a, const Bounds& b) const;
 
 private:
     struct Sides {
         ObjectId object;
         Plane plane;
-        std::vector<Plane> edges; ///< a little inside of them; normals point inwards
+        std::vector<Plane> edges; ///< normals point inwards
+        float farthest = 0;       ///< largest coordinate [m]
     };
     bool hides(const Sides& wall, const Bounds& a, const Bounds& b) const;
 
     std::vector<Sides> walls_;
     BoundsTree boxes_;
-    float margin_ = 0; ///< [m]
+    float skin_ = 0; ///< how far receivers hover, at least [m]
 };
 
 } // namespace penumbra

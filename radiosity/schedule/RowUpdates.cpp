@@ -1,6 +1,7 @@
 #include "radiosity/schedule/RowUpdates.h"
 
 #include "base/Parallel.h"
+#include "radiosity/rays/Margins.h"
 #include "radiosity/rays/Shaft.h"
 
 #include <algorithm>
@@ -59,7 +60,7 @@ void RowUpdates::add(std::vector<ObjectId> objects, std::vector<BlockMask> recei
             moved_.erase(same);
         }
         moved_.push_back({object.value, set_.objects[object.value].present,
-                          grown(boundsOf(set_, object), 1e-5f * set_.extent)});
+                          grown(boundsOf(set_, object), strayAt(set_.farthest))});
         movedWhen_.push_back(edits_);
     }
     unite(receivers);

@@ -3,6 +3,7 @@
 #include "base/Bits.h"
 #include "base/Parallel.h"
 #include "radiosity/mesh/Interpolation.h"
+#include "radiosity/rays/Margins.h"
 #include "radiosity/rays/Shaft.h"
 
 #include <algorithm>
@@ -67,7 +68,7 @@ Bounds DetailHits::boxOf(std::uint32_t object) const {
     for (std::uint32_t e = part.elements.first; e < part.elements.end(); ++e)
         for (std::uint32_t v : patches_.uncoveredElements[e].vertices)
             box.add(patches_.vertices[v].position);
-    return grown(box, patches_.skin);
+    return grown(box, std::max(patches_.skin, strayAt(patches_.farthest)));
 }
 
 void DetailHits::apply(const SceneChange& change) {
@@ -300,9 +301,9 @@ void DetailHits::gather(const Visit& at, DetailRays::Hits& hits, Group& out,
     if (gatherer.slit) {
         // At its rim a slit is light, but for the least part of an element.
         Receiver inside = at.receiver;
-        inside.position =
-            glm::mix(at.receiver.position,
-                     middleAround(at.vertex) + patches_.skin * at.receiver.normal, kInward);
+        const glm::vec3 middle = middleAround(at.vertex);
+        const glm::vec3 over = middle + hoverAt(patches_.skin, middle) * at.receiver.normal;
+        inside.position = glm::mix(at.receiver.position, over, kInward);
         const Gatherer* const before = at.anew ? nullptr : at.known.find(at.vertex);
         DetailRays::Hits from;
         std::uint64_t which = DetailRays::kAllRays;

@@ -1,5 +1,6 @@
 #include "radiosity/transport/LitScene.h"
 
+#include "radiosity/rays/Margins.h"
 #include "radiosity/rays/Shaft.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Material.h"
@@ -168,7 +169,8 @@ LitScene::Followed LitScene::follow(const PlacedScene& now) {
 
 void LitScene::invalidate(const Bounds& box) {
     if (box.empty()) return;
-    solver_->invalidate(grown(box, 2 * patches().skin)); // receivers hover over what is lit
+    const float hover = hoverAt(patches().skin, magnitude(box));
+    solver_->invalidate(grown(box, 2 * hover)); // receivers hover over what is lit
 }
 
 } // namespace penumbra

@@ -137,7 +137,7 @@ TEST(EditCostOfRooms, AMoveCostsWhatItCostsInItsOwnRoomAndRowsGrowWithTheRoomsAl
     const auto costOf = [](int rooms) {
         std::vector<std::shared_ptr<Transform>> boxes;
         const Scene scene = roomsInARow(rooms, boxes);
-        LitScene lit(placeScene(scene), {.patchSize = 0.5f, .elementSize = 0.125f, .extent = 8},
+        LitScene lit(placeScene(scene), {.patchSize = 0.5f, .elementSize = 0.125f},
                      {.directOnly = true});
         lit.solver().settle();
         const auto raysSoFar = [&] {

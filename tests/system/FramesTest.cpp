@@ -86,6 +86,29 @@ TEST_F(Frames, WriteTheValuesOfTheLastUnlessTheyAreNumbered) {
     EXPECT_NE(values("each01"), values("each03"));
 }
 
+TEST_F(Frames, AreMeshedAlikeWhicheverOfThemOneBeginsWith) {
+    // A box that grows: sizes that follow the scene are those of its start.
+    std::string growing = smallRoom();
+    replace(growing, "metersPerUnit = 1", "metersPerUnit = 1\n    startTimeCode = 1");
+    replace(growing, "double size = 0.6",
+            "double size = 0.6\n    float3 xformOp:scale.timeSamples = { 1: (1, 1, 1), "
+            "3: (2.5, 2.5, 2.5) }");
+    replace(growing, "[\"xformOp:translate\"]", "[\"xformOp:translate\", \"xformOp:scale\"]");
+    const std::string file = here.write("growing.usda", growing);
+    const auto sizeWith = [&](const std::string& option, const std::string& frames) {
+        const Outcome outcome =
+            runPenumbra({"solve", file, "--quiet", "--direct-only", "--samples", "1", option,
+                         frames, "--stats", here.path("stats.json")});
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        const auto scene = nlohmann::json::parse(readFile(here.path("stats.json"))).at("scene");
+        return std::pair(scene.at("patch_size").get<double>(),
+                         scene.at("element_size").get<double>());
+    };
+    const auto played = sizeWith("--frames", "1:3");
+    EXPECT_EQ(sizeWith("--frame", "3"), played);
+    EXPECT_EQ(sizeWith("--frames", "2:3"), played);
+}
+
 TEST_F(Frames, ThatMakeNoSenseAreAWrongCommandLine) {
     for (const char* frames : {"3:1", "1:", ":2", "a:b", "1:2:3", "1-3", "1.5:2"}) {
         const Outcome outcome = run("solve", {"--frames", frames});

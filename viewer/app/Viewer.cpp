@@ -76,6 +76,7 @@ private:
     ViewerSettings settings_;
     Signals signals_; // before any thread
     std::optional<SceneLoader> loader_;
+    MeshingOptions startSizes_; ///< where none are asked for
     Window window_;
     const bool software_;
     InteractiveRenderer renderer_;
@@ -158,6 +159,7 @@ void Viewer::openScene(ReadyScene ready) {
     if (!again && options_.opened) options_.opened(ready.loaded.files);
     if (!again && options_.reported) options_.reported(ready.loaded.diagnostics);
     watcher_ = FileWatcher(ready.loaded.files);
+    startSizes_ = ready.sizes;
     walk_.emplace(std::move(ready));
     previewOf_ = 0;
     CameraRig& rig = walk_->rig();
@@ -186,9 +188,8 @@ void Viewer::lightScene() {
     how.trigger = state_.trigger;
     const RadiosityOptions asked = optionsOf(walk_->scene());
     how.solving.policy = state_.policy;
-    how.meshing.patchSize = state_.patchSize > 0 ? state_.patchSize : asked.meshing.patchSize;
-    how.meshing.elementSize =
-        state_.elementSize > 0 ? state_.elementSize : asked.meshing.elementSize;
+    how.meshing.patchSize = state_.patchSize > 0 ? state_.patchSize : startSizes_.patchSize;
+    how.meshing.elementSize = state_.elementSize > 0 ? state_.elementSize : startSizes_.elementSize;
     if (how.solving.residual == 0) how.solving.residual = asked.solving.residual;
     light_.reset();
     light_.emplace(

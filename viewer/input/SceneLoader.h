@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/usd/scene/UsdScene.h"
+#include "radiosity/mesh/BuildPatches.h"
 #include "radiosity/query/SceneRays.h"
 #include "scenegraph/Objects.h"
 
@@ -16,6 +17,7 @@ namespace penumbra {
 struct ReadyScene {
     LoadedScene loaded;
     PlacedScene placed;
+    MeshingOptions sizes; ///< unless others are asked for, see startSizes()
     std::unique_ptr<SceneRays> rays;
 };
 

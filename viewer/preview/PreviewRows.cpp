@@ -149,7 +149,7 @@ unsigned PreviewRows::lightsReaching(const PreviewLighting& light, std::uint32_t
                                      const Bounds& box) const {
     unsigned lights = light.objects[object].moves ? (1u << light.lights.size()) - 1 : 0;
     const Bounds place =
-        grown(transformed(box, light.now->objects[object].toWorld), stage_->skin());
+        stage_->withReceivers(transformed(box, light.now->objects[object].toWorld));
     for (const Slot& slot : slots_) lights |= lightsThrough(light, slot, place);
     return lights;
 }

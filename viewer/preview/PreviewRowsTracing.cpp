@@ -72,7 +72,7 @@ std::vector<unsigned> PreviewRows::lightsInDoubt(const PreviewLighting& light,
             const std::span<const Bounds> blocks = surfaces_[object].blocks();
             if (light.objects[object].moves || block >= blocks.size()) continue;
             const Bounds box = transformed(blocks[block], slot.of->objects[object].toWorld);
-            lights[i] = lightsThrough(light, slot, grown(box, stage_->skin()));
+            lights[i] = lightsThrough(light, slot, stage_->withReceivers(box));
         }
     });
     return lights;

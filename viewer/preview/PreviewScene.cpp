@@ -1,5 +1,8 @@
 #include "viewer/preview/PreviewScene.h"
 
+#include "radiosity/rays/Margins.h"
+#include "radiosity/rays/Shaft.h"
+
 #include <algorithm>
 #include <tuple>
 #include <utility>
@@ -65,6 +68,10 @@ const RayScene& PreviewScene::raysAt(const SceneState& sceneState) {
     return aside_;
 }
 
+Bounds PreviewScene::withReceivers(const Bounds& box) const {
+    return grown(box, hoverAt(set_.skin, magnitude(box)));
+}
+
 Receiver PreviewScene::receiver(std::uint32_t object, std::size_t vertex) const {
     return set_.vertices[set_.objects[object].vertices.first + vertex].receiver;
 }
@@ -72,8 +79,7 @@ Receiver PreviewScene::receiver(std::uint32_t object, std::size_t vertex) const 
 Receiver PreviewScene::receiver(std::uint32_t object, std::size_t vertex, const Pose& pose) const {
     const ObjectPart& part = set_.objects[object];
     if (!part.movable) return receiver(object, vertex);
-    const Receiver& own = part.shape.vertices[vertex].receiver;
-    return {pose.point(own.position), pose.direction(own.normal)};
+    return placedReceiver(part.shape.vertices[vertex].receiver, pose, set_.skin);
 }
 
 std::vector<TouchedCorner> PreviewScene::touched() const {

@@ -49,7 +49,8 @@ public:
     std::uint32_t firstVertex(std::uint32_t object) const {
         return set_.objects[object].vertices.first;
     }
-    float skin() const { return set_.skin; } ///< how far receivers hover [m]
+    /// A box with what hovers over the surfaces in it [m, world].
+    Bounds withReceivers(const Bounds& box) const;
 
 private:
     using ObjectPose = PosedPatches::ObjectPose;

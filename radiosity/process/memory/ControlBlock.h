@@ -19,7 +19,7 @@ namespace penumbra {
 // it: the other side may have gone mad.
 
 /// Rises with every change of the layout or of the messages.
-constexpr std::uint32_t kProtocolVersion = 6;
+constexpr std::uint32_t kProtocolVersion = 7;
 constexpr std::uint64_t kControlMagic = 0x314c5254434e5550; // "PUNCTRL1"
 constexpr std::size_t kRingBytes = std::size_t(1) << 20;
 

@@ -142,7 +142,7 @@ LitMeshReader::LitMeshReader(std::span<const std::byte> bytes, std::uint32_t blo
     head_.sizes = reader_.get<MeshingOptions>();
     head_.objects = reader_.get<std::uint32_t>();
     head_.materials = reader_.list<LitMeshMaterial>();
-    for (float size : {head_.sizes.patchSize, head_.sizes.elementSize, head_.sizes.extent})
+    for (float size : {head_.sizes.patchSize, head_.sizes.elementSize})
         if (!std::isfinite(size) || size < 0) reader_.fail();
     if (!reader_.ok()) head_ = {};
 }

@@ -1,7 +1,7 @@
 #include "radiosity/process/store/LitPatches.h"
 
-#include "radiosity/mesh/Contact.h"
 #include "radiosity/process/store/LitMesh.h"
+#include "radiosity/rays/Margins.h"
 
 #include <algorithm>
 #include <numeric>
@@ -87,8 +87,7 @@ std::optional<PatchSet> readPatches(std::span<const std::byte> mesh, std::uint32
     const MeshingOptions& sizes = reader.head().sizes;
     set.patchSize = sizes.patchSize;
     set.elementSize = sizes.elementSize;
-    set.extent = sizes.extent;
-    set.skin = skinOf(set.extent);
+    set.skin = skinOf(set.patchSize);
     set.uncoveredElements = set.elements;
     set.covered.resize(set.elements.size());
     set.vertexCoordinates.resize(set.vertices.size());

@@ -73,11 +73,8 @@ TEST(RadiosityNode, KeepsItsLightWhenItIsStopped) {
 TEST(RadiosityNode, IsInTheEndAsIfSolvedFromScratchWhateverWasDone) {
     for (std::uint32_t seed : {1u, 2u, 3u}) {
         EditableRoom room(seed);
-        RadiosityOptions options{
+        const RadiosityOptions options{
             .meshing = EditableRoom::meshing(), .solving = {}, .trigger = Trigger::continuous};
-        // By its own extent a scene that has been edited before it is meshed allows for other
-        // rounding errors than one that has not.
-        options.meshing.extent = 10;
         const auto node = std::make_shared<RadiosityNode>("lit", options, makeThreadLink());
         node->add(room.scene().root);
         std::string done;

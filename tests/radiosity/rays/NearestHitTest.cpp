@@ -47,7 +47,7 @@ TEST(NearestHit, MeetsBacksOnlyIfAsked) {
     NearestHit fronts({0.5f, -0.25f, -1}, {0, 0, 1}, true),
         both({0.5f, -0.25f, -1}, {0, 0, 1}, false);
     EXPECT_FALSE(fronts.take(kLower, offered(0, 0, 1)));
-    EXPECT_FALSE(fronts.inDoubt(1e-6f)); // a back is not passed by: it is not there
+    EXPECT_FALSE(fronts.inDoubt()); // a back is not passed by: it is not there
     EXPECT_TRUE(both.take(kLower, offered(0, 0, 1)));
 }
 
@@ -56,20 +56,20 @@ TEST(NearestHit, IsInDoubtAboutWhatItPassesByUnlessTheNeighbourIsMet) {
     const glm::vec3 from(0.25f, 0.25f + 3e-8f, 2);
     NearestHit nearest(from, {0, 0, -1}, true);
     EXPECT_FALSE(nearest.take(kLower, offered(0, 0, 2)));
-    ASSERT_TRUE(nearest.inDoubt(1e-6f));
+    ASSERT_TRUE(nearest.inDoubt());
     const glm::vec3 aside = nearest.aside(1e-4f);
     EXPECT_NEAR(glm::length(aside), 1e-4, 1e-9);
     EXPECT_EQ(aside.z, 0);           // beside the ray
     EXPECT_GT(aside.y - aside.x, 0); // away from the lower half
     EXPECT_TRUE(nearest.take(kUpper, offered(0, 1, 2)));
-    EXPECT_FALSE(nearest.inDoubt(1e-6f));
+    EXPECT_FALSE(nearest.inDoubt());
 }
 
 TEST(NearestHit, RaysAroundAreAHairBesideItAlsoWhereTheTriangleTouchesItsOrigin) {
     const glm::vec3 from(0.25f, 0.25f + 3e-8f, 0), direction(0.1f, 0, -3);
     NearestHit nearest(from, direction, true);
     EXPECT_FALSE(nearest.take(kLower, offered(0, 0, 0)));
-    ASSERT_TRUE(nearest.inDoubt(1e-6f));
+    ASSERT_TRUE(nearest.inDoubt());
     glm::vec3 sum(0);
     for (int i = 0; i < NearestHit::kAround; ++i) {
         const glm::vec3 beside = nearest.beside(1e-4f, i);

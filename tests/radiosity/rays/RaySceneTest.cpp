@@ -82,8 +82,8 @@ TEST(RayScene, MeetsTheSameAtTheEdgesOfAnObjectThatWasMovedThereAndThatWasMadeTh
     const glm::vec3 offset(0.3f, 0.7f, 0.1f);
     const RayMesh there = cube(turn, offset);
     const RayMesh wall = square(-3);
-    const RayScene made(std::array{there, wall}, 10);
-    RayScene moved(std::array{cube(glm::mat3(1), {-2, 0.5f, 3}), wall}, 10);
+    const RayScene made(std::array{there, wall});
+    RayScene moved(std::array{cube(glm::mat3(1), {-2, 0.5f, 3}), wall});
     moved.move({0}, there.vertices);
     moved.commit();
     int rays = 0;
@@ -109,7 +109,7 @@ TEST(RayScene, MeetsTheSameAtTheEdgesOfAnObjectThatWasMovedThereAndThatWasMadeTh
 TEST(RayScene, TracesNothingInLanesThatAreNotUsed) {
     // Embree is given rays from the origin up for these: they meet a corner there.
     const RayMesh mesh = cube(glm::mat3(1), {0, 0, 1.5f});
-    const RayScene scene(std::array{mesh}, 10);
+    const RayScene scene(std::array{mesh});
     ShadowRays rays;
     for (int i = 0; i < ShadowRays::kMost; ++i)
         rays.set(i, glm::vec3(1e30f), glm::vec3(std::nanf(""), 0, 0));

@@ -30,7 +30,7 @@ TEST(Walls, HideBoxesOnTheirTwoSides) {
 TEST(Walls, HideOnlyWhatNoRayReaches) {
     const BuiltPatches built = wall();
     const Walls walls(built.patches);
-    const RayScene rays(built.patches.rayMeshes, built.patches.extent);
+    const RayScene rays(built.patches.rayMeshes, built.patches.skin);
     std::mt19937 random(7);
     const auto number = [&](float low, float high) {
         return low + (high - low) * float(random()) / float(0xffffffffu);

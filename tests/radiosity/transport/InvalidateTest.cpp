@@ -93,7 +93,7 @@ TEST(InvalidatedRegion, HealsRowsThatAreWrongInIt) {
     for (std::uint32_t o = 0; o < set.objects.size(); ++o)
         if (set.objects[o].path == "/table") table = {o};
     ASSERT_TRUE(table.valid());
-    RayScene rays(set.rayMeshes, set.extent);
+    RayScene rays(set.rayMeshes, set.skin);
 
     rays.show(table, false);
     rays.commit();
