@@ -89,7 +89,7 @@ public:
         root_.add(node_);
         node_->update();
         pin(workerProcess(), 1);
-        while (!node_->state().complete) {
+        while (!node_->state().reached(SolutionState::exact)) {
             node_->update();
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
@@ -105,7 +105,7 @@ public:
         if (process == Process::stopped) kill(workerProcess(), SIGSTOP);
         for (int frame = 0; frame < kFrames; ++frame) {
             // Work without end that changes nothing, so that all kinds of walk draw the same.
-            const bool settled = node_->state().phase == RadiosityState::Phase::settled;
+            const bool settled = node_->state().reached(SolutionState::certified);
             if (process == Process::stopped || (process == Process::busy && settled))
                 node_->invalidate(some);
             const Stopwatch watch;
@@ -117,7 +117,7 @@ public:
             times.frames.push_back(watch.wall());
         }
         if (process == Process::stopped) kill(workerProcess(), SIGCONT);
-        while (!node_->state().complete) node_->update();
+        while (!node_->state().reached(SolutionState::exact)) node_->update();
     }
     unsigned restarts() const { return node_->state().restarts; }
 

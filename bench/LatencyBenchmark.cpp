@@ -47,13 +47,12 @@ public:
         const Stopwatch watch;
         scene_.put(place);
         lit_->follow(scene_.placed());
-        while (!solver.stepUntilReady(1e-4)) {
+        while (!solver.stepUntil(SolutionState::certified, 1e-4)) {
             solver.sumUp();
             if (!solver.takeSummedBlocks().empty()) break;
         }
         first.push_back(watch.wall());
-        while (!solver.stepUntilReady(3600)) {
-        }
+        solver.settle(SolutionState::certified);
         settle.push_back(watch.wall());
         solver.settle(); // what was put off is not measured
         solver.takeSummedBlocks();
@@ -78,7 +77,7 @@ public:
         node_ = std::make_shared<RadiosityNode>("lit", options, std::move(link));
         node_->add(scene_.scene().root);
         do update();
-        while (!node_->state().complete);
+        while (!node_->state().reached(SolutionState::exact));
     }
 
     void move(Pose place) override {
@@ -90,12 +89,12 @@ public:
         first.push_back(watch.wall());
         while (!settled()) update();
         settle.push_back(watch.wall());
-        while (!node_->state().complete) update();
+        while (!node_->state().reached(SolutionState::exact)) update();
     }
     unsigned restarts() const { return node_->state().restarts; }
 
 private:
-    bool settled() const { return node_->state().phase == RadiosityState::Phase::settled; }
+    bool settled() const { return node_->state().reached(SolutionState::certified); }
     void update() {
         node_->update();
         std::this_thread::yield();

@@ -14,16 +14,16 @@ namespace penumbra {
 struct MoveCost {
     double place = 0;          ///< placeScene(): the walk over the graph, wall [s]
     double follow = 0;         ///< LitScene::follow(): diff, placement, refit, coverage, wall [s]
-    double converge = 0;       ///< Solver::converge(), wall [s]
-    double settle = 0;         ///< until all is settled, that included, wall [s]
+    double certify = 0;        ///< until the state is `certified`, wall [s]
+    double settle = 0;         ///< until it is `exact`, that included, wall [s]
     double cpu = 0;            ///< of all of that, processor time [s]
-    SolveStatistics converged; ///< when it had; counts are those of the move
+    SolveStatistics certified; ///< when it was; counts are those of the move
     WorkCount direct, indirect;
     std::uint64_t shots = 0;
     SceneChange change;
 
     double wall() const { return place + follow + settle; }
-    double wallToConverge() const { return place + follow + converge; }
+    double wallToCertified() const { return place + follow + certify; }
 };
 
 /// Wall and processor time [s].
@@ -48,14 +48,14 @@ public:
     const LitScene& lit() const { return *lit_; }
     double meshing() const { return meshing_; }        ///< wall [s]
     Seconds firstSolve() const { return solve_; }      ///< from scratch as well
-    double firstConverge() const { return converge_; } ///< part of it: until converged, wall [s]
+    double firstCertified() const { return certify_; } ///< part of it: until certified, wall [s]
     const SolveStatistics& statistics() const { return statistics_; } ///< now
 
 private:
     MovedScene scene_;
     SolverOptions options_;
     std::unique_ptr<LitScene> lit_;
-    double meshing_ = 0, converge_ = 0;
+    double meshing_ = 0, certify_ = 0;
     Seconds solve_;
     SolveStatistics statistics_;
 };

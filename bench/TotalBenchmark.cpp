@@ -39,12 +39,12 @@ void reportRays(benchmark::State& state, const SolveStatistics& scratch, const M
 
 /// What was put off when the certificate was met.
 void reportDeferred(benchmark::State& state, const MoveCost& move) {
-    const SolveStatistics& then = move.converged;
+    const SolveStatistics& then = move.certified;
     const auto blocks = [](const WorkCount& direct, const WorkCount& indirect) {
         return double(direct.blocksVisited + indirect.blocksVisited);
     };
     auto& counters = state.counters;
-    counters["rays_until_converged"] =
+    counters["rays_until_certified"] =
         double(then.direct.rays.total() + then.indirect.rays.total());
     counters["put_off_blocks"] = double(then.dirtyBlocks);
     counters["put_off_share"] =
@@ -77,7 +77,7 @@ void total(benchmark::State& state, const Move& move) {
         auto& counters = state.counters;
         counters["elements"] = double(run.lit().patches().elements.size());
         counters["patches"] = double(run.lit().patches().patches.size());
-        counters["scratch_s"] = run.firstConverge();
+        counters["scratch_s"] = run.firstCertified();
         counters["scratch_settled_s"] = run.firstSolve().wall;
         counters["scratch_shots"] = double(scratch.shots);
 
@@ -87,10 +87,10 @@ void total(benchmark::State& state, const Move& move) {
             run.go(Pose::home);
             const std::vector<Rgb> before = run.lit().solver().radiosity();
             const MoveCost cost = run.go(Pose::there);
-            wall.push_back(cost.wallToConverge()), settled.push_back(cost.wall());
+            wall.push_back(cost.wallToCertified()), settled.push_back(cost.wall());
             follow.push_back(cost.place + cost.follow);
-            direct.push_back(cost.converged.direct.seconds);
-            indirect.push_back(cost.converged.indirect.seconds);
+            direct.push_back(cost.certified.direct.seconds);
+            indirect.push_back(cost.certified.indirect.seconds);
             if (!last) continue;
             counters["patches_affected"] = double(affected(before, run.lit().solver().radiosity()));
             counters["update_shots"] = double(cost.shots);
@@ -102,7 +102,7 @@ void total(benchmark::State& state, const Move& move) {
         counters["follow_s"] = median(follow);
         counters["direct_s"] = median(direct);
         counters["indirect_s"] = median(indirect);
-        counters["time_ratio"] = run.firstConverge() / median(wall);
+        counters["time_ratio"] = run.firstCertified() / median(wall);
         counters["time_ratio_settled"] = run.firstSolve().wall / median(settled);
         reportRows(state, run.lit().solver());
         counters["peak_MB"] = peakMemory() * 1e-6;
@@ -130,7 +130,7 @@ void play(benchmark::State& state, const std::string& layer, bool directOnly) {
             const Stopwatch one;
             if (lit.follow(placeScene(scene)).rebuilt)
                 return state.SkipWithError("meshed anew while the animation was played");
-            lit.solver().converge();
+            lit.solver().settle(SolutionState::certified);
             seconds.push_back(one.wall());
         }
         const double all = playing.wall();

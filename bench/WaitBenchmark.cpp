@@ -94,7 +94,7 @@ private:
     void work(double end) {
         Solver& solver = lit_.solver();
         for (double left = end - watch_.wall(); left > 0; left = end - watch_.wall()) {
-            done_ = solver.stepUntilReady(std::min(kTurn, left));
+            done_ = solver.stepUntil(SolutionState::certified, std::min(kTurn, left));
             pace_.worked(watch_.wall(), solver.direct().dirtyKnown());
             look();
             if (!done_) continue;

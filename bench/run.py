@@ -28,7 +28,7 @@ EDIT = ["elements", "lamps", "scratch_s", "scratch_cpu_s", "update_s", "update_c
         "bytes_per_entry"]
 TOTAL = ["patches", "elements", "scratch_s", "scratch_settled_s", "update_s", "update_settled_s",
          "follow_s", "direct_s", "indirect_s", "time_ratio", "time_ratio_settled", "put_off_blocks",
-         "put_off_share", "put_off_bound", "rays_until_converged", "scratch_shots", "update_shots",
+         "put_off_share", "put_off_bound", "rays_until_certified", "scratch_shots", "update_shots",
          "scratch_rays", "update_rays", "direct_rays", "indirect_rays_full", "indirect_rays_single",
          "ray_ratio", "entries_changed", "blocks_visited", "patches_affected", "certificate",
          "emitter_entries", "emitter_bytes_per_entry", "patch_entries", "patch_bytes_per_entry",

@@ -35,7 +35,7 @@ int main(int argc, char** argv) try {
             lit.update();
             for (const std::string& message : lit.takeMessages()) std::puts(message.c_str());
             std::this_thread::sleep_for(std::chrono::milliseconds(16));
-        } while (lit.state().phase != RadiosityState::Phase::settled);
+        } while (!lit.state().reached(SolutionState::certified));
         for (const LitObject& object : lit.objects())
             if (object.path == "/shelf")
                 std::printf("shelf at %.2f m: %.1f lux\n", height,

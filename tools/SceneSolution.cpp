@@ -164,7 +164,7 @@ SceneSolution::SceneSolution(const SolveSettings& settings)
     if (settings.frames.empty()) return;
     const SolveStatistics s = solver().statistics();
     frames_.push_back({double(frameRange(settings.frames).first), 0, true, s.shots, s.certificate,
-                       steadySeconds() - start, s.direct, s.indirect, s.detail});
+                       steadySeconds() - start, s.state, s.direct, s.indirect, s.detail});
 }
 
 void SceneSolution::mesh(const MeshingOptions& meshing) {
@@ -199,7 +199,7 @@ void SceneSolution::light() {
     lighting_ = timed("light", [&] { return solver().lighting(); });
     progress_.clear();
     const SolveStatistics s = solver().statistics();
-    if (!settings_.quiet && !settings_.solver.directOnly && !s.settled)
+    if (!settings_.quiet && s.state == SolutionState::working)
         std::fprintf(
             stderr,
             "%s: warning: so many patches (%zu) that relaxation was stopped after %llu shots; an "
@@ -239,6 +239,7 @@ void SceneSolution::show(double frame) {
     cost.seconds = steadySeconds() - start;
     cost.shots = after.shots - before.shots;
     cost.certificate = after.certificate;
+    cost.state = after.state;
     cost.direct = after.direct - before.direct;
     cost.indirect = after.indirect - before.indirect;
     cost.detail = after.detail - before.detail;

@@ -64,7 +64,8 @@ struct FrameCost {
     bool rebuilt = false;  ///< the scene was meshed anew
     std::uint64_t shots = 0;
     double certificate = 0; ///< [lm/m^2]
-    double seconds = 0;     ///< from the edit to the settled light
+    double seconds = 0;     ///< from the edit to its light, exact
+    SolutionState state = SolutionState::working;
     WorkCount direct, indirect, detail;
 };
 

@@ -73,8 +73,8 @@ private:
         for (int still = 0; still < 5;) {
             node_->update();
             const RadiosityState& state = node_->state();
-            const bool done = state.phase == RadiosityState::Phase::settled && state.complete &&
-                              state.dirtyMarked && state.queued == 0;
+            const bool done =
+                state.reached(SolutionState::exact) && state.dirtyMarked && state.queued == 0;
             still = done ? still + 1 : 0;
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }

@@ -96,17 +96,16 @@ private:
     }
     View view() const { return walk_.rig().view(options_.size.x, options_.size.y); }
 
-    bool settled() const {
+    bool settled(SolutionState wanted = SolutionState::certified) const {
         const RadiosityState& state = light_->state();
-        return state.phase == RadiosityState::Phase::settled && state.queued == 0 &&
-               state.held == 0;
+        return state.reached(wanted) && state.queued == 0 && state.held == 0;
     }
     /// Until nothing is put off any more either: yardsticks are exact.
     void settle() {
         for (int still = 0; still < 5;) {
             walk_.advance(kFrame);
             const bool news = light_->update(walk_, view());
-            still = news || !settled() || !light_->state().complete ? 0 : still + 1;
+            still = news || !settled(SolutionState::exact) ? 0 : still + 1;
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
     }

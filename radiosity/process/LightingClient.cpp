@@ -262,8 +262,10 @@ void LightingClient::readStatus() {
     control_->unlink(); // the worker has it
     status_ = status;
     while (!sent_.empty() && sent_.front().first <= status_.taken) sent_.pop_front();
-    const bool lit =
-        status_.phase == WorkerStatus::settled && knowsEdits(status_.lit) && opened_ == granted_;
+    const bool rests =
+        status_.solution != std::uint32_t(SolutionState::working) || status_.stopped != 0;
+    const bool lit = status_.phase == WorkerStatus::solving && rests && knowsEdits(status_.lit) &&
+                     opened_ == granted_;
     if (lit) {
         unlitSince_ = 0;
         reportedFailure_ = false;
@@ -304,6 +306,15 @@ void LightingClient::openStore() {
     retryDelay_ = 0; // it works
 }
 
+/// What the worker says, once that is about all edits. It is not exact while there are messages,
+/// of whatever kind, that the worker has not worked off.
+SolutionState LightingClient::solution() const {
+    if (!control_ || unlitSince_ != 0) return SolutionState::working;
+    const std::uint32_t most =
+        std::uint32_t(knowsEdits(status_.lit) ? SolutionState::exact : SolutionState::certified);
+    return SolutionState(std::min(status_.solution, most));
+}
+
 RadiosityState LightingClient::state() const {
     using Phase = RadiosityState::Phase;
     RadiosityState state;
@@ -314,7 +325,8 @@ RadiosityState LightingClient::state() const {
     state.queued = queue_.size() + std::size_t(serial_ - std::min(serial_, status_.taken));
     state.dirtyBlocks = status_.dirtyBlocks;
     state.dirtyMarked = control_ && knowsEdits(status_.marked);
-    state.complete = control_ && knowsEdits(status_.complete) && unlitSince_ == 0;
+    state.solution = solution();
+    state.stopped = control_ && unlitSince_ == 0 && status_.stopped != 0;
     state.age = unlitSince_ == 0 ? 0 : steadySeconds() - unlitSince_;
     state.restarts = restarts_;
     if (!running_)
@@ -326,7 +338,7 @@ RadiosityState LightingClient::state() const {
     else if (status_.phase == WorkerStatus::meshing)
         state.phase = Phase::meshing;
     else
-        state.phase = unlitSince_ == 0 ? Phase::settled : Phase::solving;
+        state.phase = Phase::solving;
     return state;
 }
 

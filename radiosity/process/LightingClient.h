@@ -78,6 +78,7 @@ private:
     void openStore();
     void readStatus();
     bool knowsEdits(std::uint64_t serial) const;
+    SolutionState solution() const;
 
     std::unique_ptr<LightingLink> link_;
     RadiosityOptions options_;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace penumbra {
 
@@ -155,7 +156,7 @@ void LightingWorker::takeLights(ByteReader& message) {
 
 /// Whether edits may be followed now, or are to wait for the light of those before.
 bool LightingWorker::mayFollow() const {
-    return !lit_ || complete_ || pace_.mayTake(steadySeconds());
+    return !lit_ || !workLeft_ || pace_.mayTake(steadySeconds());
 }
 
 /// The last message that what is worked on takes in.
@@ -167,7 +168,11 @@ void LightingWorker::followScene() {
     edited_ = false;
     followed_ = status_.taken;
     pace_.taken(steadySeconds());
-    settled_ = complete_ = marked_ = shown_ = false;
+    marked_ = shown_ = false;
+    aim_ = SolutionState::certified;
+    workLeft_ = true;
+    status_.solution = std::uint32_t(SolutionState::working);
+    status_.stopped = 0;
     nextScan_ = steadySeconds() + kTurn; // its direct light comes first
     nextWork_ = 0;
     if (!graph_) return;
@@ -233,7 +238,7 @@ void LightingWorker::openStore() {
 bool LightingWorker::work(double budget) {
     if (!mesh_.empty()) openStore();
     bool worked = false;
-    if (!complete_) {
+    if (workLeft_) {
         worked = true;
         solve(shown_ ? budget : std::min(budget, kPromptTurn));
     }
@@ -244,14 +249,16 @@ bool LightingWorker::work(double budget) {
         shown_ |= published;
     }
     if (marked_ && publisher_->staleShown()) status_.marked = followed();
-    if (publisher_->hasStore() && mesh_.empty() && publisher_->open() == 0) {
-        if (complete_) status_.complete = followed();
-        if (settled_) {
-            status_.phase = WorkerStatus::settled;
-            status_.lit = followed();
-        }
-    }
+    if (publisher_->hasStore() && mesh_.empty() && publisher_->open() == 0) stateSolution();
     return worked;
+}
+
+/// What is said of the light as it is published. \pre all of it is
+void LightingWorker::stateSolution() {
+    const Solver& solver = lit_->solver();
+    status_.solution = std::uint32_t(solver.state());
+    status_.stopped = !workLeft_ && solver.stopped();
+    if (solver.state() != SolutionState::working || status_.stopped != 0) status_.lit = followed();
 }
 
 /// For those who watch: what is open now.
@@ -261,7 +268,7 @@ void LightingWorker::showWork() {
     nextWork_ = steadySeconds() + kBetweenWork;
 }
 
-/// Until the light is settled; then goes on with what was put off.
+/// Until the light is certified; then goes on with what was put off.
 void LightingWorker::solve(double budget) {
     const auto progress = [&](const char* phase, double done) {
         status_.task.set(phase);
@@ -270,14 +277,11 @@ void LightingWorker::solve(double budget) {
     };
     Solver& solver = lit_->solver();
     viewer_.update(solver, steadySeconds());
-    bool done = false; // this much
-    if (!settled_)
-        done = settled_ = solver.stepUntilReady(budget, progress);
-    else
-        done = complete_ = solver.step(budget);
+    const bool done = solver.stepUntil(aim_, budget, progress);
+    if (done) workLeft_ = std::exchange(aim_, SolutionState::exact) != SolutionState::exact;
     pace_.worked(steadySeconds(), solver.direct().dirtyKnown());
-    directDone_ |= settled_;
-    if (!settled_) status_.phase = WorkerStatus::solving;
+    directDone_ |= done;
+    status_.phase = WorkerStatus::solving;
     if (directDone_) solver.sumUp(kMostSums); // the first light comes all at once
     if (done || steadySeconds() >= nextScan_) {
         publisher_->solverWorked(done);
@@ -291,6 +295,8 @@ void LightingWorker::solve(double budget) {
 void LightingWorker::fail(const std::string& why) {
     status_.phase = WorkerStatus::failed;
     status_.trouble.set(why);
+    status_.solution = std::uint32_t(SolutionState::working);
+    status_.stopped = 0;
     publisher_.reset();
     lit_.reset();
     mesh_ = {};

@@ -52,6 +52,7 @@ private:
     std::uint64_t followed() const;
     bool work(double budget);
     void solve(double budget);
+    void stateSolution();
     void showWork();
     void fail(const std::string& why);
     void report();
@@ -78,10 +79,12 @@ private:
     bool shown_ = false;  ///< something was published since the last edit
     bool edited_ = false, stopped_ = false;
     EditPace pace_;
-    std::uint64_t followed_ = 0;              ///< the last message before the scene was followed
-    bool settled_ = false, complete_ = false; ///< within the certificate; altogether
-    bool directDone_ = false;                 ///< of the mesh as it is, once
-    double nextScan_ = 0;                     ///< at the indirect light, steady clock [s]
+    std::uint64_t followed_ = 0; ///< the last message before the scene was followed
+    /// What the solver works for; and whether anything is left for it.
+    SolutionState aim_ = SolutionState::certified;
+    bool workLeft_ = true;
+    bool directDone_ = false; ///< of the mesh as it is, once
+    double nextScan_ = 0;     ///< at the indirect light, steady clock [s]
 
     StoreRequest request_;
     StoreShape shape_;

@@ -61,7 +61,7 @@ struct RadiosityNode::Impl {
     std::uint32_t previewSet = 0;
     std::uint32_t question = 0, questions = 0; ///< for open work: the present one; so far
     RadiosityState state;
-    bool marksTaken = false, settledTaken = false; ///< all that was published before is read
+    bool marksTaken = false, lightTaken = false; ///< all that was published before is read
     std::uint64_t updates = 0, blocksBefore = 0;
 };
 
@@ -223,10 +223,10 @@ void RadiosityNode::update() {
 void RadiosityNode::Impl::takeIn(bool allTaken) {
     marksTaken = state.dirtyMarked && (marksTaken || allTaken);
     state.dirtyMarked = marksTaken;
-    const bool settled = state.phase == RadiosityState::Phase::settled;
-    settledTaken = settled && (settledTaken || allTaken);
-    if (settled && !settledTaken) state.phase = RadiosityState::Phase::solving;
-    state.complete &= settledTaken && allTaken;
+    lightTaken = state.reached(SolutionState::certified) && (lightTaken || allTaken);
+    if (!lightTaken) state.solution = SolutionState::working;
+    if (!allTaken) state.solution = std::min(state.solution, SolutionState::certified);
+    state.stopped &= allTaken;
 }
 
 void RadiosityNode::stop() {

@@ -59,11 +59,13 @@ DetailGather::~DetailGather() = default;
 void DetailGather::apply(const SceneChange& change) {
     hits_.apply(change);
     swept_ = sweeping_ = false;
+    pending_ = true;
 }
 
 void DetailGather::invalidate(const Bounds& region) {
     hits_.invalidate(region);
     swept_ = sweeping_ = false;
+    pending_ = true;
 }
 
 void DetailGather::beginSweeps(std::span<const Rgb> direct, std::vector<glm::dvec3> nodeIndirect) {
@@ -104,7 +106,7 @@ void DetailGather::sweep(std::size_t effort) {
     s.next = 0;
     if (++s.round < 3 * kSweeps - 1) return;
     std::swap(sent_, s.sent);
-    sweeping_ = false;
+    sweeping_ = pending_ = false;
     swept_ = true;
 }
 

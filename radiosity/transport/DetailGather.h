@@ -47,8 +47,11 @@ public:
     /// Takes note of an edit that has been made to the patch set. Traces nothing.
     void apply(const SceneChange& change);
     void invalidate(const Bounds& region); ///< see LitScene
-    /// Light is not what it was, or will not be, with everything where it is: sweeps begin anew.
-    void lightChanged() { swept_ = sweeping_ = false; }
+    /// Light will not be quite what it is, with everything where it is: sweeps begin anew. What the
+    /// last ones found stays good to within that change.
+    void sweepAgain() { swept_ = sweeping_ = false; }
+    /// Whether sweeps are to come before anything is known of the light after the last edit.
+    bool pending() const { return pending_; }
 
     /// Brings rays up to date: a piece of work of about `effort` rays; false: there is none left.
     bool trace(std::size_t effort) { return hits_.work(effort); }
@@ -95,7 +98,7 @@ private:
     const PatchSet& patches_;
     DetailHits hits_;
     Sent sent_; ///< as the last sweeps left it; empty before the first
-    bool swept_ = false, sweeping_ = false;
+    bool swept_ = false, sweeping_ = false, pending_ = true;
     std::unique_ptr<Sweep> sweep_; ///< kept for its memory
 };
 

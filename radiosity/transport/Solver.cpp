@@ -91,7 +91,8 @@ void Solver::invalidate(const Bounds& region) {
 
 /// Something is to be done again.
 void Solver::begin() {
-    handedOver_ = completed_ = converged_ = ready_ = idle_ = false;
+    handedOver_ = completed_ = idle_ = stopped_ = false;
+    state_ = SolutionState::working;
     firstCertificate_ = 0;
     if (!indirect_) return;
     shotsBefore_ = indirect_->shots();
@@ -99,40 +100,31 @@ void Solver::begin() {
 }
 
 bool Solver::step(double budget, const Progress& progress) {
-    return run(budget, nullptr, progress);
-}
-
-bool Solver::stepUntilReady(double budget, const Progress& progress) {
-    return run(budget, &ready_, progress) || ready_;
+    return stepUntil(SolutionState::exact, budget, progress);
 }
 
 /// What nobody sees waits for so long while something is moved all the time; then it has a share of
 /// the work, see DirtySet [s].
 constexpr double kAging = 0.5;
 
-/// \param until it becomes true, if that is not null
-/// \return whether there is nothing left to do
-bool Solver::run(double budget, const bool* until, const Progress& progress) {
+bool Solver::stepUntil(SolutionState wanted, double budget, const Progress& progress) {
     const double start = steadySeconds();
     const bool prompt = budget < kPrompt;
     const std::size_t most = prompt ? kMostPromptEffort : kMostEffort;
     const double piece = prompt ? kPause : std::min(budget, kLongest);
-    for (double left = budget; left > 0 && !(until && *until);
-         left = budget - (steadySeconds() - start)) {
+    const auto enough = [&] { return idle_ && wanted <= SolutionState::certified; };
+    for (double left = budget; left > 0 && !enough(); left = budget - (steadySeconds() - start)) {
         direct_.setAging(kAging / pace_.secondsPerRay(Pace::direct));
         pace_.aim(std::min(piece, std::max(left, 0.5 * kPause)), most);
         if (!work(pace_, progress)) return true;
     }
-    return false;
+    return enough();
 }
 
-void Solver::converge(const Progress& progress) {
-    while (!converged_ && !run(3600, &converged_, progress)) {
+void Solver::settle(SolutionState wanted, const Progress& progress) {
+    while (!stepUntil(wanted, 3600, progress)) {
     }
-}
-
-void Solver::settle(const Progress& progress) {
-    while (!step(3600, progress)) {
+    while (state_ < wanted && !step(3600, progress)) { // it takes what was put off
     }
 }
 
@@ -143,16 +135,22 @@ bool Solver::work(std::size_t effort, const Progress& progress) {
 
 bool Solver::work(Pace& pace, const Progress& progress) {
     if (workOnce(pace, progress)) return true;
-    converged_ = converged_ || !indirect_ || settled();
     if (detail_ && workOnDetail(pace, progress)) return true;
     const std::size_t open =
         direct_.updates().open().count() + (indirect_ ? indirect_->updates().open().count() : 0);
-    const bool wasReady = std::exchange(ready_, true);
-    if (idle_ || open == 0) return false;
-    if (!wasReady) return true; // whoever waits for this gets to see it
-    idle_ = true;               // time for what was put off
-    if (detail_) detail_->lightChanged();
-    return true;
+    state_ = reached(open > 0);
+    const bool first = !std::exchange(idle_, true);
+    stopped_ = open == 0 && state_ == SolutionState::working;
+    if (open == 0 || !first) return false;
+    if (detail_) detail_->sweepAgain(); // after what was put off, for which it is time now
+    return true;                        // whoever waits for this much gets to see it
+}
+
+/// When nothing is left to be done but what is open.
+SolutionState Solver::reached(bool open) const {
+    return stateOf({.certificate = indirect_ && !certificateMet(),
+                    .fineShadows = detail_ && detail_->pending(),
+                    .deferred = open});
 }
 
 /// The same, but for what may be put off.
@@ -188,7 +186,7 @@ bool Solver::workOnce(Pace& pace, const Progress& progress) {
     if (!more && completing_)
         completing_ = more = pace.work(
             Pace::completion, [&](std::size_t effort) { return indirect_->complete(effort); });
-    const bool done = settled() || spent();
+    const bool done = certificateMet() || spent();
     if (!more && (!done || indirect_->relaxing() || indirect_->residualsStale())) {
         more = pace.work(Pace::relaxation,
                          [&](std::size_t effort) { return indirect_->relax(effort, target()); });
@@ -230,7 +228,7 @@ double Solver::target() const {
                                  : 0.01 * indirect_->meanRadiosity();
 }
 
-bool Solver::settled() const {
+bool Solver::certificateMet() const {
     return !indirect_->residualsStale() && indirect_->certificate() <= target();
 }
 
@@ -305,6 +303,7 @@ SolveStatistics Solver::statistics() const {
     const auto count = [](const RowUpdates& updates, double time) {
         return WorkCount{updates.rays(), updates.blocksVisited(), updates.entriesChanged(), time};
     };
+    result.state = state_;
     result.brightest = direct_.brightest();
     result.direct = count(direct_.updates(), directSeconds_);
     result.dirtyBlocks = direct_.updates().open().count();
@@ -319,7 +318,6 @@ SolveStatistics Solver::statistics() const {
                              0,
                              detailSeconds_};
         result.shots = indirect_->shots();
-        result.settled = settled();
         result.residual = indirect_->residual();
         result.certificate = indirect_->certificate();
         result.meanRadiosity = indirect_->meanRadiosity();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Rgb.h"
+#include "radiosity/SolutionState.h"
 #include "radiosity/mesh/PatchSet.h"
 #include "radiosity/rays/RayScene.h"
 #include "radiosity/schedule/Pace.h"
@@ -74,7 +75,7 @@ struct WorkCount {
 
 struct SolveStatistics {
     std::uint64_t shots = 0;
-    bool settled = false; ///< whether the limit was met, or relaxation stopped before
+    SolutionState state = SolutionState::working;
     WorkCount direct, indirect, detail;
     double residual = 0;           ///< max |R| over patches and channels [lm/m^2]
     double certificate = 0;        ///< bound of |B_exact - B| for the meshed scene [lm/m^2]
@@ -132,20 +133,21 @@ public:
         direct_.narrow(which);
     }
 
-    /// Works for `budget` seconds, or until everything is settled, and returns whether it is. What
-    /// it leaves undone it goes on with at the next call.
+    /// Of what is lit so far. It goes back with edits alone.
+    SolutionState state() const { return state_; }
+    /// Relaxation was stopped by its limit, with the certificate above what was asked for, and all
+    /// else is done: the state stays `working`, though nobody works any more.
+    bool stopped() const { return stopped_; }
+    /// Works for `budget` seconds, or until nothing is left to be done, and returns whether that is
+    /// so. What it leaves undone it goes on with at the next call.
     bool step(double budget, const Progress& progress = {});
-    /// The same, but only until ready().
-    bool stepUntilReady(double budget, const Progress& progress = {});
-    /// Converged, and fine shadows follow: all that may be left is what was put off.
-    bool ready() const { return ready_; }
-    /// Works until everything is settled.
-    void settle(const Progress& progress = {});
-    /// Whether the certificate is as low as was asked for. It may be so long before everything is
-    /// settled: what can't matter for it is put off until then.
-    bool converged() const { return converged_; }
-    /// Works until converged(), or until everything is settled if that comes first.
-    void converge(const Progress& progress = {});
+    /// The same, but for `certified` only until all is done that was not put off. It is not reached
+    /// then if relaxation was stopped, or if bounds of what was put off have grown since.
+    bool stepUntil(SolutionState wanted, double budget, const Progress& progress = {});
+    /// Works until the state is reached, or nothing is left to be done for it.
+    void settle(SolutionState wanted, const Progress& progress = {});
+    /// Works until nothing is left to be done.
+    void settle(const Progress& progress = {}) { settle(SolutionState::exact, progress); }
     /// Does one piece of work of about `effort` rays; false: there is none left. What is computed
     /// does not depend on how large the pieces are.
     bool work(std::size_t effort, const Progress& progress = {});
@@ -189,11 +191,11 @@ private:
     void begin();
     bool work(Pace& pace, const Progress& progress);
     bool workOnce(Pace& pace, const Progress& progress);
-    bool run(double budget, const bool* until, const Progress& progress);
+    SolutionState reached(bool open) const;
     double tolerance(double share) const;
     double mayStayDirty(double share) const { return idle_ ? 0 : tolerance(share); }
     bool workOnDetail(Pace& pace, const Progress& progress);
-    bool settled() const;
+    bool certificateMet() const;
     bool spent() const;
     double target() const;
 
@@ -208,8 +210,9 @@ private:
     std::unique_ptr<DetailGather> detail_;
     bool handedOver_ = false; ///< whether the indirect light knows of the direct light as it is
     bool completing_ = false, completed_ = false; ///< see IndirectLight::complete()
-    bool converged_ = false, ready_ = false;
-    bool idle_ = false;                                ///< nothing is put off any more
+    SolutionState state_ = SolutionState::working;
+    bool idle_ = false;    ///< all is done but for what was put off; nothing is any more
+    bool stopped_ = false; ///< see stopped()
     std::uint64_t shotsBefore_ = 0, servedBefore_ = 0; ///< before the last edit
     double firstCertificate_ = 0;
     Pace pace_; ///< of pieces within a time

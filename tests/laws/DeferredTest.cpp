@@ -28,15 +28,15 @@ TEST(Deferred, TheCertificateCoversWhatIsStillOpen) {
         for (int i = 0; i < 5; ++i) {
             said += room.edit();
             lit.follow(placeScene(room.scene()));
-            lit.solver().converge();
+            lit.solver().settle(SolutionState::certified);
             const SolveStatistics then = lit.solver().statistics();
             const std::vector<Rgb> sent = lit.solver().radiosity();
-            ASSERT_TRUE(lit.solver().converged());
+            ASSERT_GE(lit.solver().state(), SolutionState::certified);
             ASSERT_LE(then.certificate, kCoarse.residual * then.brightest) << said;
             open += then.dirtyBlocks;
             lit.solver().settle();
             const SolveStatistics now = lit.solver().statistics();
-            ASSERT_TRUE(lit.solver().converged());
+            ASSERT_GE(lit.solver().state(), SolutionState::certified);
             EXPECT_EQ(now.dirtyBlocks, 0u);
             EXPECT_EQ(now.dirtyBound, 0);
             EXPECT_LE(largestDifference(sent, lit.solver().radiosity()),
@@ -55,7 +55,7 @@ TEST(Deferred, EditsThatComeWhileWorkIsDeferredSettleAsInOneGo) {
         for (int i = 0; i < 12; ++i) {
             said += room.edit();
             hurried.follow(placeScene(room.scene()));
-            hurried.solver().converge(); // and never more
+            hurried.solver().settle(SolutionState::certified); // and never more
         }
         hurried.solver().settle();
         LitScene scratch(placeScene(room.scene()), sizesOf(hurried.patches()), kCoarse);
@@ -67,9 +67,9 @@ TEST(Deferred, EditsThatComeWhileWorkIsDeferredSettleAsInOneGo) {
 TEST(Deferred, AFirstSolutionConvergesBeforeItSettles) {
     const EditableRoom room(3);
     LitScene lit(placeScene(room.scene()), EditableRoom::meshing(), kCoarse);
-    EXPECT_FALSE(lit.solver().converged());
-    lit.solver().converge();
-    EXPECT_TRUE(lit.solver().converged());
+    EXPECT_EQ(lit.solver().state(), SolutionState::working);
+    lit.solver().settle(SolutionState::certified);
+    EXPECT_GE(lit.solver().state(), SolutionState::certified);
     const std::vector<Rgb> sent = lit.solver().radiosity();
     const double allowed = 2 * lit.solver().statistics().certificate;
     lit.solver().settle();

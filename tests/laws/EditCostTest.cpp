@@ -38,7 +38,7 @@ protected:
         const std::vector<Rgb> sent = lit.solver().radiosity();
         EXPECT_FALSE(lit.follow(placeScene(room.scene)).rebuilt) << what;
         lit.solver().settle();
-        EXPECT_TRUE(lit.solver().statistics().settled) << what;
+        EXPECT_EQ(lit.solver().statistics().state, SolutionState::exact) << what;
         EXPECT_EQ(rays(), before) << what;
         EXPECT_NE(lit.solver().radiosity(), sent) << what;
     }

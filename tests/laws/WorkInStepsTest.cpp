@@ -77,7 +77,8 @@ TEST(WorkInSteps, APieceOfIndirectLightIsAsLargeAsItIsAskedFor) {
             const auto progress = [&](const std::string& phase, double) {
                 if (phase == "shadows of indirect light") asked += double(kEffort);
             };
-            while (!lit.solver().converged() && lit.solver().work(kEffort, progress)) {
+            while (lit.solver().state() == SolutionState::working &&
+                   lit.solver().work(kEffort, progress)) {
             }
             const WorkCount worked = lit.solver().statistics().indirect - before;
             done += double(worked.rays.total()) + 48 * double(worked.blocksVisited);

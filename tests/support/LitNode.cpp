@@ -67,7 +67,7 @@ bool updateUntil(RadiosityNode& node, const std::function<bool()>& until, double
 
 bool updateUntilSettled(RadiosityNode& node, double seconds) {
     return updateUntil(
-        node, [&] { return node.state().complete; }, seconds);
+        node, [&] { return node.state().reached(SolutionState::exact); }, seconds);
 }
 
 std::string describe(RadiosityNode& node) {

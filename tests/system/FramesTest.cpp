@@ -151,6 +151,7 @@ TEST_F(Frames, HaveStatisticsWithTheKeysOfTheContract) {
         for (const char* key : {"edits", "rays", "rays_full", "rays_single", "entries_changed",
                                 "shots", "certificate", "seconds"})
             EXPECT_GE(frame.at(key), 0) << key;
+        EXPECT_EQ(frame.at("state"), "exact");
         EXPECT_EQ(frame.at("rays"),
                   frame.at("rays_full").get<int>() + frame.at("rays_single").get<int>());
         for (const char* key : {"rays", "rays_full", "rays_single", "entries_changed"})

@@ -136,7 +136,7 @@ TEST(RadiosityProcess, NamesOfSharedMemoryAreThereForAMomentAndForNobodyElse) {
             seen = true;
             EXPECT_EQ(facts.st_mode & 0777, 0600u);
         }
-        return room.node->state().phase == Phase::settled;
+        return room.node->state().reached(SolutionState::certified);
     }));
     EXPECT_TRUE(seen);
     EXPECT_TRUE(segmentsOf(getpid()).empty()); // unlinked as soon as both sides had them

@@ -141,6 +141,7 @@ TEST_F(Solve, WritesStatisticsWithTheKeysOfTheContract) {
     ASSERT_TRUE(json.at("phases").is_object());
     for (const auto& [name, seconds] : json.at("phases").items()) EXPECT_GE(seconds, 0) << name;
     EXPECT_EQ(json.at("scene").at("emitters"), 1);
+    EXPECT_EQ(json.at("solve").at("state"), "exact");
 }
 
 TEST_F(Solve, SaysWhereASensorListIsWrong) {

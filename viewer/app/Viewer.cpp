@@ -304,7 +304,7 @@ bool Viewer::changing() const {
 /// Whether the overlay goes on changing by itself.
 bool Viewer::overlayChanging() const {
     if (!light_) return false;
-    if (watchesDirty(state_.overlay)) return !light_->state().complete;
+    if (watchesDirty(state_.overlay)) return !light_->state().reached(SolutionState::exact);
     return state_.overlay == Overlay::age &&
            walk_->time() - light_->ages().newest() < kAgeScale.first;
 }
@@ -357,9 +357,9 @@ void Viewer::save() {
     try {
         savePicture(picture, stills_, light_->lit(),
                     walk_->rig().view(picture.width, picture.height));
-        const bool whole = light_->state().phase == RadiosityState::Phase::settled;
+        const bool whole = light_->state().reached(SolutionState::certified);
         state_.notify("Saved " + picture.stem + ".exr and .png" +
-                      (whole ? "" : ", before the light has settled"));
+                      (whole ? "" : ", while the light is being worked on"));
     } catch (const Error& error) {
         state_.notify(error.what(), 15);
     }
@@ -389,7 +389,8 @@ void Viewer::showTitle() {
     using Phase = RadiosityState::Phase;
     const Phase phase = state_.light.phase;
     const bool done = walk_ && state_.light.queued == 0 &&
-                      (phase == Phase::settled || phase == Phase::off || phase == Phase::failed);
+                      (state_.light.reached(SolutionState::certified) || phase == Phase::off ||
+                       phase == Phase::failed);
     const char* const busy = !walk_ ? " (loading)" : done ? "" : " (lighting)";
     if (std::exchange(title_, name_ + busy + " - Penumbra") != name_ + busy + " - Penumbra")
         window_.setTitle(title_);

@@ -77,9 +77,10 @@ bool WalkLight::update(const Walkthrough& walk, const View& view) {
     if (vertices_) updateVertices(walk, view);
     const RadiosityState& state = node_->state();
     const bool news = blend_.changing() || blocks_ != state.blocksTaken || phase_ != state.phase ||
-                      unlit_ != node_->unlit().size();
+                      solution_ != state.solution || unlit_ != node_->unlit().size();
     blocks_ = state.blocksTaken;
     phase_ = state.phase;
+    solution_ = state.solution;
     unlit_ = node_->unlit().size();
     return news;
 }

@@ -89,6 +89,7 @@ private:
     glm::dmat4 seenFrom_{0.0};
     std::uint64_t blocks_ = 0;
     RadiosityState::Phase phase_ = RadiosityState::Phase::off;
+    SolutionState solution_ = SolutionState::working;
     std::size_t unlit_ = 0;
 };
 

@@ -56,7 +56,8 @@ void drawLightPanel(PanelState& state) {
         ImGui::SameLine();
         if (ImGui::SmallButton("update now")) state.wantsUpdate = true;
     }
-    if (light.phase == RadiosityState::Phase::solving && !light.task.empty())
+    if (light.phase == RadiosityState::Phase::solving && !light.task.empty() &&
+        light.solution == SolutionState::working && !light.stopped)
         ImGui::ProgressBar(float(light.progress), {-1, 0}, light.task.c_str());
     ImGui::TextWrapped("open work: %zu blocks, %zu edits; light is %.1f s old", light.dirtyBlocks,
                        light.queued, light.age);

@@ -1,4 +1,5 @@
 // What is always there: how far the light is, and what there is to say.
+#include "viewer/LightWords.h"
 #include "viewer/panels/PanelState.h"
 #include "viewer/panels/Panels.h"
 
@@ -9,27 +10,6 @@
 namespace penumbra {
 
 namespace {
-
-std::string phaseOf(const PanelState& state) {
-    using Phase = RadiosityState::Phase;
-    if (!state.walk) return "reading " + state.sceneName;
-    const auto percent = [&] { return std::to_string(int(100 * state.light.progress)) + " %"; };
-    switch (state.light.phase) {
-    case Phase::off:
-        return "light is off";
-    case Phase::connecting:
-        return "starting the light";
-    case Phase::meshing:
-        return "cutting surfaces into patches";
-    case Phase::solving:
-        return (state.light.task.empty() ? "light" : state.light.task) + " " + percent();
-    case Phase::settled:
-        return state.light.held > 0 ? "waiting for an update (U)" : "settled";
-    case Phase::failed:
-        break;
-    }
-    return "the light failed";
-}
 
 constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
@@ -43,7 +23,9 @@ void drawStatusLine(PanelState& state) {
     ImGui::SetNextWindowBgAlpha(0.55f);
     ImGui::SetNextWindowPos({em / 2, display.y - em / 2}, ImGuiCond_Always, {0, 1});
     if (ImGui::Begin("##status", nullptr, kPlain)) {
-        ImGui::TextUnformatted(phaseOf(state).c_str());
+        const std::string words =
+            state.walk ? lightWords(state.light) : "reading " + state.sceneName;
+        ImGui::TextUnformatted(words.c_str());
         if (state.walk) {
             ImGui::SameLine(0, 2 * em);
             ImGui::TextDisabled("%s", kCameraModeNames[int(state.walk->rig().mode())]);

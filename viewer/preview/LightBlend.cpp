@@ -105,12 +105,12 @@ void LightBlend::comeToRest(double time) {
 }
 
 /// While light is solved after an edit, indirect light goes up and down: rows are followed one
-/// sender after another, and what they change is sent on last. So it is taken when it has settled;
+/// sender after another, and what they change is sent on last. So it is taken when it is certified;
 /// if that is not soon, now and then.
 bool LightBlend::indirectFadeStarts(const RadiosityState& state, double time) {
     constexpr double kLongest = 2; // [s]
-    const bool settled = state.phase == RadiosityState::Phase::settled && state.queued == 0;
-    if (!lights_.empty() && !settled && time - indirectSince_ < kLongest) return false;
+    const bool certified = state.reached(SolutionState::certified) && state.queued == 0;
+    if (!lights_.empty() && !certified && time - indirectSince_ < kLongest) return false;
     indirectSince_ = time;
     return true;
 }

@@ -48,7 +48,7 @@ struct BlendOptions {
 /// can be left behind at a time; if a third comes to rest before its vertices have followed, it
 /// waits until all are ready.
 ///
-/// Indirect light is not exchanged. It fades to what was published when that has settled; if that
+/// Indirect light is not exchanged. It fades to what was published when that is certified; if that
 /// takes long, every two seconds.
 ///
 /// It makes no difference who moves things: a hand, arrow keys, undo, an animation. If nobody has

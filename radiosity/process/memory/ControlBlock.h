@@ -1,6 +1,7 @@
 // What a radiosity node and its worker share from the start: who says what, and where.
 #pragma once
 
+#include "radiosity/SolutionState.h"
 #include "radiosity/process/memory/MessageRing.h"
 #include "radiosity/process/memory/Region.h"
 #include "radiosity/process/memory/Seqlock.h"
@@ -59,13 +60,14 @@ enum class MessageKind : std::uint32_t {
 
 /// How far the worker is.
 struct WorkerStatus {
-    enum Phase : std::uint32_t { idle, meshing, solving, settled, failed };
-    std::uint64_t taken = 0;    ///< serial of the last message that was taken in
-    std::uint64_t lit = 0;      ///< the published light is that of the scene after this message
-    std::uint64_t complete = 0; ///< likewise, to the last of what may be put off
-    std::uint64_t marked = 0;   ///< what is stale of live lamps is right for this message
+    enum Phase : std::uint32_t { idle, meshing, solving, failed };
+    std::uint64_t taken = 0;  ///< serial of the last message that was taken in
+    std::uint64_t lit = 0;    ///< `solution` is about the scene after this message
+    std::uint64_t marked = 0; ///< what is stale of live lamps is right for this message
     std::uint32_t phase = idle;
     std::uint32_t dirtyBlocks = 0;
+    std::uint32_t solution = 0; ///< SolutionState of the light as it is published
+    std::uint32_t stopped = 0;  ///< 1: see Solver::stopped()
     double progress = 0;
     double certificate = 0, meanRadiosity = 0; ///< [lm/m^2]
     SharedText<32> task;

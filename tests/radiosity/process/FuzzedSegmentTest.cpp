@@ -38,7 +38,7 @@ bool settle(RadiosityNode& node, SteppedLink& link) {
     for (int i = 0; i < 3000; ++i) {
         link.step();
         node.update();
-        if (node.state().complete) return true;
+        if (node.state().reached(SolutionState::exact)) return true;
     }
     return false;
 }

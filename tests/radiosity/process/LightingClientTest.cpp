@@ -20,7 +20,7 @@ struct SteppedRoom {
     bool settle() {
         return updateUntil(*room.node, [this] {
             link->step();
-            return room.node->state().complete;
+            return room.node->state().reached(SolutionState::exact);
         });
     }
 };

@@ -27,7 +27,7 @@ public:
         for (int i = 0; i < 20'000; ++i) {
             frame();
             look();
-            if (room.node->state().complete) return true;
+            if (room.node->state().reached(SolutionState::exact)) return true;
         }
         return false;
     }

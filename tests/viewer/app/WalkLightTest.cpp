@@ -78,8 +78,7 @@ protected:
         for (int i = 0; i < 10000; ++i) {
             light.update(walk, viewOf(walk));
             const RadiosityState& state = light.state();
-            if (state.phase == RadiosityState::Phase::settled && state.queued == 0 &&
-                state.held == 0)
+            if (state.reached(SolutionState::certified) && state.queued == 0 && state.held == 0)
                 return;
             std::this_thread::sleep_for(std::chrono::milliseconds(3));
         }

@@ -52,9 +52,8 @@ public:
             node().update();
             blend.advance(node(), time);
             const RadiosityState& state = node().state();
-            if (state.phase == RadiosityState::Phase::settled && state.queued == 0 &&
-                state.dirtyMarked && !blend.changing() && !blend.waiting() &&
-                !blend.preview().active())
+            if (state.reached(SolutionState::certified) && state.queued == 0 && state.dirtyMarked &&
+                !blend.changing() && !blend.waiting() && !blend.preview().active())
                 return true;
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
@@ -149,7 +148,7 @@ TEST_F(LightBlendTest, IndirectLightStaysUntilItHasSettledAndComesThen) {
         screen.node().update();
         if (!std::exchange(early, early || published()) && early) screen.time += 1.8;
         screen.blend.advance(screen.node(), screen.time += 1e-4);
-        settled = state.phase == RadiosityState::Phase::settled && state.queued == 0;
+        settled = state.reached(SolutionState::certified) && state.queued == 0;
         for (std::size_t o = 0; o < objects.size() && !settled; ++o)
             for (std::size_t v = 0; v < before[o].size(); ++v)
                 ASSERT_EQ(screen.blend.shown(*objects[o].geometry)->indirect[v], before[o][v]);

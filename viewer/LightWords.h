@@ -1,0 +1,13 @@
+// What the window says of the light, in words.
+#pragma once
+
+#include "radiosity/process/RadiosityState.h"
+
+#include <string>
+
+namespace penumbra {
+
+/// How far it is: what is being done, or the state of the solution, for the status line.
+std::string lightWords(const RadiosityState& light);
+
+} // namespace penumbra
