@@ -1,7 +1,7 @@
 // How far the light below a RadiosityNode is.
 #pragma once
 
-#include "radiosity/SolutionState.h"
+#include "base/SolutionState.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/Rgb.h"
-#include "radiosity/SolutionState.h"
+#include "base/SolutionState.h"
 #include "radiosity/mesh/PatchSet.h"
 #include "radiosity/rays/RayScene.h"
 #include "radiosity/schedule/Pace.h"

@@ -1,5 +1,5 @@
 // What is always there: how far the light is, and what there is to say.
-#include "viewer/LightWords.h"
+#include "viewer/panels/LightWords.h"
 #include "viewer/panels/PanelState.h"
 #include "viewer/panels/Panels.h"
 

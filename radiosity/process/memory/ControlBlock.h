@@ -1,7 +1,7 @@
 // What a radiosity node and its worker share from the start: who says what, and where.
 #pragma once
 
-#include "radiosity/SolutionState.h"
+#include "base/SolutionState.h"
 #include "radiosity/process/memory/MessageRing.h"
 #include "radiosity/process/memory/Region.h"
 #include "radiosity/process/memory/Seqlock.h"

@@ -1,5 +1,5 @@
 // One state of a solution, in which fine shadows have their part.
-#include "radiosity/SolutionState.h"
+#include "base/SolutionState.h"
 
 #include "tests/support/EditedScenes.h"
 #include "tests/support/LitDifference.h"

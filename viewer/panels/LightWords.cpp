@@ -1,4 +1,4 @@
-#include "viewer/LightWords.h"
+#include "viewer/panels/LightWords.h"
 
 namespace penumbra {
 

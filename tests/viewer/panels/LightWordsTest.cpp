@@ -1,5 +1,5 @@
 // What the window says of the light.
-#include "viewer/LightWords.h"
+#include "viewer/panels/LightWords.h"
 
 #include <gtest/gtest.h>
 
