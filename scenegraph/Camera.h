@@ -5,6 +5,8 @@
 
 #include <glm/glm.hpp>
 
+#include <string>
+
 namespace penumbra {
 
 /// Lens and film of a camera that looks along -Z with +Y up in its own frame. Apertures, offsets
@@ -45,12 +47,19 @@ struct View {
     glm::dmat4 worldToClip() const { return projection * worldToCamera; }
 };
 
+/// A camera's frame with the axes made up that a singular one has lost (a scale of 0): the third
+/// from the other two, more of them from the world's. Any other frame as it is.
+glm::dmat4 wholeFrame(const glm::dmat4& cameraToWorld);
+
 /// The view of `lens` placed by `cameraToWorld` for a picture of `width` x `height` pixels. The
 /// horizontal field of view is the lens's own; the vertical one follows the picture's shape, as
 /// USD's conformance "expand vertically / crop" does for renderers that keep the width. Scale in
 /// `cameraToWorld` is taken out of the axes. A near plane of 0 or less is moved to a small
-/// positive.
+/// positive. Whatever the camera, the view's matrices can be inverted: see whatIsAmiss().
 View makeView(const Lens& lens, const glm::dmat4& cameraToWorld, int width, int height);
+
+/// What makeView() does not show as the camera asks for it, in words for people; empty: nothing.
+std::string whatIsAmiss(const Lens& lens, const glm::dmat4& cameraToWorld);
 
 /// What is seen by a head that is turned to the left about an axis through the eye, whatever the
 /// view was. \param up unit vector [world]

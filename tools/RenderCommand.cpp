@@ -51,6 +51,18 @@ View chooseView(RenderCommand& command, const SceneSolution& solution) {
                   command.height);
 }
 
+/// Says once what the camera can't be taken as it is for, also while frames are played.
+void sayWhatIsAmiss(const RenderCommand& command, const SceneSolution& solution,
+                    std::string& said) {
+    const auto* const camera = chooseCamera(solution.placed(), command.camera, command.solve.scene);
+    if (!camera || command.solve.quiet) return;
+    const std::string amiss = whatIsAmiss(camera->node->lens(), camera->toWorld);
+    if (!amiss.empty() && amiss != said)
+        fmt::print(stderr, "{}: warning: camera {}: {}\n", command.solve.scene, camera->path,
+                   amiss);
+    if (!amiss.empty()) said = amiss;
+}
+
 ExrMetadata metadata(const RenderCommand& command, const SceneSolution& solution) {
     const SolveStatistics s = solution.statistics();
     ExrMetadata data;
@@ -128,8 +140,10 @@ void run(RenderCommand command) {
         for (std::string& name : everyName(pattern, range)) outputs.push_back(std::move(name));
     checkOutputs({command.solve.scene}, outputs);
     SceneSolution solution(command.solve);
+    std::string said;
     for (int frame = range.first; frame <= range.last; ++frame) {
         if (frame > range.first) solution.show(frame);
+        sayWhatIsAmiss(command, solution, said);
         writeFrame(command, solution, frame);
     }
     if (!command.solve.stats.empty()) writeStatistics(command.solve.stats, solution);

@@ -189,7 +189,7 @@ private:
 void addEmitters(const Surface& surface, const Tessellation& tessellation, BuiltPatches& built) {
     if (surface.light) {
         Emitter emitter = lightEmitter(*surface.light, surface.toShape);
-        if (!(emitter.area > 0)) return;
+        if (!(emitter.area > 0) || surface.mesh.faces.empty()) return;
         emitter.object = surface.object;
         emitter.path = surface.path;
         built.patches.emitters.push_back(std::move(emitter));
@@ -242,6 +242,36 @@ void addWalls(const Surface& surface, PatchSet& set) {
     }
 }
 
+/// What can't be meshed, in a line for people.
+class LeftOut {
+public:
+    /// Notes faces of a surface; of a light only if nothing is left of it.
+    void add(const Surface& surface, std::size_t faces) {
+        if (faces == 0 || (surface.light && !surface.mesh.faces.empty())) return;
+        (surface.light ? lights_ : faces_) += surface.light ? 1 : faces;
+        if (paths_++ == 0) first_ = surface.path;
+    }
+    void say(std::vector<std::string>& warnings) const {
+        if (paths_ == 0) return;
+        std::string what;
+        if (faces_ > 0)
+            what = counted(faces_, "face") + " without area, folded over or with too many corners";
+        if (lights_ > 0)
+            what +=
+                (faces_ > 0 ? " and " : "") + counted(lights_, "light") + " too small to be traced";
+        warnings.push_back(what + " left out (" + first_ +
+                           (paths_ > 1 ? " and " + std::to_string(paths_ - 1) + " more)" : ")"));
+    }
+
+private:
+    static std::string counted(std::size_t count, const std::string& what) {
+        return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+    }
+
+    std::size_t faces_ = 0, lights_ = 0, paths_ = 0;
+    std::string first_;
+};
+
 /// Stops before a slip of a digit fills the memory or overflows the ray tracer's single precision.
 void refuseTooMuch(const PatchSet& set, double area) {
     constexpr double kWidest = 1e7; // [m]
@@ -284,14 +314,11 @@ BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& option
     std::vector<MeshData> lightMeshes;
     std::vector<Surface> surfaces = placeSurfaces(scene, out, lightMeshes);
     chooseAllSides(surfaces, built);
-    std::size_t skipped = 0;
+    LeftOut leftOut;
     for (const Surface& surface : surfaces) {
         const Pose& pose = out.objects[surface.object.value].pose;
         for (glm::vec3 point : surface.mesh.points) out.bounds.add(pose.point(point));
-        if (!surface.light) {
-            skipped += surface.mesh.skipped;
-            out.polygons += surface.mesh.used;
-        }
+        if (!surface.light) out.polygons += surface.mesh.used;
     }
     const double area = litArea(surfaces);
     const MeshingOptions sizes = resolved(options, area);
@@ -310,6 +337,7 @@ BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& option
         if (!understood)
             built.warnings.push_back(
                 surface.path + ": OpenSubdiv refuses this cage; its polygons are used as they are");
+        leftOut.add(surface, surface.mesh.skipped + tessellation.leftOut);
         assembly.add(surface.mesh, tessellation, surface.object);
         Range& emitters = out.objects[surface.object.value].emitters;
         if (emitters.count == 0) emitters.first = std::uint32_t(out.emitters.size());
@@ -324,9 +352,7 @@ BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& option
             if (surface.light && surface.mesh.data->materials[0].get() == material)
                 built.materialSources.back() = {nullptr, surface.light};
     }
-    if (skipped > 0)
-        built.warnings.push_back(std::to_string(skipped) +
-                                 " faces without area or with too many corners were left out");
+    leftOut.say(built.warnings);
     const bool dark = std::all_of(out.emitters.begin(), out.emitters.end(),
                                   [](const Emitter& e) { return maxChannel(e.exitance) <= 0; });
     if (dark)

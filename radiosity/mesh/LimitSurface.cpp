@@ -290,11 +290,14 @@ LimitSurface::LimitSurface(const SurfaceMesh& mesh) : mesh_(mesh) {
 LimitSurface::~LimitSurface() = default;
 
 std::unique_ptr<FaceSurface> LimitSurface::face(std::uint32_t index) const {
-    if (!refined_)
-        return std::make_unique<PolygonSurface>(mesh_, mesh_.cornersOf(mesh_.faces[index]));
+    if (!refined_) return polygon(mesh_.cornersOf(mesh_.faces[index]));
     Bfr::Surface<float> surface;
     if (!refined_->factory.InitVertexSurface(int(index), &surface)) return nullptr;
     return std::make_unique<SubdivisionFace>(surface, mesh_.points);
+}
+
+std::unique_ptr<FaceSurface> LimitSurface::polygon(std::span<const std::uint32_t> corners) const {
+    return std::make_unique<PolygonSurface>(mesh_, corners);
 }
 
 } // namespace penumbra

@@ -75,8 +75,12 @@ public:
 
     /// False if OpenSubdiv refused the cage; it is then taken as polygons.
     bool understood() const { return understood_; }
+    /// Whether its faces are plain polygons, for that or because no others are asked for.
+    bool isPolygons() const { return !refined_; }
     /// \return null if the face has no limit surface
     std::unique_ptr<FaceSurface> face(std::uint32_t index) const;
+    /// The polygon of some points of the mesh, two of which may be the same.
+    std::unique_ptr<FaceSurface> polygon(std::span<const std::uint32_t> corners) const;
 
 private:
     struct Refined;

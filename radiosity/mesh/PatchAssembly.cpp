@@ -354,7 +354,9 @@ void PatchAssembly::makePatch(const SheetCell& cell, const Group& group, bool pa
     }
     out_.area += patch.area;
     patch.centre = centre / patch.area;
-    patch.normal = glm::normalize(areaVector);
+    patch.normal = glm::length(areaVector) > 0 // not if it folds back on itself
+                       ? glm::normalize(areaVector)
+                       : out_.vertices[out_.elements[elements[0]].vertices[0]].receiver.normal;
 
     patch.firstCorner = std::uint32_t(out_.corners.size());
     const bool cut = part && !cell.whole && cell.outline.size() == 4;

@@ -1,6 +1,7 @@
 #include "radiosity/mesh/SurfaceMesh.h"
 
 #include "radiosity/mesh/Triangulate.h"
+#include "radiosity/rays/Traceable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -176,8 +177,10 @@ std::vector<Component> connectedComponents(const SurfaceMesh& mesh,
     return components;
 }
 
-/// Adds one face of a plain mesh as it is, or in triangles.
-void addPolygon(SurfaceMesh& mesh, std::span<const std::uint32_t> corners, std::uint32_t source) {
+/// Adds one face of a plain mesh as it is, or in triangles; those without area, of which nothing
+/// can be seen, are not added. \return whether there were any others
+bool addPolygon(SurfaceMesh& mesh, std::span<const std::uint32_t> corners, std::uint32_t source) {
+    const std::size_t before = mesh.faces.size();
     const auto add = [&](std::span<const std::uint32_t> face) {
         SurfaceFace added;
         added.firstCorner = std::uint32_t(mesh.corners.size());
@@ -186,12 +189,22 @@ void addPolygon(SurfaceMesh& mesh, std::span<const std::uint32_t> corners, std::
         mesh.corners.insert(mesh.corners.end(), face.begin(), face.end());
         mesh.faces.push_back(added);
     };
-    if (mesh.subdivided() || isConvex(mesh.points, corners)) return add(corners);
-    for (const auto& triangle : triangulate(mesh.points, corners)) add(triangle);
+    if (mesh.subdivided() || isConvex(mesh.points, corners))
+        add(corners);
+    else
+        for (const auto& triangle : triangulate(mesh.points, corners))
+            if (glm::length(newellNormal(mesh.points, triangle)) > 0) add(triangle);
+    return mesh.faces.size() > before;
+}
+
+bool isFinite(glm::vec3 p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
 bool usable(const SurfaceMesh& mesh, std::span<const std::uint32_t> corners) {
     if (corners.size() < 3 || corners.size() > kMostSides) return false;
+    for (std::uint32_t corner : corners)
+        if (!isFinite(mesh.points[corner])) return false;
     if (mesh.subdivided()) { // a cage must be sound topology; its area may vanish
         std::vector<std::uint32_t> sorted(corners.begin(), corners.end());
         std::sort(sorted.begin(), sorted.end());
@@ -202,7 +215,8 @@ bool usable(const SurfaceMesh& mesh, std::span<const std::uint32_t> corners) {
         longest = std::max<double>(
             longest,
             glm::distance(mesh.points[corners[i]], mesh.points[corners[(i + 1) % corners.size()]]));
-    return glm::length(newellNormal(mesh.points, corners)) > 1e-7 * longest * longest;
+    return longest > kLeastLength &&
+           glm::length(newellNormal(mesh.points, corners)) > 1e-7 * longest * longest;
 }
 
 } // namespace
@@ -288,12 +302,10 @@ SurfaceMesh placeSurface(const MeshData& data, const glm::dmat4& toWorld) {
         if (!weld.empty())
             for (std::uint32_t& corner : corners) corner = weld[corner];
         if (mirrored) std::reverse(corners.begin(), corners.end());
-        if (usable(mesh, corners)) {
-            addPolygon(mesh, corners, f);
+        if (usable(mesh, corners) && addPolygon(mesh, corners, f))
             ++mesh.used;
-        } else {
+        else
             ++mesh.skipped;
-        }
     }
     return mesh;
 }

@@ -44,15 +44,19 @@ private:
         const auto parts = [](float whole, float part) {
             return std::clamp(int(std::ceil(whole / part - 1e-3f)), 1, 4096);
         };
+        constexpr int kMost = 32767; // OpenSubdiv's Bfr cuts no edge into more parts
         const int patches = parts(length, patchSize_);
         const int elements = std::max(parts(length / float(patches), elementSize_),
                                       parts(bend / float(patches), kMostBend));
-        return {patches, patches * elements};
+        return {patches, patches * std::min(elements, kMost / patches)};
     }
 
     void addFace(std::uint32_t index, const FaceSurface& face);
     std::vector<int> facetRates(const std::vector<EdgeRate>& edges) const;
     void addCells(std::uint32_t index, const FaceSurface& face, const std::vector<EdgeRate>& edges);
+    void leaveOutUnsound(std::size_t first);
+    bool hasArea(const Facet& facet) const;
+    bool hasSide(const Facet& facet) const;
     Facet placeFacet(const FaceSurface& face, const DomainPattern& pattern,
                      const std::array<int, 4>& source,
                      std::span<const std::uint32_t> vertices) const;
@@ -164,8 +168,34 @@ void Tessellator::addFace(std::uint32_t index, const FaceSurface& face) {
 
     const DomainPattern pattern = face.pattern(facetRates(edges));
     const std::vector<std::uint32_t> vertices = addVertices(index, face, edges, pattern.coords);
+    const std::size_t first = out_.facets.size();
     for (const std::array<int, 4>& source : pattern.facets)
         out_.facets.push_back(placeFacet(face, pattern, source, vertices));
+    leaveOutUnsound(first);
+}
+
+/// Takes out what has no side of the face's facets, or all if the face has no area.
+void Tessellator::leaveOutUnsound(std::size_t first) {
+    const auto begin = out_.facets.begin() + std::ptrdiff_t(first);
+    const bool area =
+        std::any_of(begin, out_.facets.end(), [&](const Facet& facet) { return hasArea(facet); });
+    const auto end = std::remove_if(begin, out_.facets.end(),
+                                    [&](const Facet& facet) { return !area || !hasSide(facet); });
+    if (end == out_.facets.end()) return;
+    out_.facets.erase(end, out_.facets.end());
+    ++out_.leftOut;
+}
+
+bool Tessellator::hasArea(const Facet& facet) const {
+    const auto at = [&](std::size_t k) { return out_.vertices[facet.vertices[k]].position; };
+    return glm::length(glm::cross(at(2) - at(0), at(3) - at(1))) > 0;
+}
+
+/// Whether the mean of its corners' normals points anywhere.
+bool Tessellator::hasSide(const Facet& facet) const {
+    glm::vec3 sum(0);
+    for (std::uint32_t v : facet.vertices) sum += out_.vertices[v].normal;
+    return glm::length(sum) > 1e-3f;
 }
 
 /// Finds the cell that the middle of a facet lies in, and where its corners lie in that cell.

@@ -34,14 +34,20 @@ void SceneRays::build(const PlacedScene& scene) {
         Part& part = parts_[place.object.value];
         RayMesh& ray = meshes[place.object.value];
         const auto first = std::uint32_t(part.local.size());
-        for (const glm::vec3 point : data.points)
-            part.local.push_back(glm::vec3(place.toObject * glm::dvec4(point, 1)));
+        for (const glm::vec3 point : data.points) // radiosity says which faces are left out
+            part.local.push_back(canBeTraced(point)
+                                     ? glm::vec3(place.toObject * glm::dvec4(point, 1))
+                                     : glm::vec3(0));
         Piece& piece = part.pieces.emplace_back(Piece{
             mesh, light, place.path, place.toObject, std::uint32_t(ray.triangles.size()), {}});
         const FaceTriangles triangles = faceTriangles(data);
+        const auto somewhere = [&](std::size_t i) {
+            return canBeTraced(data.points[triangles.indices[i]]);
+        };
         for (const MaterialRange& range : triangles.ranges)
             for (std::size_t i = range.firstIndex; i < range.firstIndex + range.indexCount;
                  i += 3) {
+                if (!somewhere(i) || !somewhere(i + 1) || !somewhere(i + 2)) continue;
                 ray.triangles.push_back({first + triangles.indices[i],
                                          first + triangles.indices[i + 1],
                                          first + triangles.indices[i + 2]});

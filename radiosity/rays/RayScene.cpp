@@ -3,6 +3,7 @@
 #include "base/Bits.h"
 #include "base/Error.h"
 #include "radiosity/rays/Margins.h"
+#include "radiosity/rays/Traceable.h"
 
 #include <embree3/rtcore.h>
 
@@ -33,13 +34,36 @@ struct QueryContext {
     } // incoherent: COHERENT is slower everywhere
 };
 
+using Corners = std::array<std::uint32_t, 3>;
+
 /// The triangles of a geometry; it has a pointer to this.
 struct Triangles {
     const glm::vec3* vertices = nullptr;
-    const std::array<std::uint32_t, 3>* corners = nullptr;
-    std::array<glm::vec3, 3> at(std::uint32_t triangle) const {
-        const auto [a, b, c] = corners[triangle];
-        return {vertices[a], vertices[b], vertices[c]};
+    Corners* corners = nullptr;
+    std::size_t count = 0;
+    std::vector<std::pair<std::uint32_t, Corners>> leftOut; ///< triangles that can't be traced
+
+    std::array<glm::vec3, 3> of(const Corners& triangle) const {
+        return {vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]};
+    }
+    std::array<glm::vec3, 3> at(std::uint32_t triangle) const { return of(corners[triangle]); }
+
+    /// Leaves out triangles that have shrunk to a point, and takes back those that are none any
+    /// more: Embree passes over a triangle whose corners lie beyond the last vertex, and the others
+    /// keep their numbers. \return whether any corners have changed
+    bool sift() {
+        constexpr Corners kBeyond{0xffffffffu, 0xffffffffu, 0xffffffffu};
+        bool changed = std::erase_if(leftOut, [&](const auto& triangle) {
+            if (!isTraceable(of(triangle.second))) return false;
+            corners[triangle.first] = triangle.second;
+            return true;
+        });
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if (corners[i] == kBeyond || isTraceable(at(i))) continue;
+            leftOut.emplace_back(i, std::exchange(corners[i], kBeyond));
+            changed = true;
+        }
+        return changed;
     }
 };
 
@@ -88,6 +112,17 @@ RayHit hitOf(const RTCFilterFunctionNArguments* args) {
     hit.normal = {RTCHitN_Ng_x(args->hit, 1, 0), RTCHitN_Ng_y(args->hit, 1, 0),
                   RTCHitN_Ng_z(args->hit, 1, 0)};
     return hit;
+}
+
+/// Asks for the triangles on one ray, up to `far` times the length of its direction.
+void intersect(RTCScene scene, QueryContext& context, glm::vec3 origin, glm::vec3 direction,
+               float far) {
+    if (!isTraceable(origin, direction) || std::isnan(far)) return;
+    RTCRayHit query{};
+    query.ray = {origin.x,    origin.y, origin.z, 0,           direction.x, direction.y,
+                 direction.z, 0,        far,      0xffffffffu, 0,           0};
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene, &context.context, &query);
 }
 
 /// Hands a hit to whom it concerns. Queries for hits are of single rays.
@@ -193,7 +228,10 @@ struct RayScene::Impl {
         rtcSetGeometryOccludedFilterFunction(geometry, noteBlocker);
         rtcSetGeometryIntersectFilterFunction(geometry, chooseHits);
         members[id].triangles = {static_cast<const glm::vec3*>(vertices),
-                                 static_cast<const std::array<std::uint32_t, 3>*>(indices)};
+                                 static_cast<Corners*>(indices),
+                                 mesh.triangles.size(),
+                                 {}};
+        members[id].triangles.sift();
         rtcSetGeometryUserData(geometry, &members[id].triangles);
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(scene, geometry, id);
@@ -216,6 +254,7 @@ void RayScene::move(ObjectId object, std::span<const glm::vec3> vertices) {
     std::memcpy(rtcGetGeometryBufferData(member.geometry, RTC_BUFFER_TYPE_VERTEX, 0),
                 vertices.data(), vertices.size_bytes());
     rtcUpdateGeometryBuffer(member.geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+    if (member.triangles.sift()) rtcUpdateGeometryBuffer(member.geometry, RTC_BUFFER_TYPE_INDEX, 0);
     rtcCommitGeometry(member.geometry);
     if (!member.alone) {
         member.alone = impl_->newScene();
@@ -280,7 +319,9 @@ void RayScene::trace(void* scene, ShadowRays& rays) const {
     alignas(64) RTCRay16 packet;
     float reaches[16];
     for (int i = 0; i < 16; ++i) {
-        const bool used = rays.used >> i & 1;
+        const bool used = (rays.used >> i & 1) != 0 &&
+                          isTraceable({rays.originX[i], rays.originY[i], rays.originZ[i]},
+                                      {rays.directionX[i], rays.directionY[i], rays.directionZ[i]});
         valid[i] = used ? -1 : 0;
         rays.blocker[i] = ObjectId::kNone;
         packet.org_x[i] = used ? rays.originX[i] : 0;
@@ -314,6 +355,7 @@ void RayScene::trace(void* scene, ShadowRays& rays) const {
 
 bool RayScene::occluded(glm::vec3 origin, glm::vec3 target) const {
     const glm::vec3 d = target - origin;
+    if (!isTraceable(origin, d)) return false;
     const float far = reach(origin, d);
     RTCRay ray{origin.x, origin.y, origin.z, 0, d.x, d.y, d.z, 0, far, 0xffffffffu, 0, 0};
     std::uint32_t blocker = ObjectId::kNone;
@@ -327,13 +369,9 @@ bool RayScene::occluded(glm::vec3 origin, glm::vec3 target) const {
 
 void RayScene::all(glm::vec3 origin, glm::vec3 direction, std::vector<RayHit>& hits) const {
     hits.clear();
-    RTCRayHit query{};
-    query.ray = {origin.x,    origin.y, origin.z, 0,           direction.x, direction.y,
-                 direction.z, 0,        1e30f,    0xffffffffu, 0,           0};
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     QueryContext context;
     context.all = &hits;
-    rtcIntersect1(impl_->scene, &context.context, &query);
+    intersect(impl_->scene, context, origin, direction, 1e30f);
 }
 
 RayHit RayScene::nearest(glm::vec3 origin, glm::vec3 direction, float reach, Faces faces) const {
@@ -346,13 +384,9 @@ RayHit RayScene::nearestIn(void* scene, glm::vec3 origin, glm::vec3 direction, f
     for (int time = 1;; ++time) {
         NearestHit nearest(origin, direction, faces == Faces::front);
         const auto offer = [&](glm::vec3 from) {
-            RTCRayHit query{};
-            query.ray = {from.x,      from.y, from.z, 0,           direction.x, direction.y,
-                         direction.z, 0,      reach,  0xffffffffu, 0,           0};
-            query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
             QueryContext context;
             context.nearest = &nearest;
-            rtcIntersect1(static_cast<RTCScene>(scene), &context.context, &query);
+            intersect(static_cast<RTCScene>(scene), context, from, direction, reach);
         };
         offer(origin);
         if (!nearest.inDoubt()) return nearest.hit();

@@ -43,6 +43,9 @@ bool canBeTraced(glm::vec3 p);
 
 /// The objects of a scene, each one geometry of its own in one flat Embree scene, so that an object
 /// can be moved by refitting, and traced alone. Tracing is thread-safe, changes are not.
+///
+/// A triangle that has shrunk to a point is not met, nor does a ray meet anything that is not
+/// finite (see Traceable.h): whatever comes, Embree does not end the program.
 class RayScene {
 public:
     /// A segment is tested up to a hair before its end, for the target's own surface is no

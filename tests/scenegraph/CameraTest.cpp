@@ -91,6 +91,62 @@ TEST(Camera, AnOrthographicViewIsATenthOfItsApertureWideInLocalUnits) {
     EXPECT_NEAR(onScreen(centimetres, {0.02, 0, -0.5}).x, 1, 1e-9);
 }
 
+/// Whether the picture can be taken back to the scene: its corners, near and far, are somewhere,
+/// and the near ones, where rays begin, can be told apart in single precision.
+bool canBeUndone(const View& view) {
+    const glm::dmat4 back = glm::inverse(view.worldToClip());
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec4 p =
+            back * glm::dvec4(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1, 1);
+        const glm::vec3 point(glm::dvec3(p) / p.w);
+        if (!(glm::length(glm::dvec3(point)) < (corner & 4 ? 1e30 : 1e18))) return false;
+    }
+    return true;
+}
+
+TEST(Camera, CanBeLookedThroughWhateverItsLens) {
+    for (const bool perspective : {true, false})
+        for (const float value : {0.0f, 1e-30f, 1.0f, 1e15f, 1e17f, 3e38f, std::nanf("")}) {
+            Lens narrow = wideLens(), wide = wideLens(), aside = wideLens(), deep = wideLens();
+            for (Lens* lens : {&narrow, &wide, &aside, &deep}) lens->perspective = perspective;
+            narrow.focalLength = value;
+            wide.horizontalAperture = value;
+            aside.verticalApertureOffset = value;
+            for (const Lens& lens : {narrow, wide, aside}) {
+                EXPECT_TRUE(canBeUndone(makeView(lens, moved(1, 2, 3), 300, 200))) << value;
+            }
+            for (const glm::vec2 range : {glm::vec2(1, value), glm::vec2(value, 3e38f)}) {
+                deep.clippingRange = range;
+                EXPECT_TRUE(canBeUndone(makeView(deep, moved(1, 2, 3), 300, 200))) << value;
+                EXPECT_EQ(whatIsAmiss(deep, moved(1, 2, 3)), "");
+            }
+        }
+    Lens lens = wideLens();
+    lens.focalLength = 1e-30f;
+    EXPECT_NE(whatIsAmiss(lens, moved(1, 2, 3)), "");
+}
+
+TEST(Camera, MakesUpTheAxesThatASingularTransformHasLost) {
+    const glm::dmat4 place = glm::rotate(moved(1, 2, 3), 0.7, glm::dvec3(0.1, 0.8, 0.3));
+    EXPECT_EQ(wholeFrame(place), place);
+    EXPECT_EQ(whatIsAmiss(wideLens(), place), "");
+    const View sound = makeView(wideLens(), place, 300, 200);
+    for (int axis = 0; axis < 3; ++axis) { // two tell the third
+        glm::dmat4 flat = place;
+        flat[axis] = glm::dvec4(0);
+        const View view = makeView(wideLens(), flat, 300, 200);
+        for (glm::dvec3 p : {glm::dvec3(1, 0, -9), glm::dvec3(-3, 2, -5)})
+            EXPECT_LT(glm::distance(onScreen(view, p), onScreen(sound, p)), 1e-9) << axis;
+        EXPECT_NE(whatIsAmiss(wideLens(), flat), "");
+    }
+    for (int left = -1; left < 3; ++left) {
+        glm::dmat4 line = place;
+        for (int axis = 0; axis < 3; ++axis)
+            if (axis != left) line[axis] = glm::dvec4(0);
+        EXPECT_TRUE(canBeUndone(makeView(wideLens(), line, 300, 200))) << left;
+    }
+}
+
 TEST(Camera, AHeadThatTurnsToTheLeftSeesThereWhatWasAtItsLeft) {
     glm::dmat4 place(1.0); // looks along +y, z is up
     place[1] = {0, 0, 1, 0}, place[2] = {0, -1, 0, 0}, place[3] = {2, 3, 1, 1};

@@ -33,9 +33,11 @@ Lens plainLens(const Bounds& bounds) {
 
 std::vector<Bookmark> bookmarksOf(const PlacedScene& scene, const Compass& compass) {
     std::vector<Bookmark> bookmarks;
-    for (const auto& camera : scene.cameras)
-        bookmarks.push_back({camera.path, poseOf(camera.toWorld, compass),
-                             inMetres(camera.node->lens(), camera.toWorld)});
+    for (const auto& camera : scene.cameras) {
+        const glm::dmat4 frame = wholeFrame(camera.toWorld);
+        bookmarks.push_back(
+            {camera.path, poseOf(frame, compass), inMetres(camera.node->lens(), frame)});
+    }
     return bookmarks;
 }
 

@@ -1,8 +1,9 @@
 // From the scene graph to flat arrays.
 #include "tests/support/Scenes.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
+#include <cmath>
 #include <numbers>
 #include <set>
 
@@ -146,6 +147,51 @@ TEST(BuildPatches, OfNothingIsNothing) {
     const BuiltPatches built = meshed(Scene());
     EXPECT_TRUE(built.patches.elements.empty());
     EXPECT_TRUE(built.patches.patches.empty());
+}
+
+/// Lights a scene and returns what was said of it; all light is to be finite.
+std::vector<std::string> warningsOf(Scene scene) {
+    const Solution solution(std::move(scene), {.patchSize = 0.5f, .elementSize = 0.25f});
+    for (std::size_t v = 0; v < solution.patches().vertices.size(); ++v)
+        EXPECT_TRUE(std::isfinite(luminance(solution.at(v)))) << v;
+    return {solution.lit.warnings().begin(), solution.lit.warnings().end()};
+}
+
+TEST(BuildPatches, LightsASubdivisionCageThatIsScaledFlat) {
+    // A usual way to hide things. Normals around the rim of what is left face both ways.
+    MeshData cage = boxData({0, 0, 0}, {1, 1, 1}, false);
+    cage.scheme = SubdivisionScheme::catmullClark;
+    const glm::dmat4 flat = glm::scale(glm::dmat4(1.0), glm::dvec3(1, 1, 0));
+    const auto warnings = warningsOf(
+        sceneOf({placed("flat", flat, {object("cage", cage)}), ceilingLight({1, 1, 2}, 1, 1)}));
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(warnings[0], "4 faces without area, folded over or with too many corners left out "
+                           "(/flat/cage/mesh)");
+}
+
+TEST(BuildPatches, LightsABowTie) {
+    // Its two halves face opposite ways; where they meet there is no side.
+    MeshData bow = polygonData({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}});
+    bow.scheme = SubdivisionScheme::bilinear;
+    const auto warnings =
+        warningsOf(sceneOf({object("bow", bow), ceilingLight({0.5f, 0.5f, 1}, 1, 1)}));
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(warnings[0],
+              "1 face without area, folded over or with too many corners left out (/bow/mesh)");
+}
+
+TEST(BuildPatches, LeavesOutLightsThatAreTooSmallToBeTraced) {
+    for (const LightShape& shape : {LightShape(DiskShape{5e-7f}), LightShape(SphereShape{1e-38f})})
+        for (const float x : {0.0f, 0.5f}) {
+            const auto light = std::make_shared<Light>("light", shape, Rgb(1.0f));
+            const auto warnings = warningsOf(sceneOf({object("floor", floorData(-1, 1, -1, 1, -1)),
+                                                      placed("tiny", moved(x, x, 1), {light})}));
+            const bool nothing = std::holds_alternative<SphereShape>(shape);
+            ASSERT_EQ(warnings.size(), nothing ? 2u : 0u);
+            if (!nothing) continue;
+            EXPECT_EQ(warnings[0], "1 light too small to be traced left out (/tiny/light)");
+            EXPECT_THAT(warnings[1], testing::HasSubstr("no light"));
+        }
 }
 
 } // namespace

@@ -221,6 +221,14 @@ TEST(Tessellation, PutsEachFacetIntoTheCellThatItLiesIn) {
     }
 }
 
+TEST(Tessellation, CutsNoEdgeIntoMorePartsThanBfrCan) {
+    // A kerb of 8 km by 10 cm in elements of 10 cm; Bfr's rates end at 32,767.
+    const Tessellation t = cut(floorData(0, 8000, 0, 0.1f, 0), 500, 0.1f);
+    EXPECT_LE(t.facets.size(), 32767u);
+    EXPECT_GE(t.facets.size(), 32000u);
+    EXPECT_NEAR(areaOf(t), 800, 0.1);
+}
+
 TEST(Tessellation, HasUnitNormalsThatPointOutwards) {
     for (const MeshData& data : {boxData({-1, -1, -1}, {1, 1, 1}, false), cubeCage()})
         for (const SurfacePoint& vertex : cut(data, 0.5f, 0.2f).vertices) {

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace penumbra {
 
 namespace {
@@ -48,6 +50,18 @@ TEST(SceneRays, LookThroughAnObjectOnRequest) {
     const auto floor = room.down(1.5, seat->object);
     ASSERT_TRUE(floor);
     EXPECT_EQ(floor->path, "/floor");
+}
+
+TEST(SceneRays, PassByPointsThatAreNowhere) {
+    for (const float nowhere : {1e30f, std::nanf("")}) {
+        Room room;
+        room.scene.root->add(polygon("torn", {{0, 0, 3}, {1, 0, 3}, {nowhere, 1, 3}}));
+        PlacedScene scene = placeScene(room.scene);
+        scene.bounds = {glm::vec3(-1), glm::vec3(2)};
+        const auto touch = SceneRays(scene).touch({0.2, 0.1, 1.5}, {0, 0, -1}, 100);
+        ASSERT_TRUE(touch);
+        EXPECT_EQ(touch->path, "/seat/cushion");
+    }
 }
 
 TEST(SceneRays, FollowWhatIsMovedHiddenAndAdded) {

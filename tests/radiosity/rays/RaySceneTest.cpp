@@ -120,6 +120,56 @@ TEST(RayScene, TracesNothingInLanesThatAreNotUsed) {
         EXPECT_EQ(rays.blocker[i], i == 3 ? 0 : ObjectId::kNone) << i;
 }
 
+TEST(RayScene, SurvivesObjectsThatAreNoMoreThanAPoint) {
+    // Embree divides what is there until boxes are small, and ends the program if they have no
+    // size.
+    std::vector<RayMesh> objects{square(1)};
+    for (float size : {0.0f, 1e-45f, 1e-38f, 1e-20f})
+        for (int i = 0; i < 10; ++i) {
+            objects.push_back(square(0));
+            for (glm::vec3& p : objects.back().vertices) p *= size;
+        }
+    RayScene scene(objects);
+    EXPECT_TRUE(scene.nearest({0.1f, 0, 0}, {0, 0, 1}, 10).met());
+    EXPECT_FALSE(scene.nearest({0.1f, 0, 0}, {0, 0, -1}, 10).met());
+    for (const float size : {1.0f, 0.0f, 1.0f}) { // what shrinks to a point may grow again
+        RayMesh moving = square(2);
+        for (glm::vec3& p : moving.vertices) p *= size;
+        for (std::uint32_t i = 1; i <= 20; ++i) scene.move({i}, moving.vertices);
+        scene.commit();
+        const RayHit hit = scene.nearest({0.1f, 0, 3}, {0, 0, -1}, 10);
+        EXPECT_EQ(hit.object.value, size > 0 ? 1u : 0u);
+        EXPECT_EQ(scene.nearest({0.3f, 0.5f, 1.5f}, {0, 0, 1}, 10).met(), size > 0);
+    }
+}
+
+TEST(RayScene, MeetsNothingOnARayThatIsNoNumberOrOutOfRange) {
+    const RayScene scene(std::array{square(1)});
+    const float infinity = std::numeric_limits<float>::infinity();
+    for (float nowhere : {3e38f, -infinity, std::nanf("")})
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::vec3 bad(0.1f, 0.2f, 0);
+            bad[axis] = nowhere;
+            const glm::vec3 good(0.1f, 0.2f, 0), up(0, 0, 1);
+            EXPECT_FALSE(scene.nearest(bad, up, 10).met());
+            EXPECT_FALSE(scene.nearest(good, bad, 10).met());
+            EXPECT_FALSE(scene.nearest(good, up, std::nanf("")).met());
+            EXPECT_FALSE(scene.occluded(bad, good + 2.0f * up));
+            EXPECT_FALSE(scene.occluded(good, bad));
+            std::vector<RayHit> hits(1);
+            scene.all(bad, up, hits);
+            EXPECT_TRUE(hits.empty());
+            ShadowRays rays;
+            rays.set(0, bad, good);
+            rays.set(1, good, bad);
+            rays.set(2, good, good + 2.0f * up); // its neighbours are no harm to it
+            scene.occluded(rays);
+            EXPECT_EQ(rays.blocker[0], ObjectId::kNone);
+            EXPECT_EQ(rays.blocker[1], ObjectId::kNone);
+            EXPECT_EQ(rays.blocker[2], 0u);
+        }
+}
+
 TEST(RayScene, SaysWhatItCanNotTrace) {
     const float infinity = std::numeric_limits<float>::infinity();
     for (float nowhere : {1e30f, -1e13f, infinity, std::nanf("")}) {
