@@ -131,7 +131,7 @@ private:
         WorkQueue::Handle handle = kDeferred; ///< in the queue
         bool open = false;
         std::uint64_t left = ~std::uint64_t(0), part = ~std::uint64_t(0); ///< bits: receivers
-        std::unique_ptr<PartialUpdate> partial{};                        ///< if it was looked at
+        std::unique_ptr<PartialUpdate> partial{};                         ///< if it was looked at
     };
     struct RowList {
         std::vector<Entry> entries; ///< by block

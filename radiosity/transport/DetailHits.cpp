@@ -154,7 +154,8 @@ bool DetailHits::workOn(DirtyGroups& open, std::size_t rays, std::size_t effort,
             spent += kVisit + outcomes[i].rays;
             ways.push_back(outcomes[i].ways);
             for (const int node : bitsOf(outcomes[i].changed))
-                for (const std::uint32_t p : nodePatches_.of(groups[i] * kGroup + std::uint32_t(node)))
+                for (const std::uint32_t p :
+                     nodePatches_.of(groups[i] * kGroup + std::uint32_t(node)))
                     revisit(p, false);
         }
         groupsVisited_ += ways.size();
