@@ -88,7 +88,7 @@ BareTracing::BareTracing(const PatchSet& patches, const RayScene& rays,
 
 BareTracing::~BareTracing() = default;
 
-/// The rays that RowBuilder::emitterVisibility() decides to take, by the same rules.
+/// The rays that EmitterRowBuilder decides to take, by the same rules.
 BareTracing::Packets BareTracing::packetsOf(std::size_t firstReceiver,
                                             std::size_t lastReceiver) const {
     Packets packets;

@@ -1,6 +1,8 @@
 // The shadow-form-factor-list: what every sender does to every receiver, and who is in the way.
 #pragma once
 
+#include "base/ObjectId.h"
+
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -74,6 +76,13 @@ public:
             while (b < blockerCount && blockers[std::size_t(b)].object != object) ++b;
             if (b == blockerCount) blockers[std::size_t(blockerCount++)] = {object, 0};
             blockers[std::size_t(b)].samples |= std::uint64_t(1) << sample;
+        }
+        /// Who blocks a sample; ObjectId::kNone if nobody is on record.
+        std::uint32_t blockerOf(int sample) const {
+            for (int b = 0; b < blockerCount; ++b)
+                if (blockers[std::size_t(b)].samples >> sample & 1)
+                    return blockers[std::size_t(b)].object;
+            return ObjectId::kNone;
         }
     };
     void assign(std::span<const Draft> drafts);

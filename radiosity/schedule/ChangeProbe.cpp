@@ -108,7 +108,7 @@ bool ChangeProbe::probeStored(const EmitterSender& sender, const Receiver& recei
     };
     const std::uint32_t covered = coveredIn(group, 0);
     bool concerned = byMoved != 0 || covered != 0;
-    const int taken = RowBuilder::samplesTaken(sender, draft);
+    const int taken = EmitterRowBuilder::samplesTaken(sender, draft);
     for (int first = 16; !concerned && first < taken; first += 16) {
         SampleGroup further;
         sender.sampleGroup(receiver, first, further);

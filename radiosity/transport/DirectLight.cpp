@@ -187,7 +187,7 @@ bool DirectLight::update(std::size_t effort, double enough) {
     const auto update = [&](RowBuilder& builder, const DirtyBlock& item,
                             std::span<const MovedObject> moved, std::size_t) {
         const ReceiverBlock receivers = receiversFor(item);
-        return builder.updateEmitterBlock(emitters_[item.row], receivers, item.anew, moved,
+        return builder.emitters.update(emitters_[item.row], receivers, item.anew, moved,
                                           table_[item.row][item.block]);
     };
     for (const DirtyBlock& item : updates_.work(effort, enough, facts, update, expect))

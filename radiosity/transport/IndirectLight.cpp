@@ -190,7 +190,7 @@ bool IndirectLight::update(std::size_t effort, double enough) {
         forEachReceived(block, arrived.light, [&](int r, float factor, glm::dvec3 light) {
             delta[r] = {0, -double(factor), -light};
         });
-        const int changed = builder.updatePatchBlock(
+        const int changed = builder.patches.update(
             senders_.sender(item.row), receiversOf(item.row, item.block), item.anew, moved, block);
         if (changed == 0) return 0;
         forEachReceived(block, arrived.light, [&](int r, float factor, glm::dvec3 light) {

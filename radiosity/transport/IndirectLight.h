@@ -117,7 +117,7 @@ private:
     void list(std::size_t effort);
     void load(Listing& listing);
     void serve(std::size_t effort);
-    void serveBlock(std::uint32_t block, RowBuilder& builder, std::size_t& bytes,
+    void serveBlock(std::uint32_t block, PatchRowBuilder& builder, std::size_t& bytes,
                     std::vector<RowTable::BlockerNote>& notes);
     void finishShot();
     void residualsChanged();
@@ -158,7 +158,7 @@ private:
     std::unique_ptr<Listing> listing_; ///< never at the same time as shot_
     std::unique_ptr<Shot> shot_;
     std::vector<std::vector<std::uint32_t>> lists_; ///< empty: a shot's, kept for their memory
-    std::vector<RowBuilder> builders_;
+    std::vector<PatchRowBuilder> builders_;
     RayCount buildRays_;
     std::uint64_t shots_ = 0, served_ = 0;
     double most_ = 0, open_ = 0, gain_ = 1, certificate_ = 0, meanRadiosity_ = 0;

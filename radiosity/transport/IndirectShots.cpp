@@ -156,12 +156,12 @@ void IndirectLight::serve(std::size_t effort) {
         shot.bytes += task.bytes;
         table_.note(task.notes);
     }
-    for (RowBuilder& builder : builders_) buildRays_ += builder.takeRayCount();
+    for (PatchRowBuilder& builder : builders_) buildRays_ += builder.takeRayCount();
     for (; shot.next < last; ++shot.next) served_ += shot.receivers[shot.next].size();
     if (last == shot.receivers.size()) finishShot();
 }
 
-void IndirectLight::serveBlock(std::uint32_t b, RowBuilder& builder, std::size_t& bytes,
+void IndirectLight::serveBlock(std::uint32_t b, PatchRowBuilder& builder, std::size_t& bytes,
                                std::vector<RowTable::BlockerNote>& notes) {
     const Shot& shot = *shot_;
     for (const std::uint32_t i : shot.receivers[b]) {
@@ -169,7 +169,7 @@ void IndirectLight::serveBlock(std::uint32_t b, RowBuilder& builder, std::size_t
         RowBlock passing;
         RowBlock& block = kept_[s] ? table_[s][b] : passing;
         if (shot.build[i]) {
-            builder.patchBlock(senders_.sender(s), receiversOf(s, b), block);
+            builder.build(senders_.sender(s), receiversOf(s, b), block);
             if (kept_[s]) {
                 bytes += block.bytes();
                 RowTable::listBlockers(set_, s, b, block, notes);

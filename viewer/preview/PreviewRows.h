@@ -21,13 +21,13 @@
 namespace penumbra {
 
 class Frustum;
-class RowBuilder;
+class EmitterRowBuilder;
 
 /// Rows of the shadow-form-factor-list for the live lamps, of those vertices alone that a change
-/// may reach: the same closed forms, samples and rays as radiosity takes (RowBuilder), at the same
-/// places (PreviewScene), so that both come to the same light. Kept arrangement by arrangement as
-/// long as that is asked for: what stands still is traced once, and where what moves is not in the
-/// way of a lamp it does not matter where it is.
+/// may reach: the same closed forms, samples and rays as radiosity takes (EmitterRowBuilder), at
+/// the same places (PreviewScene), so that both come to the same light. Kept arrangement by
+/// arrangement as long as that is asked for: what stands still is traced once, and where what moves
+/// is not in the way of a lamp it does not matter where it is.
 ///
 /// A vertex takes its light, in an arrangement, where it took it when it was lit: those that stand
 /// for corners at the place that was found for these then. Corners that something touches now are
@@ -135,7 +135,7 @@ private:
     void trace(const PreviewLighting& light, Slot& slot);
     void traceTouched();
     bool isClear(const Task& task, std::size_t vertex, const Receiver& receiver) const;
-    void run(const Task& task, RowBuilder& builder) const;
+    void run(const Task& task, EmitterRowBuilder& builder) const;
     Receiver receiver(const Slot& slot, std::uint32_t object, std::size_t vertex) const;
     Receiver ownReceiver(const Slot& slot, std::uint32_t object, std::size_t vertex) const;
 

@@ -2,7 +2,7 @@
 #include "base/Bits.h"
 #include "base/Parallel.h"
 #include "radiosity/rays/Shaft.h"
-#include "radiosity/rows/RowBuilder.h"
+#include "radiosity/rows/EmitterRowBuilder.h"
 #include "viewer/preview/PreviewRows.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ bool PreviewRows::isClear(const Task& task, std::size_t vertex, const Receiver& 
     });
 }
 
-void PreviewRows::run(const Task& task, RowBuilder& builder) const {
+void PreviewRows::run(const Task& task, EmitterRowBuilder& builder) const {
     std::array<Receiver, kBlock> receivers{};
     std::uint64_t wanted = 0, clear = 0;
     const std::size_t begin = task.at->block * kBlock;
@@ -49,7 +49,7 @@ void PreviewRows::run(const Task& task, RowBuilder& builder) const {
     for (const EmitterSender& sender : task.slot->senders[task.source]) {
         if (wanted == 0) break;
         RowBlock block;
-        builder.updateEmitterBlock(sender, {receivers, wanted, 0}, wanted, {}, block);
+        builder.update(sender, {receivers, wanted, 0}, wanted, {}, block);
         block.forEach([&](int i, float factor) {
             Known& known = clear >> i & 1 ? *task.clear : *task.known;
             known.factors[std::size_t(i)] += factor;
@@ -109,7 +109,7 @@ void PreviewRows::trace(const PreviewLighting& light, Slot& slot) {
     if (tasks.empty()) return;
     const RayScene& rays = raysOf(slot);
     parallelFor(tasks.size(), 8, [&](std::size_t first, std::size_t last) {
-        RowBuilder builder(rays);
+        EmitterRowBuilder builder(rays);
         for (std::size_t t = first; t < last; ++t) run(tasks[t], builder);
     });
 }
@@ -126,7 +126,7 @@ void PreviewRows::traceTouched() {
             receivers.push_back(now.touched[i].at), ++t;
     const std::size_t blocks = (touched_.size() + kBlock - 1) / kBlock;
     parallelFor(blocks * now.senders.size(), 1, [&](std::size_t first, std::size_t last) {
-        RowBuilder builder(stage_->rays());
+        EmitterRowBuilder builder(stage_->rays());
         for (std::size_t job = first; job < last; ++job) {
             const std::size_t source = job % now.senders.size();
             const std::size_t begin = job / now.senders.size() * kBlock;
@@ -134,8 +134,8 @@ void PreviewRows::traceTouched() {
             const std::uint64_t all = ~std::uint64_t(0) >> (kBlock - count);
             for (const EmitterSender& sender : now.senders[source]) {
                 RowBlock block;
-                builder.updateEmitterBlock(
-                    sender, {std::span(receivers).subspan(begin, count), all, 0}, all, {}, block);
+                builder.update(sender, {std::span(receivers).subspan(begin, count), all, 0}, all,
+                               {}, block);
                 block.forEach([&](int i, float factor) {
                     touched_[begin + std::size_t(i)].factors[source] += factor;
                 });

@@ -21,7 +21,7 @@ struct Digits {
     int count = 0;                // how many those are
     bool truncated = false;       // there were more
     std::int64_t order = 0;       // decimal exponent of the last digit in mantissa
-    std::int64_t firstPolicy = 0; // that of the first one: whether the number is huge or tiny
+    std::int64_t firstOrder = 0;  // that of the first one: whether the number is huge or tiny
 
     static constexpr int kMaxDigits = 19; // 10^19 - 1 fits 64 bits
 
@@ -85,14 +85,14 @@ const char* scanUsdNumber(const char* text, UsdNumber& number) {
     Digits digits;
     for (; isDigit(*p); ++p) {
         digits.add(*p);
-        if (digits.mantissa != 0) ++digits.firstPolicy;
+        if (digits.mantissa != 0) ++digits.firstOrder;
     }
     const char* integerEnd = p;
     if (*p == '.') {
         for (++p; isDigit(*p); ++p) {
             digits.add(*p);
             if (!digits.truncated) --digits.order;
-            if (digits.mantissa == 0) --digits.firstPolicy;
+            if (digits.mantissa == 0) --digits.firstOrder;
         }
         if (p == begin + 1) return nullptr; // a lone dot
     } else if (p == begin) {
@@ -112,7 +112,7 @@ const char* scanUsdNumber(const char* text, UsdNumber& number) {
         number.value = power < 0 ? mantissa / kPowers[std::size_t(-power)]
                                  : mantissa * kPowers[std::size_t(power)];
     } else {
-        number.value = slowValue(begin, p, digits.firstPolicy + exponent > 0);
+        number.value = slowValue(begin, p, digits.firstOrder + exponent > 0);
     }
     if (plain && !digits.truncated) {
         number.integral = true;

@@ -1,0 +1,305 @@
+#include "radiosity/rows/PatchRowBuilder.h"
+
+#include "radiosity/rays/Shaft.h"
+#include "radiosity/rows/FormFactor.h"
+#include "radiosity/rows/SenderSamples.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+namespace penumbra {
+
+namespace {
+
+constexpr std::uint32_t kNone = ObjectId::kNone;
+
+bool segmentMeets(glm::vec3 from, glm::vec3 to, const Bounds& box) {
+    const Bounds start{from, from};
+    return sweepMeets(start, to - from, to - from, 1.0f, box);
+}
+
+/// Form factor from a receiver to a small piece of a sender, per area [1/m^2].
+float kernel(const Receiver& receiver, glm::vec3 at, glm::vec3 normal) {
+    const glm::vec3 d = at - receiver.position;
+    const float d2 = glm::dot(d, d);
+    return facing(glm::dot(receiver.normal, d), -glm::dot(normal, d), d2) /
+           (std::numbers::pi_v<float> * d2 * d2);
+}
+
+/// Unoccluded form factors of a cluster's parts, in order; each quarter of them stands for a
+/// quarter of the cluster.
+struct PartKernels {
+    PartKernels(const PatchSender& sender, const Receiver& receiver)
+        : count(std::uint32_t(sender.parts.size())) {
+        for (std::uint32_t k = 0; k < count; ++k) {
+            const SenderPart& piece = sender.parts[k];
+            part[k] = piece.area * kernel(receiver, piece.centre, piece.normal);
+            total += part[k];
+        }
+    }
+    std::uint32_t begin(std::uint32_t group, std::uint32_t groups) const {
+        return group * count / groups;
+    }
+    float sum(std::uint32_t first, std::uint32_t last) const {
+        float sum = 0;
+        for (std::uint32_t k = first; k < last; ++k) sum += part[k];
+        return sum;
+    }
+    std::uint32_t count;
+    float part[kPatchSamples];
+    float total = 0;
+};
+
+RowBlock::Split splitOf(const float (&quarter)[4]) {
+    const float total = quarter[0] + quarter[1] + quarter[2] + quarter[3];
+    RowBlock::Split split{};
+    float upTo = 0;
+    for (std::size_t q = 0; q < 3; ++q) {
+        upTo += quarter[q];
+        split[q] = std::uint8_t(std::lround(255 * std::min(1.0f, upTo / total)));
+    }
+    return split;
+}
+
+std::uint32_t sampleCount(float formFactor, std::uint32_t all) {
+    return formFactor > 0.01f ? all : formFactor > 0.0005f ? 4 : 1;
+}
+
+/// Unoccluded form factor of a planar patch; 0 behind it.
+float patchFormFactor(const PatchSender& sender, const Receiver& receiver) {
+    const Patch& patch = *sender.patch;
+    const glm::vec3 away = receiver.position - patch.centre;
+    if (glm::dot(patch.normal, away) <= 0) return 0;
+    float radius2 = 0;
+    for (glm::vec3 corner : sender.outline)
+        radius2 = std::max(radius2, glm::dot(corner - patch.centre, corner - patch.centre));
+    // From afar the point kernel is as good as the closed form: it errs by (radius / distance)^2.
+    const float distance2 = glm::dot(away, away);
+    const float facing = -glm::dot(receiver.normal, away);
+    if (!(distance2 > 100 * radius2 && facing > std::sqrt(radius2)))
+        return polygonFormFactor(receiver.position, receiver.normal, sender.outline);
+    return facing * glm::dot(patch.normal, away) * patch.area /
+           (std::numbers::pi_v<float> * distance2 * distance2);
+}
+
+/// Begins an entry with its unoccluded form factor; false if there is none.
+bool open(const PatchSender& sender, const Receiver& receiver, RowBlock::Draft& draft) {
+    const float factor =
+        sender.patch ? patchFormFactor(sender, receiver) : PartKernels(sender, receiver).total;
+    const bool any = factor > 1e-9f;
+    draft.begin(any ? factor : 0);
+    draft.parted = any && !sender.patch;
+    return any;
+}
+
+/// How much is visible of each quarter of a cluster.
+RowBlock::Split visibleSplit(const PatchSender& sender, const Receiver& receiver,
+                             const RowBlock::Draft& draft) {
+    const PartKernels kernels(sender, receiver);
+    const std::uint32_t groups = sampleCount(draft.formFactor, kernels.count);
+    float quarter[4] = {};
+    for (std::uint32_t k = 0; k < kernels.count; ++k) {
+        std::uint32_t group = 0, of = 0;
+        while (k >= kernels.begin(group + 1, groups)) ++group;
+        while (k >= kernels.begin(of + 1, 4)) ++of;
+        const std::uint64_t samples = (std::uint64_t(1) << kernels.begin(group + 1, groups)) -
+                                      (std::uint64_t(1) << kernels.begin(group, groups));
+        if (draft.visible & samples) quarter[of] += kernels.part[k];
+    }
+    return splitOf(quarter);
+}
+
+} // namespace
+
+/// Appends the samples of entry r, all as yet visible.
+void PatchRowBuilder::listSamples(const PatchSender& sender, const ReceiverBlock& receivers,
+                                  std::size_t r) {
+    const Receiver& receiver = receivers.receivers[r];
+    const float factor = drafts_[r].formFactor;
+    const std::uint32_t hash = pairHash(sender.key, receivers.key + std::uint32_t(r));
+    const std::size_t begin = samples_.size();
+    float total = 0;
+    const auto add = [&](std::uint32_t sample, float weight) {
+        if (!(weight > 0)) return;
+        total += weight;
+        samples_.push_back({std::uint8_t(r), std::uint8_t(sample), weight, kNone});
+    };
+    if (sender.patch) {
+        const std::uint32_t count = sampleCount(factor, kPatchSamples);
+        for (std::uint32_t k = 0; k < count; ++k) {
+            const std::uint32_t sample = count == kPatchSamples ? k
+                                         : count == 4           ? 4 * k + (hash >> 2 * k & 3)
+                                                                : hash & 15;
+            add(sample, kernel(receiver, sender.samples[sample], sender.patch->normal));
+        }
+    } else {
+        const PartKernels kernels(sender, receiver);
+        const std::uint32_t count = sampleCount(factor, kernels.count);
+        for (std::uint32_t k = 0; k < count; ++k) {
+            // Any of the group's parts that faces the receiver stands for all of them.
+            const std::uint32_t first = kernels.begin(k, count), last = kernels.begin(k + 1, count);
+            std::uint32_t sample = first + (hash >> 2 * k) % (last - first);
+            for (std::uint32_t i = first; i < last && !(kernels.part[sample] > 0); ++i)
+                sample = sample + 1 < last ? sample + 1 : first;
+            add(sample, kernels.sum(first, last));
+        }
+    }
+    for (std::size_t k = begin; k < samples_.size(); ++k) samples_[k].weight /= total;
+}
+
+/// The same, with the blockers that are on record.
+void PatchRowBuilder::recallSamples(const PatchSender& sender, const ReceiverBlock& receivers,
+                                    std::size_t r) {
+    const std::size_t begin = samples_.size();
+    listSamples(sender, receivers, r);
+    for (std::size_t k = begin; k < samples_.size(); ++k)
+        samples_[k].blocker = drafts_[r].blockerOf(samples_[k].index);
+}
+
+/// Begins entry r anew and lists its samples. \return whether there are any
+bool PatchRowBuilder::list(const PatchSender& sender, const ReceiverBlock& receivers,
+                           std::size_t r) {
+    const std::size_t begin = samples_.size();
+    const bool wanted = receivers.wanted >> r & 1;
+    if (wanted && open(sender, receivers.receivers[r], drafts_[r]))
+        listSamples(sender, receivers, r);
+    const bool any = samples_.size() > begin;
+    if (!any) drafts_[r].begin(0);
+    return any;
+}
+
+/// Traces the samples that `choose` accepts, through the whole scene or against one object alone.
+template <class Choose>
+void PatchRowBuilder::trace(const PatchSender& sender, const ReceiverBlock& receivers,
+                            Choose choose, const MovedObject* alone) {
+    std::array<std::size_t, 16> lane{};
+    ShadowRays rays;
+    std::size_t count = 0;
+    const auto flush = [&] {
+        if (count == 0) return;
+        if (alone)
+            rays_.occludedBy({alone->object}, rays);
+        else
+            rays_.occluded(rays);
+        (alone ? rayCount_.single : rayCount_.full) += count;
+        for (std::size_t i = 0; i < count; ++i) samples_[lane[i]].blocker = rays.blocker[i];
+        rays.used = 0;
+        count = 0;
+    };
+    for (std::size_t k = 0; k < samples_.size(); ++k) {
+        const Sample& ray = samples_[k];
+        if (!choose(ray)) continue;
+        lane[count] = k;
+        rays.set(int(count++), receivers.receivers[ray.receiver].position,
+                 sender.samples[ray.index]);
+        if (count == 16) flush();
+    }
+    flush();
+}
+
+template <class Visit>
+void PatchRowBuilder::forEachEntry(Visit visit) const {
+    for (std::size_t first = 0, last = 0; first < samples_.size(); first = last) {
+        const std::uint8_t r = samples_[first].receiver;
+        while (last < samples_.size() && samples_[last].receiver == r) ++last;
+        visit(EntrySamples{r, first, last});
+    }
+}
+
+/// Writes what the listed samples of one entry say into it.
+void PatchRowBuilder::collect(const PatchSender& sender, const ReceiverBlock& receivers,
+                              const EntrySamples& entry) {
+    RowBlock::Draft& draft = drafts_[entry.receiver];
+    draft.begin(draft.formFactor);
+    draft.visibility = 0;
+    for (std::size_t k = entry.first; k < entry.last; ++k) {
+        const Sample& sample = samples_[k];
+        if (sample.blocker == kNone) {
+            draft.visible |= std::uint64_t(1) << sample.index;
+            draft.visibility += sample.weight;
+        } else {
+            draft.block(sample.blocker, sample.index);
+        }
+    }
+    draft.parted = !sender.patch;
+    if (draft.parted && draft.visible != 0)
+        draft.split = visibleSplit(sender, receivers.receivers[entry.receiver], draft);
+}
+
+void PatchRowBuilder::build(const PatchSender& sender, const ReceiverBlock& receivers,
+                            RowBlock& block) {
+    samples_.clear();
+    for (std::size_t r = 0; r < receivers.receivers.size(); ++r) list(sender, receivers, r);
+    trace(
+        sender, receivers, [](const Sample&) { return true; }, nullptr);
+    forEachEntry([&](const EntrySamples& entry) { collect(sender, receivers, entry); });
+    block.assign(drafts(receivers));
+}
+
+/// Lists the samples of all entries that may not be what they were.
+/// \return bits: entries that there were and are no more
+std::uint64_t PatchRowBuilder::listDirty(const PatchSender& sender, const ReceiverBlock& receivers,
+                                         std::uint64_t anew, std::span<const MovedObject> moved) {
+    samples_.clear();
+    std::uint64_t emptied = 0;
+    for (std::size_t r = 0; r < receivers.receivers.size(); ++r) {
+        const bool before = drafts_[r].formFactor > 0;
+        if (anew >> r & 1)
+            emptied |= std::uint64_t(!list(sender, receivers, r) && before) << r;
+        else if (before && mayDiffer(drafts_[r], moved, receivers.receivers[r], *sender.box))
+            recallSamples(sender, receivers, r);
+    }
+    return emptied;
+}
+
+void PatchRowBuilder::retrace(const PatchSender& sender, const ReceiverBlock& receivers,
+                              std::uint64_t anew, std::span<const MovedObject> moved) {
+    const auto isNew = [&](const Sample& sample) { return anew >> sample.receiver & 1; };
+    // First what was visible, against what moved; what that blocks is not traced again.
+    std::vector<std::uint8_t> whole(samples_.size());
+    for (std::size_t k = 0; k < whole.size(); ++k)
+        whole[k] = isNew(samples_[k]) || isAmong(moved, samples_[k].blocker);
+    for (const MovedObject& m : moved) {
+        if (!m.present) continue;
+        trace(
+            sender, receivers,
+            [&](const Sample& sample) {
+                return sample.blocker == kNone && !isNew(sample) &&
+                       segmentMeets(receivers.receivers[sample.receiver].position,
+                                    sender.samples[sample.index], m.box);
+            },
+            &m);
+    }
+    const Sample* const begin = samples_.data();
+    trace(
+        sender, receivers,
+        [&](const Sample& sample) { return whole[std::size_t(&sample - begin)]; }, nullptr);
+}
+
+bool PatchRowBuilder::differs(const EntrySamples& entry) const {
+    const RowBlock::Draft& draft = drafts_[entry.receiver];
+    return std::any_of(samples_.begin() + std::ptrdiff_t(entry.first),
+                       samples_.begin() + std::ptrdiff_t(entry.last), [&](const Sample& sample) {
+                           return sample.blocker != draft.blockerOf(sample.index);
+                       });
+}
+
+int PatchRowBuilder::update(const PatchSender& sender, const ReceiverBlock& receivers,
+                            std::uint64_t anew, std::span<const MovedObject> moved,
+                            RowBlock& block) {
+    block.decode(drafts(receivers));
+    int changed = std::popcount(listDirty(sender, receivers, anew, moved));
+    retrace(sender, receivers, anew, moved);
+    forEachEntry([&](const EntrySamples& entry) {
+        if (!(anew >> entry.receiver & 1) && !differs(entry)) return;
+        collect(sender, receivers, entry);
+        ++changed;
+    });
+    if (changed > 0) block.assign(drafts(receivers));
+    return changed;
+}
+
+} // namespace penumbra

@@ -1,0 +1,91 @@
+// Fills rows of indirect light: form factors of patches and clusters, visibility by rays.
+#pragma once
+
+#include "radiosity/mesh/PatchSet.h"
+#include "radiosity/rays/RayScene.h"
+#include "radiosity/rows/MovedObject.h"
+#include "radiosity/rows/RayCount.h"
+#include "radiosity/rows/ReceiverBlock.h"
+#include "radiosity/rows/Row.h"
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace penumbra {
+
+/// A piece of a cluster as it is seen from far away.
+struct SenderPart {
+    glm::vec3 centre{}; ///< [m, world]
+    glm::vec3 normal{}; ///< mean, unit
+    float area = 0;     ///< as its mean normal sees it [m^2]
+};
+
+/// A patch, or a cluster of patches, made ready to send light to receivers.
+struct PatchSender {
+    const Patch* patch = nullptr;       ///< null: a cluster
+    std::span<const glm::vec3> outline; ///< of a patch
+    std::span<const SenderPart> parts;  ///< of a cluster, as many as it has samples
+    const glm::vec3* samples =
+        nullptr;                 ///< points on the surface [m, world]; kPatchSamples of a patch
+    const Bounds* box = nullptr; ///< around all of that [m, world]
+    std::uint32_t key = 0;       ///< names the sender in every scene that has it
+};
+
+/// Builds and updates one block of a patch's or cluster's row at a time; one builder a thread, for
+/// it owns scratch space. What holds of an updated block is said at RowBuilder.
+class PatchRowBuilder {
+public:
+    explicit PatchRowBuilder(const RayScene& rays) : rays_(rays), drafts_(RowBlock::kSize) {}
+
+    /// Evaluates all entries of a block. The number of samples follows the form factor (1, 4 or
+    /// 16); which ones is a fixed function of the pair's keys.
+    void build(const PatchSender& sender, const ReceiverBlock& receivers, RowBlock& block);
+
+    /// Brings a block up to date.
+    /// \param anew bits: entries to be evaluated anew
+    /// \return the number of entries that are not what they were
+    int update(const PatchSender& sender, const ReceiverBlock& receivers, std::uint64_t anew,
+               std::span<const MovedObject> moved, RowBlock& block);
+
+    /// Rays since the last call.
+    RayCount takeRayCount() { return std::exchange(rayCount_, {}); }
+
+private:
+    /// A sample of an entry that is being worked on.
+    struct Sample {
+        std::uint8_t receiver, index;
+        float weight;          ///< share of the pair's samples
+        std::uint32_t blocker; ///< ObjectId::kNone: visible
+    };
+    /// All samples of one entry: a run of samples_.
+    struct EntrySamples {
+        std::size_t receiver, first, last;
+    };
+    std::span<RowBlock::Draft> drafts(const ReceiverBlock& receivers) {
+        return std::span(drafts_).first(receivers.receivers.size());
+    }
+    bool list(const PatchSender& sender, const ReceiverBlock& receivers, std::size_t r);
+    void listSamples(const PatchSender& sender, const ReceiverBlock& receivers, std::size_t r);
+    void recallSamples(const PatchSender& sender, const ReceiverBlock& receivers, std::size_t r);
+    std::uint64_t listDirty(const PatchSender& sender, const ReceiverBlock& receivers,
+                            std::uint64_t anew, std::span<const MovedObject> moved);
+    void retrace(const PatchSender& sender, const ReceiverBlock& receivers, std::uint64_t anew,
+                 std::span<const MovedObject> moved);
+    template <class Choose>
+    void trace(const PatchSender& sender, const ReceiverBlock& receivers, Choose choose,
+               const MovedObject* alone);
+    template <class Visit>
+    void forEachEntry(Visit visit) const;
+    bool differs(const EntrySamples& entry) const;
+    void collect(const PatchSender& sender, const ReceiverBlock& receivers,
+                 const EntrySamples& entry);
+
+    const RayScene& rays_;
+    std::vector<RowBlock::Draft> drafts_;
+    std::vector<Sample> samples_;
+    RayCount rayCount_;
+};
+
+} // namespace penumbra
