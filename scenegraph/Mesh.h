@@ -44,6 +44,10 @@ struct MeshData {
 
     std::vector<std::shared_ptr<Material>> materials; ///< at least one
     std::vector<std::uint16_t> faceMaterial; ///< index into materials; empty: all faces use 0
+
+    const std::shared_ptr<Material>& materialOf(std::size_t face) const {
+        return materials[faceMaterial.empty() ? 0 : faceMaterial[face]];
+    }
 };
 
 /// A mesh of the scene; its geometry is immutable, its materials may be edited.
@@ -58,7 +62,7 @@ public:
     const Bounds& bounds() const { return bounds_; }
     std::size_t faceCount() const { return data_.faceVertexCounts.size(); }
     const std::shared_ptr<Material>& materialOf(std::size_t face) const {
-        return data_.materials[data_.faceMaterial.empty() ? 0 : data_.faceMaterial[face]];
+        return data_.materialOf(face);
     }
 
 private:

@@ -189,6 +189,56 @@ void run(CompareCommand command) {
                    fmt::format("{:.0f}", f.work));
 }
 
+/// Who looks, from where, at pictures of what size.
+void addViewOptions(CLI::App& compare, CompareCommand& command) {
+    compare.add_option("--camera", command.camera, "Path of the camera (default: the first one)");
+    compare.add_option("--cut-from", command.cutFrom,
+                       "Camera the viewer looks through first: after a tenth of the work, they\n"
+                       "look through --camera, in which the error is measured all the time");
+    compare
+        .add_option("--pan", command.pan,
+                    "The viewer turns to the left by so much while the work is done, half of it\n"
+                    "before and half after the middle of --camera; the error is that in the view\n"
+                    "of the moment [degrees]")
+        ->check(CLI::Range(-180.0, 180.0))
+        ->excludes("--cut-from");
+    compare.add_option("--width", command.width, "Of the pictures that are compared [pixels]")
+        ->capture_default_str()
+        ->check(CLI::Range(16, 4096));
+    compare
+        .add_option("--height", command.height,
+                    "Of the pictures [pixels] (default: as the camera's film is shaped)")
+        ->check(CLI::Range(16, 4096));
+}
+
+void addPolicyOptions(CLI::App& compare, CompareCommand& command) {
+    compare.add_option(
+        "--orders", command.policies,
+        "Orders to compare, with commas: plain, importance, random (random2 ... random5),\n"
+        "bound, geometry, oracle, or importance without one of its factors: no-change, no-look,\n"
+        "no-contrast, no-size, no-frustum, no-occlusion, no-eccentricity, no-proximity\n"
+        "(default: plain,importance,random,bound,oracle)");
+    compare
+        .add_option("--dirty", command.dirty,
+                    "What is worked on: what bounding shafts find, of which much turns out not to\n"
+                    "change, or as if it were known what does (perfect; direct light only)")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"shafts", "perfect"}));
+}
+
+void addReportOptions(CLI::App& compare, CompareCommand& command) {
+    compare.add_option("-o,--output", command.output, "HTML file to write")->required();
+    compare.add_option("--json", command.json,
+                       "All figures as JSON (default: beside the HTML file)");
+    compare
+        .add_option("--looks", command.growth,
+                    "The picture is looked at each time the work has grown by this factor")
+        ->capture_default_str()
+        ->check(CLI::Range(1.01, 10.0));
+    compare.add_option("--film", command.filmFrame,
+                       "Frame of the film strip (default: the second one)");
+}
+
 } // namespace
 
 void addCompareCommand(CLI::App& app) {
@@ -199,47 +249,9 @@ void addCompareCommand(CLI::App& app) {
     addSolveOptions(*compare, command->solve);
     compare->remove_option(compare->get_option("--order")); // several are compared
     compare->get_option("--frames")->required();
-    compare->add_option("-o,--output", command->output, "HTML file to write")->required();
-    compare->add_option("--json", command->json,
-                        "All figures as JSON (default: beside the HTML file)");
-    compare->add_option("--camera", command->camera, "Path of the camera (default: the first one)");
-    compare->add_option("--cut-from", command->cutFrom,
-                        "Camera the viewer looks through first: after a tenth of the work, they\n"
-                        "look through --camera, in which the error is measured all the time");
-    compare
-        ->add_option("--pan", command->pan,
-                     "The viewer turns to the left by so much while the work is done, half of it\n"
-                     "before and half after the middle of --camera; the error is that in the view\n"
-                     "of the moment [degrees]")
-        ->check(CLI::Range(-180.0, 180.0))
-        ->excludes("--cut-from");
-    compare
-        ->add_option(
-            "--dirty", command->dirty,
-            "What is worked on: what bounding shafts find, of which much turns out not to\n"
-            "change, or as if it were known what does (perfect; direct light only)")
-        ->capture_default_str()
-        ->check(CLI::IsMember({"shafts", "perfect"}));
-    compare->add_option("--width", command->width, "Of the pictures that are compared [pixels]")
-        ->capture_default_str()
-        ->check(CLI::Range(16, 4096));
-    compare
-        ->add_option("--height", command->height,
-                     "Of the pictures [pixels] (default: as the camera's film is shaped)")
-        ->check(CLI::Range(16, 4096));
-    compare
-        ->add_option("--looks", command->growth,
-                     "The picture is looked at each time the work has grown by this factor")
-        ->capture_default_str()
-        ->check(CLI::Range(1.01, 10.0));
-    compare->add_option(
-        "--orders", command->policies,
-        "Orders to compare, with commas: plain, importance, random (random2 ... random5),\n"
-        "bound, geometry, oracle, or importance without one of its factors: no-change, no-look,\n"
-        "no-contrast, no-size, no-frustum, no-occlusion, no-eccentricity, no-proximity\n"
-        "(default: plain,importance,random,bound,oracle)");
-    compare->add_option("--film", command->filmFrame,
-                        "Frame of the film strip (default: the second one)");
+    addReportOptions(*compare, *command);
+    addViewOptions(*compare, *command);
+    addPolicyOptions(*compare, *command);
     compare->callback([command] { run(*command); });
 }
 

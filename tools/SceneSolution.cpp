@@ -15,15 +15,19 @@
 
 namespace penumbra {
 
-void addSolveOptions(CLI::App& command, SolveSettings& settings) {
-    command.add_option("SCENE", settings.scene, "USD text file (.usda) to light")->required();
-    const auto number = CLI::Validator( // CLI::Range lets nan pass
+namespace {
+
+CLI::Validator number() { // CLI::Range lets nan pass
+    return CLI::Validator(
         [](std::string& text) {
             return text.find_first_of("nN") == std::string::npos ? ""
                                                                  : "'" + text + "' is no number";
         },
         "");
-    const auto positive = number & CLI::Range(1e-6, 1e6);
+}
+
+void addMeshOptions(CLI::App& command, SolveSettings& settings) {
+    const auto positive = number() & CLI::Range(1e-6, 1e6);
     command
         .add_option("--patch-size", settings.meshing.patchSize,
                     "Longest edge of a patch, which sends light [m]\n"
@@ -35,9 +39,12 @@ void addSolveOptions(CLI::App& command, SolveSettings& settings) {
                     "Longest edge of an element, which receives and shows light [m]\n"
                     "(default: an eighth of a patch)")
         ->check(positive);
+}
+
+void addLightOptions(CLI::App& command, SolveSettings& settings) {
     command
         .add_option("--samples", settings.solver.samples,
-                    "Visibility samples of a lamp and a point; four times as many in penumbrae")
+                    "Visibility samples of a light and a point; four times as many in penumbrae")
         ->capture_default_str()
         ->check(CLI::Range(1, 64));
     command
@@ -45,7 +52,7 @@ void addSolveOptions(CLI::App& command, SolveSettings& settings) {
                     "Relax until the certificate, the bound of what the picture may still be\n"
                     "wrong by, is below this share of the brightest emitter's exitance\n"
                     "(default: until it is below 1 % of the mean radiosity)")
-        ->check(number & CLI::Range(1e-9, 1.0));
+        ->check(number() & CLI::Range(1e-9, 1.0));
     command.add_flag("--direct-only", settings.solver.directOnly,
                      "Light straight from the emitters, no interreflection");
     command
@@ -59,15 +66,21 @@ void addSolveOptions(CLI::App& command, SolveSettings& settings) {
                                                           {"random", PolicyKind::random}})
                         .description("{importance,plain,random}"))
         ->type_name("NAME");
+}
+
+void addPlayOptions(CLI::App& command, SolveSettings& settings) {
     command
         .add_option("--frame", settings.frame,
                     "Time code of the file's animation to show (default: its start)")
-        ->check(number);
+        ->check(number());
     command.add_option("--frames", settings.frames,
                        "Play the file's animation from time code A to B, in steps of one (A:B).\n"
                        "A '#' in the name of a result becomes the number of the frame");
     command.add_flag("--from-scratch", settings.fromScratch,
                      "Forget everything at each frame instead of updating what the edit changes");
+}
+
+void addReportOptions(CLI::App& command, SolveSettings& settings) {
     command.add_option("--threads", settings.threads, "Threads to use (default: one a core)")
         ->check(CLI::Range(1u, 1024u));
     command.add_option("--stats", settings.stats, "Write counts and times to this file, as JSON");
@@ -75,6 +88,16 @@ void addSolveOptions(CLI::App& command, SolveSettings& settings) {
     command.add_flag("--progress", settings.progress,
                      "Show progress even when standard error is no terminal");
     command.add_flag("--quiet", settings.quiet, "Show neither progress nor a summary");
+}
+
+} // namespace
+
+void addSolveOptions(CLI::App& command, SolveSettings& settings) {
+    command.add_option("SCENE", settings.scene, "USD text file (.usda) to light")->required();
+    addMeshOptions(command, settings);
+    addLightOptions(command, settings);
+    addPlayOptions(command, settings);
+    addReportOptions(command, settings);
 }
 
 FrameRange frameRange(const std::string& text) {

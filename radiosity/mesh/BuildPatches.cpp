@@ -73,13 +73,8 @@ std::vector<Surface> placeSurfaces(const PlacedScene& scene, const PatchSet& set
     return surfaces;
 }
 
-const Material& materialOf(const SurfaceMesh& mesh, const SurfaceFace& face) {
-    const MeshData& data = *mesh.data;
-    return *data.materials[data.faceMaterial.empty() ? 0 : data.faceMaterial[face.source]];
-}
-
 bool emits(const Surface& surface, const SurfaceFace& face) {
-    return surface.light || materialOf(surface.mesh, face).emissive();
+    return surface.light || surface.mesh.materialOf(face).emissive();
 }
 
 /// Decides which sides there are. Lamps count even when they are dark.
@@ -199,21 +194,21 @@ void addEmitters(const Surface& surface, const Tessellation& tessellation, Built
     const SurfaceMesh& mesh = surface.mesh;
     double area = 0;
     for (const SurfaceFace& face : mesh.faces)
-        if (materialOf(mesh, face).emissive())
+        if (mesh.materialOf(face).emissive())
             area += 0.5 * glm::length(newellNormal(mesh.points, mesh.cornersOf(face)));
     EmitterCollector collector(surface, area, built);
     if (!mesh.subdivided()) {
         for (const SurfaceFace& face : mesh.faces) {
-            if (!materialOf(mesh, face).emissive()) continue;
+            if (!mesh.materialOf(face).emissive()) continue;
             std::vector<glm::vec3> outline;
             for (std::uint32_t corner : mesh.cornersOf(face))
                 outline.push_back(mesh.points[corner]);
-            collector.add(materialOf(mesh, face), outline);
+            collector.add(mesh.materialOf(face), outline);
         }
         return;
     }
     for (const Cell& cell : tessellation.cells) {
-        const Material& material = materialOf(mesh, mesh.faces[cell.face]);
+        const Material& material = mesh.materialOf(mesh.faces[cell.face]);
         if (!material.emissive()) continue;
         const auto first = tessellation.outline.begin() + cell.firstCorner;
         collector.add(material, {first, first + cell.cornerCount});
@@ -291,6 +286,51 @@ MeshingOptions resolved(MeshingOptions sizes, double area) {
     return sizes;
 }
 
+/// Sizes, and what follows from them and from how far things reach.
+void setSizes(const std::vector<Surface>& surfaces, const MeshingOptions& options, PatchSet& out) {
+    for (const Surface& surface : surfaces) {
+        const Pose& pose = out.objects[surface.object.value].pose;
+        for (glm::vec3 point : surface.mesh.points) out.bounds.add(pose.point(point));
+        if (!surface.light) out.polygons += surface.mesh.used;
+    }
+    const double area = litArea(surfaces);
+    const MeshingOptions sizes = resolved(options, area);
+    out.patchSize = sizes.patchSize;
+    out.elementSize = sizes.elementSize;
+    refuseTooMuch(out, area);
+    out.skin = skinOf(out.patchSize);
+    out.farthest = magnitude(out.bounds);
+}
+
+void addSurface(const Surface& surface, PatchAssembly& assembly, LeftOut& leftOut,
+                BuiltPatches& built) {
+    PatchSet& out = built.patches;
+    bool understood = true;
+    const Tessellation tessellation =
+        tessellate(surface.mesh, out.patchSize, out.elementSize, understood);
+    if (!understood)
+        built.warnings.push_back(
+            surface.path + ": OpenSubdiv refuses this cage; its polygons are used as they are");
+    leftOut.add(surface, surface.mesh.skipped + tessellation.leftOut);
+    assembly.add(surface.mesh, tessellation, surface.object);
+    Range& emitters = out.objects[surface.object.value].emitters;
+    if (emitters.count == 0) emitters.first = std::uint32_t(out.emitters.size());
+    addEmitters(surface, tessellation, built);
+    emitters.count = std::uint32_t(out.emitters.size()) - emitters.first;
+}
+
+/// Notes where the colours of the materials come from: from a light, if that made them.
+void noteMaterialSources(const std::vector<Surface>& surfaces, const PatchAssembly& assembly,
+                         BuiltPatches& built) {
+    for (const auto& [material, emits] : assembly.materialSources()) {
+        built.materialSources.push_back({material, nullptr});
+        built.materialEmits.push_back(emits);
+        for (const Surface& surface : surfaces)
+            if (surface.light && surface.mesh.data->materials[0].get() == material)
+                built.materialSources.back() = {nullptr, surface.light};
+    }
+}
+
 } // namespace
 
 MeshingOptions resolvedSizes(const PlacedScene& scene, MeshingOptions sizes) {
@@ -314,44 +354,14 @@ BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& option
     std::vector<MeshData> lightMeshes;
     std::vector<Surface> surfaces = placeSurfaces(scene, out, lightMeshes);
     chooseAllSides(surfaces, built);
-    LeftOut leftOut;
-    for (const Surface& surface : surfaces) {
-        const Pose& pose = out.objects[surface.object.value].pose;
-        for (glm::vec3 point : surface.mesh.points) out.bounds.add(pose.point(point));
-        if (!surface.light) out.polygons += surface.mesh.used;
-    }
-    const double area = litArea(surfaces);
-    const MeshingOptions sizes = resolved(options, area);
-    out.patchSize = sizes.patchSize;
-    out.elementSize = sizes.elementSize;
-    refuseTooMuch(out, area);
-    out.skin = skinOf(out.patchSize);
-    out.farthest = magnitude(out.bounds);
+    setSizes(surfaces, options, out);
 
-    for (const Surface& surface : surfaces) addWalls(surface, out);
+    LeftOut leftOut;
     PatchAssembly assembly(out);
-    for (const Surface& surface : surfaces) {
-        bool understood = true;
-        const Tessellation tessellation =
-            tessellate(surface.mesh, out.patchSize, out.elementSize, understood);
-        if (!understood)
-            built.warnings.push_back(
-                surface.path + ": OpenSubdiv refuses this cage; its polygons are used as they are");
-        leftOut.add(surface, surface.mesh.skipped + tessellation.leftOut);
-        assembly.add(surface.mesh, tessellation, surface.object);
-        Range& emitters = out.objects[surface.object.value].emitters;
-        if (emitters.count == 0) emitters.first = std::uint32_t(out.emitters.size());
-        addEmitters(surface, tessellation, built);
-        emitters.count = std::uint32_t(out.emitters.size()) - emitters.first;
-    }
+    for (const Surface& surface : surfaces) addWalls(surface, out);
+    for (const Surface& surface : surfaces) addSurface(surface, assembly, leftOut, built);
     assembly.finish();
-    for (const auto& [material, emits] : assembly.materialSources()) {
-        built.materialSources.push_back({material, nullptr});
-        built.materialEmits.push_back(emits);
-        for (const Surface& surface : surfaces)
-            if (surface.light && surface.mesh.data->materials[0].get() == material)
-                built.materialSources.back() = {nullptr, surface.light};
-    }
+    noteMaterialSources(surfaces, assembly, built);
     leftOut.say(built.warnings);
     const bool dark = std::all_of(out.emitters.begin(), out.emitters.end(),
                                   [](const Emitter& e) { return maxChannel(e.exitance) <= 0; });

@@ -105,29 +105,27 @@ void PatchAssembly::addRays(const SurfaceMesh& mesh, const Tessellation& tessell
 
 void PatchAssembly::addSheet(const SurfaceMesh& mesh, const Tessellation& tessellation,
                              ObjectId object, bool back) {
-    const auto present = [&](const Cell& cell) {
-        const SurfaceFace& face = mesh.faces[cell.face];
-        return back ? face.back : face.front;
-    };
     const auto firstCell = std::uint32_t(cells_.size());
     for (const Cell& cell : tessellation.cells) {
-        const MeshData& data = *mesh.data;
-        const std::uint32_t source = mesh.faces[cell.face].source;
-        const Material& material =
-            *data.materials[data.faceMaterial.empty() ? 0 : data.faceMaterial[source]];
         SheetCell sheet;
         sheet.whole = cell.whole;
         sheet.smooth = mesh.subdivided();
         sheet.object = object;
-        if (present(cell)) {
-            sheet.material = materialIndex(material, !back);
+        const SurfaceFace& face = mesh.faces[cell.face];
+        sheet.present = back ? face.back : face.front;
+        if (sheet.present) {
+            sheet.material = materialIndex(mesh.materialOf(face), !back);
             const auto first = tessellation.outline.begin() + cell.firstCorner;
             sheet.outline.assign(first, first + cell.cornerCount);
             if (back) std::reverse(sheet.outline.begin() + 1, sheet.outline.end());
         }
         cells_.push_back(std::move(sheet));
     }
+    addElements(tessellation, firstCell, object, back);
+}
 
+void PatchAssembly::addElements(const Tessellation& tessellation, std::uint32_t firstCell,
+                                ObjectId object, bool back) {
     std::vector<std::uint32_t> index(tessellation.vertices.size(), kNone);
     const auto vertex = [&](std::uint32_t v) {
         if (index[v] != kNone) return index[v];
@@ -137,8 +135,8 @@ void PatchAssembly::addSheet(const SurfaceMesh& mesh, const Tessellation& tessel
         return index[v] = std::uint32_t(out_.vertices.size() - 1);
     };
     for (const Facet& facet : tessellation.facets) {
-        const Cell& cell = tessellation.cells[facet.cell];
-        if (!present(cell)) continue;
+        const std::uint32_t cell = firstCell + facet.cell;
+        if (!cells_[cell].present) continue;
         const std::size_t count = facet.vertices[2] == facet.vertices[3] ? 3 : 4;
         Element element;
         CornerCoordinates st;
@@ -148,10 +146,10 @@ void PatchAssembly::addSheet(const SurfaceMesh& mesh, const Tessellation& tessel
             element.vertices[k] = vertex(facet.vertices[from]);
             st[k] = back ? glm::vec2(facet.st[from].y, facet.st[from].x) : facet.st[from];
         }
-        element.material = cells_[firstCell + facet.cell].material;
+        element.material = cells_[cell].material;
         out_.elements.push_back(element);
         out_.elementObject.push_back(object);
-        elementCell_.push_back(firstCell + facet.cell);
+        elementCell_.push_back(cell);
         elementSt_.push_back(st);
     }
 }
@@ -292,7 +290,7 @@ void PatchAssembly::makePatches(std::uint32_t cell, const std::vector<std::uint3
         if (fresh) groups.emplace_back();
         Group& group = groups[found->second];
         group.elements.push_back(elements[i]);
-        for (glm::vec2 st : elementSt_[elements[i]]) group.add(st);
+        for (glm::vec2 st : elementSt_[elements[i]]) group.part.add(st);
     }
     if (cells_[cell].whole) { // it has no coordinates to part it by
         for (std::size_t i = 1; i < groups.size(); ++i)
@@ -307,7 +305,8 @@ void PatchAssembly::makePatches(std::uint32_t cell, const std::vector<std::uint3
 /// What is sent is sent by the rectangle around a group: rectangles must not overlap.
 void PatchAssembly::mergeOverlapping(std::vector<Group>& groups) {
     const auto overlap = [](const Group& a, const Group& b) {
-        const glm::vec2 size = glm::min(a.high, b.high) - glm::max(a.low, b.low);
+        const glm::vec2 size =
+            glm::min(a.part.high, b.part.high) - glm::max(a.part.low, b.part.low);
         return size.x > 1e-3f && size.y > 1e-3f;
     };
     for (std::size_t i = 0; i < groups.size(); ++i)
@@ -316,28 +315,19 @@ void PatchAssembly::mergeOverlapping(std::vector<Group>& groups) {
             Group& into = groups[std::min(i, j)];
             Group& from = groups[std::max(i, j)];
             into.elements.insert(into.elements.end(), from.elements.begin(), from.elements.end());
-            into.add(from.low);
-            into.add(from.high);
+            into.part.add(from.part.low);
+            into.part.add(from.part.high);
             groups.erase(groups.begin() + std::ptrdiff_t(std::max(i, j)));
             i = std::size_t(-1); // it has grown: look again
             break;
         }
 }
 
-void PatchAssembly::makePatch(const SheetCell& cell, const Group& group, bool part) {
-    const std::vector<std::uint32_t>& elements = group.elements;
-    Patch patch;
-    const auto index = std::uint32_t(out_.patches.size());
-    patch.material = cell.material;
-    patch.object = cell.object;
-    patch.firstElement = std::uint32_t(out_.patchElements.size());
-    patch.elementCount = std::uint32_t(elements.size());
-    glm::vec2 low = group.low, high = group.high;
+/// Fills in area, centre and normal of a patch. \return false if it has no area
+bool PatchAssembly::measure(Patch& patch, const std::vector<std::uint32_t>& elements) const {
     glm::vec3 areaVector(0), centre(0);
     for (std::uint32_t e : elements) {
-        Element& element = out_.elements[e];
-        element.patch = index;
-        out_.patchElements.push_back(e);
+        const Element& element = out_.elements[e];
         std::array<glm::vec3, 4> p;
         for (std::size_t k = 0; k < 4; ++k) p[k] = out_.vertices[element.vertices[k]].position;
         const glm::vec3 vector = 0.5f * glm::cross(p[2] - p[0], p[3] - p[1]);
@@ -347,47 +337,72 @@ void PatchAssembly::makePatch(const SheetCell& cell, const Group& group, bool pa
         centre += area * (element.isTriangle() ? (p[0] + p[1] + p[2]) / 3.0f
                                                : 0.25f * (p[0] + p[1] + p[2] + p[3]));
     }
-    if (!(patch.area > 0)) {
-        for (std::uint32_t e : elements) out_.elements[e].patch = kNone;
-        out_.patchElements.resize(patch.firstElement);
-        return;
-    }
-    out_.area += patch.area;
+    if (!(patch.area > 0)) return false;
     patch.centre = centre / patch.area;
     patch.normal = glm::length(areaVector) > 0 // not if it folds back on itself
                        ? glm::normalize(areaVector)
                        : out_.vertices[out_.elements[elements[0]].vertices[0]].receiver.normal;
+    return true;
+}
 
+/// Gives a patch the corners of its cell, or of the part of it that the group spans.
+/// \param part the cell has several patches. \return coordinates within the cell that it spans
+PatchAssembly::Part PatchAssembly::placeCorners(Patch& patch, const SheetCell& cell,
+                                                const Group& group, bool part) {
+    const auto& q = cell.outline;
+    Part spans{glm::vec2(0), glm::vec2(1)};
     patch.firstCorner = std::uint32_t(out_.corners.size());
-    const bool cut = part && !cell.whole && cell.outline.size() == 4;
-    if (!cut) low = glm::vec2(0), high = glm::vec2(1);
-    if (cut) {
-        const auto& q = cell.outline;
+    if (part && !cell.whole && q.size() == 4) {
+        const glm::vec2 low = group.part.low, high = group.part.high;
         for (glm::vec2 st : {low, glm::vec2(high.x, low.y), high, glm::vec2(low.x, high.y)})
             out_.corners.push_back(
                 glm::mix(glm::mix(q[0], q[1], st.x), glm::mix(q[3], q[2], st.x), st.y));
+        spans = group.part;
     } else {
-        out_.corners.insert(out_.corners.end(), cell.outline.begin(), cell.outline.end());
+        out_.corners.insert(out_.corners.end(), q.begin(), q.end());
     }
     patch.cornerCount = std::uint32_t(out_.corners.size()) - patch.firstCorner;
-    placeNodes(patch, cell, elements, low, high);
+    return spans;
+}
+
+/// Tells the vertices of a patch that no other patch has where they lie in it.
+void PatchAssembly::placeVertices(std::uint32_t index, const std::vector<std::uint32_t>& elements,
+                                  const Part& part) {
+    const glm::vec2 size = glm::max(part.high - part.low, glm::vec2(1e-6f));
     for (std::uint32_t e : elements)
         for (std::size_t k = 0; k < 4; ++k) {
             const std::uint32_t v = out_.elements[e].vertices[k];
             if (vertexPlaced_[v]) continue;
             vertexPlaced_[v] = 1;
-            const glm::vec2 size = glm::max(high - low, glm::vec2(1e-6f));
-            const glm::vec2 st = glm::clamp((elementSt_[e][k] - low) / size, 0.0f, 1.0f);
+            const glm::vec2 st = glm::clamp((elementSt_[e][k] - part.low) / size, 0.0f, 1.0f);
             out_.vertexCoordinates[v] = {index, st.x, st.y};
         }
+}
+
+void PatchAssembly::makePatch(const SheetCell& cell, const Group& group, bool part) {
+    const std::vector<std::uint32_t>& elements = group.elements;
+    Patch patch;
+    patch.material = cell.material;
+    patch.object = cell.object;
+    const bool any = measure(patch, elements);
+    const auto index = any ? std::uint32_t(out_.patches.size()) : kNone;
+    for (std::uint32_t e : elements) out_.elements[e].patch = index;
+    if (!any) return;
+    out_.area += patch.area;
+    patch.firstElement = std::uint32_t(out_.patchElements.size());
+    patch.elementCount = std::uint32_t(elements.size());
+    out_.patchElements.insert(out_.patchElements.end(), elements.begin(), elements.end());
+    const Part spans = placeCorners(patch, cell, group, part);
+    placeNodes(patch, cell, elements, spans);
+    placeVertices(index, elements, spans);
     out_.patches.push_back(patch);
 }
 
 /// Indirect light is received at a patch's middle and, unless the patch is small, at its corners,
 /// which neighbouring patches share.
 void PatchAssembly::placeNodes(Patch& patch, const SheetCell& cell,
-                               const std::vector<std::uint32_t>& elements, glm::vec2 low,
-                               glm::vec2 high) {
+                               const std::vector<std::uint32_t>& elements, const Part& part) {
+    const glm::vec2 low = part.low, high = part.high;
     const glm::vec2 middle = 0.5f * (low + high);
     std::array<glm::vec2, 4> corner{low, glm::vec2(high.x, low.y), high, glm::vec2(low.x, high.y)};
     std::array<float, 4> nearest;

@@ -41,13 +41,13 @@ private:
         std::vector<glm::vec3> outline;
         std::uint32_t material = 0;
         ObjectId object;
+        bool present = false; ///< the surface has this side here
         bool whole = false;
         bool smooth = false; ///< of a subdivision surface
     };
     using CornerCoordinates = std::array<glm::vec2, 4>;
-    /// Elements of a cell that hang together, and the part of the cell that they span.
-    struct Group {
-        std::vector<std::uint32_t> elements;
+    /// A rectangle of a cell, in its coordinates from 0 to 1.
+    struct Part {
         glm::vec2 low{1}, high{0};
 
         void add(glm::vec2 st) {
@@ -55,9 +55,16 @@ private:
             high = glm::max(high, st);
         }
     };
+    /// Elements of a cell that hang together, and the part of the cell that they span.
+    struct Group {
+        std::vector<std::uint32_t> elements;
+        Part part;
+    };
 
     void addSheet(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object,
                   bool back);
+    void addElements(const Tessellation& tessellation, std::uint32_t firstCell, ObjectId object,
+                     bool back);
     void addRays(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object);
     std::uint32_t materialIndex(const Material& material, bool emits);
     void resolveFixedContacts(std::vector<std::uint8_t>& free);
@@ -67,9 +74,13 @@ private:
     void placeMovables();
     void makePatches(std::uint32_t cell, const std::vector<std::uint32_t>& elements);
     static void mergeOverlapping(std::vector<Group>& groups);
+    bool measure(Patch& patch, const std::vector<std::uint32_t>& elements) const;
+    Part placeCorners(Patch& patch, const SheetCell& cell, const Group& group, bool part);
+    void placeVertices(std::uint32_t index, const std::vector<std::uint32_t>& elements,
+                       const Part& part);
     void makePatch(const SheetCell& cell, const Group& group, bool part);
     void placeNodes(Patch& patch, const SheetCell& cell, const std::vector<std::uint32_t>& elements,
-                    glm::vec2 low, glm::vec2 high);
+                    const Part& part);
     std::uint32_t nodeOfVertex(std::uint32_t vertex);
 
     PatchSet& out_;

@@ -35,6 +35,9 @@ struct SurfaceMesh {
     std::span<const std::uint32_t> cornersOf(const SurfaceFace& face) const {
         return std::span(corners).subspan(face.firstCorner, face.cornerCount);
     }
+    const Material& materialOf(const SurfaceFace& face) const {
+        return *data->materialOf(face.source);
+    }
     /// Loop cages are taken as the polygons they are.
     bool subdivided() const {
         return data->scheme == SubdivisionScheme::catmullClark ||

@@ -109,51 +109,64 @@ EmitterSamples sampleEmitter(const Emitter& emitter, std::size_t count) {
     return samples;
 }
 
+namespace {
+
+/// Where sample i of 4 x 4 lies, quarter by quarter, in coordinates from 0 to 1.
+glm::vec2 stratum(std::size_t i) {
+    const std::size_t quarter = i / 4, within = i % 4;
+    const std::size_t column = quarter % 2 * 2 + within % 2, row = quarter / 2 * 2 + within / 2;
+    // Not in the very middle of its cell: people build with round numbers, and rays from there
+    // run along the faces of things, where rounding decides what is in the way.
+    const float aside = (column + row) % 2 == 0 ? 1.0f : -1.0f;
+    return {(float(column) + 0.5f + 0.0137f * aside) / 4,
+            (float(row) + 0.5f - 0.0211f * aside) / 4};
+}
+
+glm::vec3 pointOfOutline(std::span<const glm::vec3> corners, glm::vec3 centre, glm::vec2 st) {
+    if (corners.size() == 4)
+        return glm::mix(glm::mix(corners[0], corners[1], st.x),
+                        glm::mix(corners[3], corners[2], st.x), st.y);
+    // a fan of triangles around the middle, gone round once for the 16 samples
+    const std::size_t n = corners.size();
+    const float around = st.x * float(n);
+    const std::size_t k = std::min(std::size_t(around), n - 1);
+    const glm::vec3 edge = glm::mix(corners[k], corners[(k + 1) % n], around - float(k));
+    return glm::mix(centre, edge, std::sqrt(st.y));
+}
+
+/// A curved patch bulges over its outline: moves a point onto the plane of the nearest element.
+/// \return that element's normal
+glm::vec3 moveOntoNearest(const PatchSet& set, std::span<const std::uint32_t> elements,
+                          glm::vec3& point) {
+    float nearest = 1e30f;
+    glm::vec3 best = point, up(0);
+    for (std::uint32_t e : elements) {
+        const Element& element = set.elements[e];
+        const std::size_t count = element.isTriangle() ? 3 : 4;
+        glm::vec3 middle(0), normal(0);
+        for (std::size_t k = 0; k < count; ++k) {
+            middle += set.vertices[element.vertices[k]].position / float(count);
+            normal += set.vertices[element.vertices[k]].receiver.normal;
+        }
+        const glm::vec3 d = point - middle;
+        if (glm::dot(d, d) >= nearest) continue;
+        nearest = glm::dot(d, d);
+        up = glm::normalize(normal);
+        best = point - glm::dot(d, up) * up;
+    }
+    point = best;
+    return up;
+}
+
+} // namespace
+
 void samplePatch(const PatchSet& set, const Patch& patch, glm::vec3* points) {
     const auto corners = std::span(set.corners).subspan(patch.firstCorner, patch.cornerCount);
     const auto elements =
         std::span(set.patchElements).subspan(patch.firstElement, patch.elementCount);
     for (std::size_t i = 0; i < kPatchSamples; ++i) {
-        const std::size_t quarter = i / 4, within = i % 4;
-        const std::size_t column = quarter % 2 * 2 + within % 2, row = quarter / 2 * 2 + within / 2;
-        // Not in the very middle of its cell: people build with round numbers, and rays from there
-        // run along the faces of things, where rounding decides what is in the way.
-        const float aside = (column + row) % 2 == 0 ? 1.0f : -1.0f;
-        const glm::vec2 st((float(column) + 0.5f + 0.0137f * aside) / 4,
-                           (float(row) + 0.5f - 0.0211f * aside) / 4);
-        glm::vec3 p;
-        if (corners.size() == 4) {
-            p = glm::mix(glm::mix(corners[0], corners[1], st.x),
-                         glm::mix(corners[3], corners[2], st.x), st.y);
-        } else { // a fan of triangles around the middle, gone round once for the 16 samples
-            const std::size_t n = corners.size();
-            const float around = st.x * float(n);
-            const std::size_t k = std::min(std::size_t(around), n - 1);
-            const glm::vec3 edge = glm::mix(corners[k], corners[(k + 1) % n], around - float(k));
-            p = glm::mix(patch.centre, edge, std::sqrt(st.y));
-        }
-        glm::vec3 up = patch.normal;
-        // A curved patch bulges over its outline: take the nearest point that is on its surface.
-        if (elements.size() > 1) {
-            float nearest = 1e30f;
-            glm::vec3 best = p;
-            for (std::uint32_t e : elements) {
-                const Element& element = set.elements[e];
-                const std::size_t count = element.isTriangle() ? 3 : 4;
-                glm::vec3 middle(0), normal(0);
-                for (std::size_t k = 0; k < count; ++k) {
-                    middle += set.vertices[element.vertices[k]].position / float(count);
-                    normal += set.vertices[element.vertices[k]].receiver.normal;
-                }
-                const glm::vec3 d = p - middle;
-                if (glm::dot(d, d) >= nearest) continue;
-                nearest = glm::dot(d, d);
-                normal = glm::normalize(normal);
-                best = p - glm::dot(d, normal) * normal; // onto the element's plane
-                up = normal;
-            }
-            p = best;
-        }
+        glm::vec3 p = pointOfOutline(corners, patch.centre, stratum(i));
+        const glm::vec3 up = elements.size() > 1 ? moveOntoNearest(set, elements, p) : patch.normal;
         // A point that rounding puts behind the surface is hidden by it from all that lies near its
         // plane, as the foot of a wall far from the origin does.
         points[i] = p + roundingAt(magnitude(p)) * up;

@@ -38,6 +38,14 @@ std::uint64_t groupOf(std::size_t receiver) {
     return kAll << receiver / kAnewGroup * kAnewGroup;
 }
 
+/// Samples that point at where moved objects stand now.
+std::uint32_t lanesTowards(const SampleGroup& group, std::span<const MovedObject> moved) {
+    std::uint32_t met = 0;
+    for (const MovedObject& m : moved)
+        if (m.present) met |= lanesThatMeet(group.rays, group.rays.used, m.box);
+    return met;
+}
+
 float visibilityOf(const RowBlock::Draft& draft) {
     if (draft.blockerCount == 0) return 1;
     return draft.visible != 0 ? draft.visibility : 0.0f;
@@ -84,38 +92,48 @@ float ChangeProbe::changeOf(std::size_t r, const Answers& answers,
     return probe.now * visible - probe.before;
 }
 
+ChangeProbe::Recorded ChangeProbe::recordedIn(const RowBlock::Draft& draft,
+                                              std::span<const MovedObject> moved) const {
+    Recorded recorded;
+    for (int b = 0; b < draft.blockerCount; ++b) {
+        const Blocker& blocker = draft.blockers[std::size_t(b)];
+        (isAmong(moved, blocker.object) ? recorded.byMoved : recorded.byOthers) |= blocker.samples;
+    }
+    return recorded;
+}
+
+/// Whether moved objects may cover any of the samples after the first group.
+bool ChangeProbe::coversFurther(const EmitterSender& sender, const Receiver& receiver,
+                                const RowBlock::Draft& draft, const Recorded& recorded,
+                                std::span<const MovedObject> moved) const {
+    const int taken = EmitterRowBuilder::samplesTaken(sender, draft);
+    for (int first = 16; first < taken; first += 16) {
+        SampleGroup group;
+        sender.sampleGroup(receiver, first, group);
+        const auto blocked = std::uint32_t((recorded.byMoved | recorded.byOthers) >> first);
+        if ((lanesTowards(group, moved) & ~blocked) != 0) return true;
+    }
+    return false;
+}
+
 /// \return whether there is anything to be done
 bool ChangeProbe::probeStored(const EmitterSender& sender, const Receiver& receiver, std::size_t r,
                               std::span<const MovedObject> moved, float& rays) {
     const RowBlock::Draft& draft = drafts_[r];
     if (!(draft.formFactor > 0)) return false;
-    std::uint64_t byMoved = 0, byOthers = 0;
-    for (int b = 0; b < draft.blockerCount; ++b) {
-        const Blocker& blocker = draft.blockers[std::size_t(b)];
-        (isAmong(moved, blocker.object) ? byMoved : byOthers) |= blocker.samples;
-    }
+    const Recorded recorded = recordedIn(draft, moved);
     const bool crossed = (draft.blockerCount == 0 || draft.visible != 0) &&
                          mayStandBefore(moved, receiver, sender.box());
-    if (!crossed && byMoved == 0) return false;
+    if (!crossed && recorded.byMoved == 0) return false;
     SampleGroup group;
     sender.sampleGroup(receiver, 0, group);
-    const std::uint32_t used = group.rays.used, uncovered = used & std::uint32_t(byMoved);
-    const auto coveredIn = [&](const SampleGroup& samples, int first) {
-        std::uint32_t met = 0;
-        for (const MovedObject& m : moved)
-            if (m.present) met |= lanesThatMeet(samples.rays, samples.rays.used, m.box);
-        return met & ~std::uint32_t((byMoved | byOthers) >> first);
-    };
-    const std::uint32_t covered = coveredIn(group, 0);
-    bool concerned = byMoved != 0 || covered != 0;
-    const int taken = EmitterRowBuilder::samplesTaken(sender, draft);
-    for (int first = 16; !concerned && first < taken; first += 16) {
-        SampleGroup further;
-        sender.sampleGroup(receiver, first, further);
-        concerned = coveredIn(further, first) != 0;
-    }
-    if (!concerned) return false;
-    const float total = weightOf(group, used);
+    const std::uint32_t uncovered = group.rays.used & std::uint32_t(recorded.byMoved);
+    const std::uint32_t covered =
+        lanesTowards(group, moved) & ~std::uint32_t(recorded.byMoved | recorded.byOthers);
+    if (recorded.byMoved == 0 && covered == 0 &&
+        !coversFurther(sender, receiver, draft, recorded, moved))
+        return false;
+    const float total = weightOf(group, group.rays.used);
     Probe& probe = probes_[r];
     const float visible = visibilityOf(draft);
     probe = {draft.formFactor * visible, draft.formFactor, visible, 0, 0};

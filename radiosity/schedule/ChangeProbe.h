@@ -75,6 +75,14 @@ private:
         std::array<std::size_t, ShadowRays::kMost> receivers; ///< and of which receiver
         int count = 0;
     };
+    /// What is on record of an entry: samples that moved objects block, and that others do.
+    struct Recorded {
+        std::uint64_t byMoved = 0, byOthers = 0;
+    };
+    Recorded recordedIn(const RowBlock::Draft& draft, std::span<const MovedObject> moved) const;
+    bool coversFurther(const EmitterSender& sender, const Receiver& receiver,
+                       const RowBlock::Draft& draft, const Recorded& recorded,
+                       std::span<const MovedObject> moved) const;
     bool probeStored(const EmitterSender& sender, const Receiver& receiver, std::size_t r,
                      std::span<const MovedObject> moved, float& rays);
     bool probeAnew(const EmitterSender& sender, const ReceiverBlock& receivers, std::size_t r,

@@ -164,6 +164,32 @@ void IndirectLight::describeReceivers() {
     described_ = true;
 }
 
+/// Brings a block up to date. What of it had arrived is taken back, what is right added: in
+/// `delta`, node by node. \return the number of entries that are not what they were
+int IndirectLight::updateBlock(PatchRowBuilder& builder, const DirtyBlock& item,
+                               std::span<const MovedObject> moved, BlockDelta& delta) {
+    RowBlock& block = table_[item.row][item.block];
+    const Arrived arrived = arrivedAt(item.row, item.block);
+    std::array<NodeDelta, kBlock> nodes{};
+    forEachReceived(block, arrived.light, [&](int r, float factor, glm::dvec3 light) {
+        nodes[std::size_t(r)] = {0, -double(factor), -light};
+    });
+    const int changed = builder.update(senders_.sender(item.row), receiversOf(item.row, item.block),
+                                       item.anew, moved, block);
+    if (changed == 0) return 0;
+    forEachReceived(block, arrived.light, [&](int r, float factor, glm::dvec3 light) {
+        nodes[std::size_t(r)].factor += double(factor);
+        nodes[std::size_t(r)].light += light;
+    });
+    delta.known = arrived.known;
+    for (std::uint32_t r = 0; r < kBlock; ++r) {
+        nodes[r].node = item.block * kBlock + r;
+        if (nodes[r].factor != 0 || nodes[r].light != glm::dvec3(0))
+            delta.nodes.push_back(nodes[r]);
+    }
+    return changed;
+}
+
 bool IndirectLight::update(std::size_t effort, double enough) {
     if (reachStale_) {
         updateReach();
@@ -171,41 +197,13 @@ bool IndirectLight::update(std::size_t effort, double enough) {
     }
     if (!described_) describeReceivers();
     if (updates_.done(enough)) return false;
-    struct Delta {
-        std::uint32_t node;
-        double factor = 0;
-        glm::dvec3 light{};
-    };
-    struct Deltas {
-        std::vector<Delta> nodes;
-        bool known = false; ///< row sums know of the sender
-    };
-    std::vector<Deltas> deltas(updates_.mostItems(effort));
-    const auto update = [&](RowBuilder& builder, const DirtyBlock& item,
-                            std::span<const MovedObject> moved, std::size_t index) {
-        RowBlock& block = table_[item.row][item.block];
-        const Arrived arrived = arrivedAt(item.row, item.block);
-        deltas[index].known = arrived.known;
-        Delta delta[kBlock];
-        forEachReceived(block, arrived.light, [&](int r, float factor, glm::dvec3 light) {
-            delta[r] = {0, -double(factor), -light};
+    std::vector<BlockDelta> deltas(updates_.mostItems(effort));
+    const auto items = updates_.work(
+        effort, enough, [&](std::uint32_t s) { return factsOf(s); },
+        [&](RowBuilder& builder, const DirtyBlock& item, std::span<const MovedObject> moved,
+            std::size_t index) {
+            return updateBlock(builder.patches, item, moved, deltas[index]);
         });
-        const int changed = builder.patches.update(
-            senders_.sender(item.row), receiversOf(item.row, item.block), item.anew, moved, block);
-        if (changed == 0) return 0;
-        forEachReceived(block, arrived.light, [&](int r, float factor, glm::dvec3 light) {
-            delta[r].factor += double(factor);
-            delta[r].light += light;
-        });
-        for (std::uint32_t r = 0; r < kBlock; ++r) {
-            delta[r].node = item.block * kBlock + r;
-            if (delta[r].factor != 0 || delta[r].light != glm::dvec3(0))
-                deltas[index].nodes.push_back(delta[r]);
-        }
-        return changed;
-    };
-    const auto facts = [&](std::uint32_t s) { return factsOf(s); };
-    const auto items = updates_.work(effort, enough, facts, update);
     for (std::size_t i = 0; i < items.size(); ++i)
         for (const auto& [n, factor, light] : deltas[i].nodes) {
             nodes_[n] += light;

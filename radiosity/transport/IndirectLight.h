@@ -100,6 +100,18 @@ private:
         SenderLight light;
         bool known = false;
     };
+    /// What an update changes at a node, and at the nodes of a block.
+    struct NodeDelta {
+        std::uint32_t node = 0;
+        double factor = 0;
+        glm::dvec3 light{}; ///< [lux]
+    };
+    struct BlockDelta {
+        std::vector<NodeDelta> nodes;
+        bool known = false; ///< row sums know of the sender
+    };
+    int updateBlock(PatchRowBuilder& builder, const DirtyBlock& item,
+                    std::span<const MovedObject> moved, BlockDelta& delta);
     Arrived arrivedAt(std::uint32_t row, std::uint32_t block) const;
     RowUpdates::RowFacts factsOf(std::uint32_t sender) const;
     std::size_t blockCount() const { return set_.nodes.size() / PatchSet::kBlock; }

@@ -167,12 +167,22 @@ bool Solver::workOnce(Pace& pace, const Progress& progress) {
         return true;
     }
     if (!indirect_) return false;
-    if (!handedOver_) {
-        const bool litChanged = direct_.takeLitChanged();
-        indirect_->directChanged(litChanged);
-        if (litChanged) completed_ = false; // light may reach more patches
-        handedOver_ = true;
-    }
+    handOver();
+    const bool more = workOnIndirect(pace, progress);
+    indirectSeconds_ += steadySeconds() - start;
+    return more;
+}
+
+/// Tells the indirect light that direct light is another one.
+void Solver::handOver() {
+    if (std::exchange(handedOver_, true)) return;
+    const bool litChanged = direct_.takeLitChanged();
+    indirect_->directChanged(litChanged);
+    if (litChanged) completed_ = false; // light may reach more patches
+}
+
+/// Rows that an edit changed, then rows that are missing, then shots.
+bool Solver::workOnIndirect(Pace& pace, const Progress& progress) {
     bool more = pace.work(Pace::rows, [&](std::size_t effort) {
         return indirect_->update(effort, mayStayDirty(kIndirectMayStayDirty));
     });
@@ -190,15 +200,17 @@ bool Solver::workOnce(Pace& pace, const Progress& progress) {
     if (!more && (!done || indirect_->relaxing() || indirect_->residualsStale())) {
         more = pace.work(Pace::relaxation,
                          [&](std::size_t effort) { return indirect_->relax(effort, target()); });
-        const double now = indirect_->certificate();
-        firstCertificate_ = std::max(firstCertificate_, now);
-        if (progress && now > 0) {
-            const double span = std::log(firstCertificate_ / std::max(target(), 1e-30));
-            progress("indirect light", span > 0 ? std::log(firstCertificate_ / now) / span : 1.0);
-        }
+        reportRelaxation(progress);
     }
-    indirectSeconds_ += steadySeconds() - start;
     return more;
+}
+
+void Solver::reportRelaxation(const Progress& progress) {
+    const double now = indirect_->certificate();
+    firstCertificate_ = std::max(firstCertificate_, now);
+    if (!progress || !(now > 0)) return;
+    const double span = std::log(firstCertificate_ / std::max(target(), 1e-30));
+    progress("indirect light", span > 0 ? std::log(firstCertificate_ / now) / span : 1.0);
 }
 
 bool Solver::workOnDetail(Pace& pace, const Progress& progress) {

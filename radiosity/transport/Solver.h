@@ -190,6 +190,9 @@ public:
 private:
     void begin();
     bool work(Pace& pace, const Progress& progress);
+    void handOver();
+    bool workOnIndirect(Pace& pace, const Progress& progress);
+    void reportRelaxation(const Progress& progress);
     bool workOnce(Pace& pace, const Progress& progress);
     SolutionState reached(bool open) const;
     double tolerance(double share) const;

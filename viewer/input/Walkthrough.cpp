@@ -203,28 +203,40 @@ void Walkthrough::switchLights() {
 }
 
 void Walkthrough::perform(const Command& command) {
-    constexpr double kStop = 1.0 / 3;
-    constexpr double kTurnStep = 15 * std::numbers::pi / 180;
+    if (!performOnCamera(command)) performOnScene(command);
+}
+
+/// \return whether the command is about the camera
+bool Walkthrough::performOnCamera(const Command& command) {
     switch (command.action) {
     case Action::nextMode:
         rig_.setMode(CameraMode((int(rig_.mode()) + 1) % int(std::size(kCameraModeNames))));
-        break;
+        return true;
     case Action::gravity:
         rig_.options.gravity = !rig_.options.gravity;
-        break;
+        return true;
     case Action::collision:
         rig_.options.collision = !rig_.options.collision;
-        break;
+        return true;
     case Action::bookmark:
         if (std::size_t(command.number) <= bookmarks_.size())
             rig_.flyTo(bookmarks_[std::size_t(command.number) - 1]);
-        break;
+        return true;
     case Action::home:
         rig_.frame(placed_.bounds);
-        break;
+        return true;
     case Action::frame:
         if (selection_) rig_.frame(rays_->bounds(selection_->object));
-        break;
+        return true;
+    default:
+        return false;
+    }
+}
+
+void Walkthrough::performOnScene(const Command& command) {
+    constexpr double kStop = 1.0 / 3;
+    constexpr double kTurnStep = 15 * std::numbers::pi / 180;
+    switch (command.action) {
     case Action::cancel:
         if (held_)
             letGo(false);

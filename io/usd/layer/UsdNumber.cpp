@@ -17,11 +17,11 @@ bool isDigit(char c) {
 
 // The digits of a number while they are read.
 struct Digits {
-    std::uint64_t mantissa = 0;   // the first kMaxDigits significant ones
-    int count = 0;                // how many those are
-    bool truncated = false;       // there were more
-    std::int64_t order = 0;       // decimal exponent of the last digit in mantissa
-    std::int64_t firstOrder = 0;  // that of the first one: whether the number is huge or tiny
+    std::uint64_t mantissa = 0;  // the first kMaxDigits significant ones
+    int count = 0;               // how many those are
+    bool truncated = false;      // there were more
+    std::int64_t order = 0;      // decimal exponent of the last digit in mantissa
+    std::int64_t firstOrder = 0; // that of the first one: whether the number is huge or tiny
 
     static constexpr int kMaxDigits = 19; // 10^19 - 1 fits 64 bits
 
@@ -75,45 +75,52 @@ void setExactInteger(const char* begin, const char* end, UsdNumber& number) {
     number.integral = std::from_chars(begin, end, number.magnitude).ec == std::errc{};
 }
 
+/// The value of [begin, end), of which the digits are known.
+double valueOf(const Digits& digits, std::int64_t exponent, const char* begin, const char* end) {
+    const std::int64_t power = digits.order + exponent;
+    const bool exact =
+        !digits.truncated && digits.mantissa <= (1ull << 53) && power >= -22 && power <= 22;
+    if (!exact) return slowValue(begin, end, digits.firstOrder + exponent > 0);
+    const double mantissa = double(digits.mantissa);
+    return power < 0 ? mantissa / kPowers[std::size_t(-power)]
+                     : mantissa * kPowers[std::size_t(power)];
+}
+
+/// The digits before and after the point; null for a lone point. \param p their first character
+const char* scanDigits(const char* p, Digits& digits, bool& plain) {
+    const char* const begin = p;
+    for (; isDigit(*p); ++p) {
+        digits.add(*p);
+        if (digits.mantissa != 0) ++digits.firstOrder;
+    }
+    plain = *p != '.';
+    if (plain) return p;
+    for (++p; isDigit(*p); ++p) {
+        digits.add(*p);
+        if (!digits.truncated) --digits.order;
+        if (digits.mantissa == 0) --digits.firstOrder;
+    }
+    return p == begin + 1 ? nullptr : p;
+}
+
 } // namespace
 
 const char* scanUsdNumber(const char* text, UsdNumber& number) {
     number = {};
     number.negative = *text == '-';
-    const char* begin = text + (number.negative ? 1 : 0);
-    const char* p = begin;
+    const char* const begin = text + (number.negative ? 1 : 0);
     Digits digits;
-    for (; isDigit(*p); ++p) {
-        digits.add(*p);
-        if (digits.mantissa != 0) ++digits.firstOrder;
-    }
-    const char* integerEnd = p;
-    if (*p == '.') {
-        for (++p; isDigit(*p); ++p) {
-            digits.add(*p);
-            if (!digits.truncated) --digits.order;
-            if (digits.mantissa == 0) --digits.firstOrder;
-        }
-        if (p == begin + 1) return nullptr; // a lone dot
-    } else if (p == begin) {
-        return scanWord(p, number);
-    }
+    bool plain = true;
+    const char* p = scanDigits(begin, digits, plain);
+    if (!p) return nullptr;
+    if (p == begin) return scanWord(p, number);
     std::int64_t exponent = 0;
-    const bool plain = p == integerEnd && *p != 'e' && *p != 'E';
     if (*p == 'e' || *p == 'E') {
+        plain = false;
         p = scanExponent(p + 1, exponent);
         if (!p) return nullptr;
     }
-    const std::int64_t power = digits.order + exponent;
-    const bool exact =
-        !digits.truncated && digits.mantissa <= (1ull << 53) && power >= -22 && power <= 22;
-    if (exact) {
-        const double mantissa = double(digits.mantissa);
-        number.value = power < 0 ? mantissa / kPowers[std::size_t(-power)]
-                                 : mantissa * kPowers[std::size_t(power)];
-    } else {
-        number.value = slowValue(begin, p, digits.firstOrder + exponent > 0);
-    }
+    number.value = valueOf(digits, exponent, begin, p);
     if (plain && !digits.truncated) {
         number.integral = true;
         number.magnitude = digits.mantissa;
