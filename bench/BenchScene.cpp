@@ -30,9 +30,9 @@ LoadedScene loadScene(const std::string& name) {
     return loadUsdScene(std::filesystem::path(PENUMBRA_SOURCE_DIR) / "scenes" / (name + ".usda"));
 }
 
-MeshingOptions meshingOf(const Scene& scene, float elementSize) {
+MeshingOptions meshingOf(const LightRequest& asked, float elementSize) {
     MeshingOptions options;
-    options.patchSize = float(scene.patchSize);
+    options.patchSize = float(asked.patchSize.value_or(0));
     options.elementSize = elementSize;
     return options;
 }
@@ -41,7 +41,7 @@ BenchScene::BenchScene(const std::string& name)
     : loaded_(loadScene(name)), placed_(placeScene(*loaded_.scene)) {}
 
 BuiltPatches BenchScene::mesh(float elementSize, float patchSize) const {
-    MeshingOptions meshing = meshingOf(*loaded_.scene, elementSize);
+    MeshingOptions meshing = meshingOf(loaded_.asked, elementSize);
     if (patchSize > 0) meshing.patchSize = patchSize;
     return buildPatches(placed_, meshing);
 }

@@ -15,7 +15,7 @@ LoadedScene loadScene(const std::string& name);
 
 /// \param elementSize longest edge of an element [m]; 0: the default. The patch size is always what
 ///                    the file asks for, or the default.
-MeshingOptions meshingOf(const Scene& scene, float elementSize);
+MeshingOptions meshingOf(const LightRequest& asked, float elementSize);
 
 /// One of scenes/*.usda, read but not yet meshed.
 class BenchScene {

@@ -27,8 +27,7 @@ void detail(benchmark::State& state, const Move& move) {
     for (auto _ : state) {
         MovedScene scene(move);
         scene.put(Pose::there);
-        LitScene lit(scene.placed(), {.patchSize = float(scene.scene().patchSize)},
-                     {.directOnly = true});
+        LitScene lit(scene.placed(), meshingOf(scene.asked(), 0), {.directOnly = true});
         auto& counters = state.counters;
         DetailHits hits(lit.patches());
         counters["scratch_s"] = trace(hits);

@@ -26,7 +26,7 @@ constexpr Case kCases[] = {
     {"gallery", "10k", 0.568f}, {"gallery", "100k", 0.205f},  {"gallery", "1M", 0.0475f},
 };
 /// Short cases are repeated for about this long and their best time is taken [s].
-constexpr double kAging = 2;
+constexpr double kLongest = 2;
 constexpr int kMostRounds = 20;
 
 /// Best times of the solver and of its rays alone, taken in turns.
@@ -122,7 +122,7 @@ void direct(benchmark::State& state, const Case& which) {
             const BareTracing::Seconds traced = bare->measure();
             if (traced.rays != sizes.rays) return state.SkipWithError("not the solver's rays");
             best.traced(traced);
-        } while (all.wall() < kAging && best.rounds < kMostRounds);
+        } while (all.wall() < kLongest && best.rounds < kMostRounds);
         state.SetIterationTime(best.direct);
         report(state, built.patches, best, sizes);
     }

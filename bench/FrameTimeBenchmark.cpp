@@ -78,7 +78,7 @@ class Walk {
 public:
     explicit Walk(const Move& move) : scene_(move) {
         RadiosityOptions options;
-        options.meshing = meshingOf(scene_.scene(), 0);
+        options.meshing = meshingOf(scene_.asked(), 0);
         options.trigger = Trigger::continuous;
         options.threads = 1;
         options.niceness = 0;

@@ -36,7 +36,7 @@ class AloneMove : public LitMove {
 public:
     AloneMove(const Move& move, float elementSize) : scene_(move) {
         scene_.put(Pose::home);
-        lit_ = std::make_unique<LitScene>(scene_.placed(), meshingOf(scene_.scene(), elementSize),
+        lit_ = std::make_unique<LitScene>(scene_.placed(), meshingOf(scene_.asked(), elementSize),
                                           SolverOptions());
         lit_->solver().settle();
         lit_->solver().takeSummedBlocks();
@@ -70,7 +70,7 @@ public:
         : scene_(move) {
         scene_.put(Pose::home);
         RadiosityOptions options;
-        options.meshing = meshingOf(scene_.scene(), elementSize);
+        options.meshing = meshingOf(scene_.asked(), elementSize);
         options.trigger = Trigger::continuous;
         options.threads = 1;
         options.niceness = 0;

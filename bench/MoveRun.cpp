@@ -13,7 +13,7 @@ MoveRun::MoveRun(const Move& move, const MeshingOptions& meshing, const SolverOp
     scene_.put(Pose::there);
     const PlacedScene placed = scene_.placed();
     MeshingOptions sizes = meshing;
-    if (sizes.patchSize == 0) sizes.patchSize = float(scene_.scene().patchSize);
+    if (sizes.patchSize == 0) sizes.patchSize = meshingOf(scene_.asked(), 0).patchSize;
     const Stopwatch building;
     lit_ = std::make_unique<LitScene>(placed, sizes, options);
     meshing_ = building.wall();

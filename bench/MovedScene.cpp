@@ -37,6 +37,7 @@ glm::dvec3 offsetOf(int copy, const Bounds& one) {
 MovedScene::MovedScene(const Move& move, int copies) {
     const LoadedScene loaded = loadScene(move.layer);
     scene_ = loaded.scene;
+    asked_ = loaded.asked;
     object_ = findTransform(*scene_, move.object);
     const auto setTime = [&](double time) {
         if (loaded.animation) loaded.animation->setTime(time);

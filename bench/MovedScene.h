@@ -1,6 +1,7 @@
 // A scene in which one object is moved there and back.
 #pragma once
 
+#include "base/LightRequest.h"
 #include "scenegraph/Objects.h"
 #include "scenegraph/Scene.h"
 #include "scenegraph/Transform.h"
@@ -49,10 +50,12 @@ public:
     }
 
     const Scene& scene() const { return *scene_; }
+    const LightRequest& asked() const { return asked_; } ///< by the file
     PlacedScene placed() const { return placeScene(*scene_); }
 
 private:
     std::shared_ptr<Scene> scene_;
+    LightRequest asked_;
     std::shared_ptr<Transform> object_;
     std::array<glm::dmat4, 2> poses_;
 };

@@ -35,7 +35,7 @@ class Run {
 public:
     Run(const Move& move, float elementSize, Policy policy)
         : scene_(move), policy_(policy),
-          lit_(scene_.placed(), meshingOf(scene_.scene(), elementSize), {.directOnly = true}) {
+          lit_(scene_.placed(), meshingOf(scene_.asked(), elementSize), {.directOnly = true}) {
         if (policy == plain) lit_.solver().setPolicy(PolicyKind::plain);
         lit_.solver().settle();
     }

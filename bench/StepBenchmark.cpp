@@ -33,7 +33,7 @@ void steps(benchmark::State& state, const std::string& layer, float elementSize,
     for (auto _ : state) {
         const LoadedScene loaded = loadScene(layer);
         const Scene& scene = *loaded.scene;
-        LitScene lit(placeScene(scene), meshingOf(scene, elementSize), options);
+        LitScene lit(placeScene(scene), meshingOf(loaded.asked, elementSize), options);
         lit.solver().settle();
         std::vector<double> over, first, busy; // [s]; busy: of the calling thread
         const double stride = (scene.endTimeCode - scene.startTimeCode) / kEdits;

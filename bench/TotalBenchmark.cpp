@@ -119,7 +119,7 @@ void play(benchmark::State& state, const std::string& layer, bool directOnly) {
     for (auto _ : state) {
         const LoadedScene loaded = loadScene(layer);
         const Scene& scene = *loaded.scene;
-        LitScene lit(placeScene(scene), meshingOf(scene, 0), options);
+        LitScene lit(placeScene(scene), meshingOf(loaded.asked, 0), options);
         const Stopwatch solving;
         lit.solver().settle();
         state.counters["scratch_s"] = solving.wall();

@@ -51,7 +51,7 @@ class Drag {
 public:
     /// \param turn of the viewer away from the scene's first camera [degrees]
     Drag(const Move& move, float elementSize, double turn)
-        : scene_(move), lit_(scene_.placed(), meshingOf(scene_.scene(), elementSize), {}) {
+        : scene_(move), lit_(scene_.placed(), meshingOf(scene_.asked(), elementSize), {}) {
         const PlacedScene placed = scene_.placed();
         const Placed<Camera>& camera = placed.cameras.front();
         glm::dvec3 up(0);

@@ -40,15 +40,14 @@ OraclePolicy::OraclePolicy(const PatchSet& patches, std::span<const Row> now,
 
 WorkQueue::Task OraclePolicy::rank(const CandidateBlock& work) const {
     std::array<float, PatchSet::kBlock> gain;
-    gains(work, {}, gain);
+    trueGains(work, gain);
     WorkQueue::Task task;
     task.priority.change = std::accumulate(gain.begin(), gain.end(), 0.0f);
     task.priority.cost = float(work.cost);
     return task;
 }
 
-void OraclePolicy::gains(const CandidateBlock& work, std::span<const float>,
-                         std::span<float> gains) const {
+void OraclePolicy::trueGains(const CandidateBlock& work, std::span<float> gains) const {
     const std::size_t first = std::size_t(work.block) * PatchSet::kBlock;
     const std::vector<float>& settled = settled_[work.row];
     std::array<float, PatchSet::kBlock> change{}; // of F V
@@ -64,7 +63,7 @@ void OraclePolicy::gains(const CandidateBlock& work, std::span<const float>,
     }
 }
 
-ClusterPriority OraclePolicy::value(std::uint32_t) const {
+ClusterPriority OraclePolicy::value(std::uint32_t) {
     return {1e-9, 1e9, false}; // the gain as it is
 }
 

@@ -32,11 +32,15 @@ public:
 
     WorkQueue::Task rank(const CandidateBlock& work) const override;
     bool probes() const override { return true; } // for what work costs
-    void gains(const CandidateBlock& work, std::span<const float> change,
-               std::span<float> gains) const override;
-    ClusterPriority value(std::uint32_t cluster) const override;
+    void gains(const CandidateBlock& work, std::span<const float>,
+               std::span<float> gains) override {
+        trueGains(work, gains);
+    }
+    ClusterPriority value(std::uint32_t cluster) override;
 
 private:
+    void trueGains(const CandidateBlock& work, std::span<float> gains) const;
+
     const PatchSet& patches_;
     std::span<const Row> now_;
     const VertexFactors& settled_;

@@ -24,7 +24,7 @@ int main(int argc, char** argv) try {
     board.materials = {std::make_shared<Material>("wood")};
     shelf->add(std::make_shared<Mesh>("board", std::move(board)));
 
-    RadiosityOptions options = optionsOf(*loaded.scene); // what the file says of its light
+    RadiosityOptions options = optionsFor(loaded.asked); // what the file says of its light
     options.trigger = Trigger::continuous;
     RadiosityNode lit("lit", options, makeProcessLink());
     lit.add(loaded.scene->root); // whatever stands below the node is lit

@@ -4,17 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cassert>
-#include <limits>
 #include <numbers>
 
 namespace penumbra {
 
 namespace {
-
-/// Changes count as they are, not by how well they are seen.
-constexpr ClusterPriority kLinear{1e-9, 1e9, false};
 
 WorkQueue::Task taskFor(std::uint32_t cluster, double change, double cost) {
     WorkQueue::Task task;
@@ -35,38 +30,25 @@ std::uint32_t mixed(std::uint64_t x) {
 } // namespace
 
 void SchedulingPolicy::gains(const CandidateBlock&, std::span<const float> change,
-                             std::span<float> gains) const {
+                             std::span<float> gains) {
     std::copy(change.begin(), change.end(), gains.begin());
 }
 
-WorkQueue::Task PlainPolicy::rank(const CandidateBlock& work) const {
-    return taskFor(work.row, 1, 1);
-}
-ClusterPriority PlainPolicy::value(std::uint32_t cluster) const {
-    return {double(std::numeric_limits<std::uint32_t>::max() - cluster), 1, true};
+WorkQueue::Task FixedPolicy::rank(const CandidateBlock& work) const {
+    return taskFor(0, priority(work), 1);
 }
 
-WorkQueue::Task BoundPolicy::rank(const CandidateBlock& work) const {
-    // Worths of about the same size make a place, so that few tasks need be sorted at a time:
-    // exponent and first two bits of the fraction.
-    const auto priority = float(work.bound / work.cost);
-    return taskFor(std::bit_cast<std::uint32_t>(priority) >> 21, work.bound, work.cost);
-}
-ClusterPriority BoundPolicy::value(std::uint32_t) const {
-    return kLinear;
+ClusterPriority FixedPolicy::value(std::uint32_t) {
+    return {1e-9, 1e9, false}; // the priority as it is, not by how well it is seen
 }
 
-WorkQueue::Task RandomPolicy::rank(const CandidateBlock& work) const {
+double RandomPolicy::priority(const CandidateBlock& work) const {
     const std::uint64_t key = std::uint64_t(work.row) << 32 | work.block;
-    const std::uint32_t lot = mixed(key ^ std::uint64_t(seed_) << 16) >> 8;
-    return taskFor(lot >> 16, double(lot), 1); // places as of BoundPolicy
-}
-ClusterPriority RandomPolicy::value(std::uint32_t) const {
-    return kLinear;
+    return double(mixed(key ^ std::uint64_t(seed_) << 16) >> 8);
 }
 
 WorkQueue::Task ImportancePolicy::rank(const CandidateBlock& work) const {
-    // What has no place of its own belongs to several: all of that counts as one more.
+    // What has no cluster of its own belongs to several: all of that counts as one more.
     const bool known =
         work.block < clusterOf_.size() && clusterOf_[work.block] != ReceiverClusters::kNowhere;
     const auto none = std::uint32_t(clusterOf_.size());
@@ -74,20 +56,20 @@ WorkQueue::Task ImportancePolicy::rank(const CandidateBlock& work) const {
                    work.cost);
 }
 void ImportancePolicy::gains(const CandidateBlock& work, std::span<const float> change,
-                             std::span<float> gains) const {
+                             std::span<float> gains) {
     std::array<ClusterPriority, 64> values;
     assert(change.size() <= values.size());
     std::uint64_t which = 0;
     for (std::size_t r = 0; r < change.size(); ++r) which |= std::uint64_t(change[r] > 0) << r;
-    closeProbe_(work.block, which, values);
+    sampleClosely(work.block, which, values);
     for (std::size_t r = 0; r < change.size(); ++r)
         gains[r] = float(priorityOf(values[r], double(change[r]) * std::numbers::inv_pi, 1));
 }
-ClusterPriority ImportancePolicy::value(std::uint32_t cluster) const {
+ClusterPriority ImportancePolicy::value(std::uint32_t cluster) {
     if (!attention_) return {1e-12, 1, false};
     if (cluster >= clusterOf_.size()) return averageValue();
-    const ViewSample sample = probe_(cluster);
-    return clusterPriority(sample.cluster, *attention_, sample.seen);
+    const ViewSample known = sample(cluster);
+    return clusterPriority(known.cluster, *attention_, known.seen);
 }
 
 /// Of a place in the picture, if a quarter of all is.

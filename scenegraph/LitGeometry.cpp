@@ -29,8 +29,7 @@ void LitGeometry::setIlluminance(std::vector<Rgb> direct, std::vector<Rgb> indir
     assert(direct.size() == data_.positions.size() && indirect.size() == data_.positions.size());
     data_.direct = std::move(direct);
     data_.indirect = std::move(indirect);
-    for (std::uint64_t& revision : blockRevisions_) ++revision;
-    touch();
+    touchBlocks();
 }
 
 void LitGeometry::setBlock(std::size_t block, const std::function<void(LitMeshData&)>& edit) {
@@ -50,11 +49,7 @@ void LitGeometry::setTopology(const std::function<void(LitMeshData&)>& edit) {
     touch();
 }
 
-void LitGeometry::setLights(std::size_t count) {
-    const LightShare unknown{std::vector<float>(data_.positions.size()),
-                             std::vector<LightShare::Known>(blocksOf(data_), LightShare::Known::no),
-                             std::vector<Rgb>(blocksOf(data_))};
-    data_.lights.assign(count, unknown);
+void LitGeometry::touchBlocks() {
     for (std::uint64_t& revision : blockRevisions_) ++revision;
     touch();
 }

@@ -22,21 +22,6 @@ struct LitMaterial {
     friend bool operator==(const LitMaterial&, const LitMaterial&) = default;
 };
 
-/// What has to do with one lamp alone, for those who exchange its light for a faster estimate.
-struct LightShare {
-    enum class Known : std::uint8_t {
-        no,    ///< the factors of this block have not come yet
-        stale, ///< an edit may still change some of them, or what other lamps give there
-        exact  ///< both are those of the scene (but see RadiosityState::dirtyMarked)
-    };
-    /// Illuminance by this lamp over its exitance pi L: F V, no unit; as long as positions.
-    std::vector<float> factor;
-    std::vector<Known> known; ///< one a block, see LitGeometry::kBlock
-    /// One a block [lm/m^2]: factor * exitance is what `direct` has of this lamp, however bright it
-    /// may be by now.
-    std::vector<Rgb> exitance;
-};
-
 /// Flat arrays of lit triangles, one-sided: front is counter-clockwise. The luminance of a point is
 /// rho / pi * (direct + indirect) + emission.
 struct LitMeshData {
@@ -50,7 +35,6 @@ struct LitMeshData {
     /// Which patch a triangle is part of: any number, the same for those of one patch. As long as
     /// triangleMaterial; empty: nobody knows.
     std::vector<std::uint32_t> trianglePatch = {};
-    std::vector<LightShare> lights = {}; ///< of the live lamps, if there are any
 };
 
 /// The lit surface of one object. Its light comes in blocks of kBlock consecutive vertices: one
@@ -78,13 +62,15 @@ public:
     void setBlock(std::size_t block, const std::function<void(LitMeshData&)>& edit);
     /// Replaces what triangles are made of; positions may only be added at the end.
     void setTopology(const std::function<void(LitMeshData&)>& edit);
-    /// From now on there are so many live lamps; nothing is known of them.
-    void setLights(std::size_t count);
     void setMaterials(std::vector<LitMaterial> materials);
 
     std::uint64_t topologyRevision() const { return topologyRevision_; }
     /// One a block of vertices, 1 at first.
     const std::vector<std::uint64_t>& blockRevisions() const { return blockRevisions_; }
+
+protected:
+    /// All blocks are to be read anew.
+    void touchBlocks();
 
 private:
     ObjectId object_;

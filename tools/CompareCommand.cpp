@@ -9,7 +9,6 @@
 #include "tools/Machine.h"
 #include "tools/OutputFiles.h"
 #include "tools/SceneSolution.h"
-#include "viewer/input/StartSizes.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -66,10 +65,9 @@ Playback playbackOf(const CompareCommand& command, LoadedScene& loaded) {
 ComparisonOptions optionsOf(const CompareCommand& command, const LoadedScene& loaded) {
     ComparisonOptions options;
     const FrameRange range = frameRange(command.solve.frames);
-    options.meshing =
-        startSizes(command.solve.scene, loaded, double(range.first), command.solve.meshing);
-    options.solving = command.solve.solver;
-    if (options.solving.residual == 0) options.solving.residual = loaded.scene->residual;
+    const RadiosityOptions resolved = resolvedOptions(command.solve, loaded, double(range.first));
+    options.meshing = resolved.meshing;
+    options.solving = resolved.solving;
     options.width = command.width;
     options.height = command.height;
     options.growth = command.growth;
@@ -116,9 +114,8 @@ std::string viewerMotion(const CompareCommand& command) {
     return "stays";
 }
 
-/// \param metres 0: nothing
-std::string askedFor(float metres) {
-    return metres > 0 ? fmt::format("edges of {} m asked for", metres) : "no size asked for";
+std::string askedFor(std::optional<double> metres) {
+    return metres ? fmt::format("edges of {} m asked for", *metres) : "no size asked for";
 }
 
 ReportOptions reportOptions(const CompareCommand& command, const ComparisonResult& result) {
@@ -137,13 +134,13 @@ ReportOptions reportOptions(const CompareCommand& command, const ComparisonResul
         {"pictures", fmt::format("{} x {} pixels, {:.1f} pixels per degree", command.width,
                                  command.height, result.pixelsPerDegree)},
         {"elements",
-         fmt::format("{}, {}", result.elements, askedFor(command.solve.meshing.elementSize))},
-        {"patches",
-         fmt::format("{}, {}", result.patches, askedFor(command.solve.meshing.patchSize))},
+         fmt::format("{}, {}", result.elements, askedFor(command.solve.asked.elementSize))},
+        {"patches", fmt::format("{}, {}", result.patches, askedFor(command.solve.asked.patchSize))},
         {"lamps", std::to_string(result.lights)},
         {"light", solver.directOnly ? "direct only" : "direct and indirect"},
         {"visibility samples", std::to_string(solver.samples)},
-        {"residual", solver.residual > 0 ? fmt::format("{}", solver.residual) : "default"},
+        {"residual", command.solve.asked.residual ? fmt::format("{}", *command.solve.asked.residual)
+                                                  : "default"},
         {"visible error", "mean over pixels, in JND; contrast sensitivity of castleCSF, bands and "
                           "masking of ColorVideoVDP"},
         {"program", "penumbra " PENUMBRA_VERSION}};

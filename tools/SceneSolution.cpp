@@ -3,7 +3,7 @@
 #include "base/Clock.h"
 #include "base/Error.h"
 #include "tools/OutputFiles.h"
-#include "viewer/input/StartSizes.h"
+#include "viewer/input/LightSettings.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -29,13 +29,13 @@ CLI::Validator number() { // CLI::Range lets nan pass
 void addMeshOptions(CLI::App& command, SolveSettings& settings) {
     const auto positive = number() & CLI::Range(1e-6, 1e6);
     command
-        .add_option("--patch-size", settings.meshing.patchSize,
+        .add_option("--patch-size", settings.asked.patchSize,
                     "Longest edge of a patch, which sends light [m]\n"
                     "(default: what the file asks for, or\n"
                     "follows the scene, sqrt(surface area / 1650) up to 0.5 m)")
         ->check(positive);
     command
-        .add_option("--element-size", settings.meshing.elementSize,
+        .add_option("--element-size", settings.asked.elementSize,
                     "Longest edge of an element, which receives and shows light [m]\n"
                     "(default: an eighth of a patch)")
         ->check(positive);
@@ -48,7 +48,7 @@ void addLightOptions(CLI::App& command, SolveSettings& settings) {
         ->capture_default_str()
         ->check(CLI::Range(1, 64));
     command
-        .add_option("--residual", settings.solver.residual,
+        .add_option("--residual", settings.asked.residual,
                     "Relax until the certificate, the bound of what the picture may still be\n"
                     "wrong by, is below this share of the brightest emitter's exitance\n"
                     "(default: until it is below 1 % of the mean radiosity)")
@@ -56,7 +56,7 @@ void addLightOptions(CLI::App& command, SolveSettings& settings) {
     command.add_flag("--direct-only", settings.solver.directOnly,
                      "Light straight from the emitters, no interreflection");
     command
-        .add_option("--order", settings.policy,
+        .add_option("--order", settings.asked.policy,
                     "What is worked on first after an edit: what the viewer gains most from\n"
                     "(importance), sender by sender (plain), or anything (random).\n"
                     "Changes what is right when, not what comes out (default: importance)")
@@ -98,6 +98,13 @@ void addSolveOptions(CLI::App& command, SolveSettings& settings) {
     addLightOptions(command, settings);
     addPlayOptions(command, settings);
     addReportOptions(command, settings);
+}
+
+RadiosityOptions resolvedOptions(const SolveSettings& settings, const LoadedScene& loaded,
+                                 std::optional<double> frame) {
+    RadiosityOptions options;
+    options.solving = settings.solver;
+    return optionsFor(lightSettings(settings.scene, loaded, frame, settings.asked), options);
 }
 
 FrameRange frameRange(const std::string& text) {
@@ -180,9 +187,10 @@ SceneSolution::SceneSolution(const SolveSettings& settings)
         throw SceneFileError({settings.scene},
                              "nothing to light: no visible mesh that can be read");
     const double start = steadySeconds();
-    mesh(timed("read", [&] {
-        return startSizes(settings.scene, loaded_, options.time, settings.meshing);
-    }));
+    const RadiosityOptions resolved =
+        timed("read", [&] { return resolvedOptions(settings, loaded_, options.time); });
+    solving_ = resolved.solving;
+    mesh(resolved.meshing);
     light();
     if (settings.frames.empty()) return;
     const SolveStatistics s = solver().statistics();
@@ -194,11 +202,7 @@ void SceneSolution::mesh(const MeshingOptions& meshing) {
     progress_.show("meshing", 0);
     timed("mesh", [&] {
         try {
-            SolverOptions solving = settings_.solver;
-            if (solving.residual == 0) solving.residual = loaded_.scene->residual;
-            if (loaded_.scene->policy == "plain") solving.policy = PolicyKind::plain;
-            if (settings_.policy) solving.policy = *settings_.policy;
-            lit_ = std::make_unique<LitScene>(placed_, meshing, solving);
+            lit_ = std::make_unique<LitScene>(placed_, meshing, solving_);
         } catch (const Error& error) {
             progress_.clear();
             throw SceneFileError({settings_.scene}, error.what());

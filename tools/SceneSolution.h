@@ -1,7 +1,9 @@
 // What render and solve have in common: options, and the way from a file to a solution.
 #pragma once
 
+#include "base/LightRequest.h"
 #include "io/usd/scene/UsdScene.h"
+#include "radiosity/process/RadiosityOptions.h"
 #include "radiosity/transport/LitScene.h"
 #include "scenegraph/Objects.h"
 #include "tools/ProgressBar.h"
@@ -32,9 +34,8 @@ struct SolveSettings {
     std::optional<double> frame;
     std::string frames; ///< as it was given; empty: one frame
     bool fromScratch = false;
-    MeshingOptions meshing;
-    SolverOptions solver;
-    std::optional<PolicyKind> policy; ///< none: what the file asks for, or importance
+    LightRequest asked;   ///< see lightSettings()
+    SolverOptions solver; ///< but for what is in `asked`
     unsigned threads = 0;
     std::string stats;
     std::vector<std::string> outputs; ///< names of all results: none may be a layer of the scene
@@ -45,6 +46,10 @@ struct SolveSettings {
 
 /// Adds the shared options to a command; `settings` must outlive the parsing.
 void addSolveOptions(CLI::App& command, SolveSettings& settings);
+
+/// What is asked for, else what the file asks for, else the defaults: see lightSettings().
+RadiosityOptions resolvedOptions(const SolveSettings& settings, const LoadedScene& loaded,
+                                 std::optional<double> frame);
 
 /// Reads "A:B" or "A": at most kMostFrames, none farther from 0 than kFarthestFrame. \throws
 /// CLI::ValidationError
@@ -113,6 +118,7 @@ private:
     void light();
 
     const SolveSettings& settings_;
+    SolverOptions solving_;
     ProgressBar progress_;
     std::map<std::string, double> phases_;
     LoadedScene loaded_;

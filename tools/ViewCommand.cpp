@@ -23,9 +23,8 @@ void run(ViewCommand& command) {
     ViewerOptions& options = command.viewer;
     options.scene = command.solve.scene;
     options.frame = command.solve.frame;
-    options.light.meshing = command.solve.meshing;
     options.light.solving = command.solve.solver;
-    options.policy = command.solve.policy;
+    options.asked = command.solve.asked;
     options.light.threads = command.solve.threads;
     options.reported = [&](const std::vector<Diagnostic>& diagnostics) {
         if (!command.solve.quiet) reportDiagnostics(diagnostics, command.solve.verbose);

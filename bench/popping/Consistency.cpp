@@ -34,8 +34,7 @@ public:
     Comparison(const std::string& scene, PreviewMethod by, float elementSize, glm::ivec2 size)
         : walk_(loadScene(scene)), by_(by), size_(size),
           renderer_({.samples = 1, .precision = HdrTarget::Precision::single}) {
-        options_.meshing = {.patchSize = float(walk_.scene().patchSize),
-                            .elementSize = elementSize};
+        options_.meshing = meshingOf(walk_.loaded().asked, elementSize);
         options_.trigger = Trigger::continuous;
         options_.solving.directOnly = true;
         node_ = std::make_shared<RadiosityNode>("lit", options_, makeThreadLink());
@@ -116,12 +115,12 @@ private:
     bool sees(const PreviewScene& stage, const Senders& senders, std::uint32_t object,
               std::size_t vertex) const {
         if (vertex >= stage.vertices(object)) return false; // something touches it
-        const LitMeshData& data = node_->objects()[object].geometry->data();
+        const LightShares& shares = node_->objects()[object].geometry->shares();
         const Receiver receiver = stage.receiver(object, vertex);
         for (std::size_t l = 0; l < senders.size(); ++l) {
             float all = 0;
             for (const EmitterSender& sender : senders[l]) all += sender.formFactor(receiver);
-            if (data.lights[l].factor[vertex] < kSeen * all) return false;
+            if (shares[l].factor[vertex] < kSeen * all) return false;
         }
         return true;
     }
@@ -148,10 +147,10 @@ private:
         for (std::size_t l = 0; l < senders.size(); ++l)
             for (const Emitter& emitter : now->lights[l]) senders[l].emplace_back(emitter, 16, 16);
         show([&](std::uint32_t object, std::size_t vertex) {
-            const LitMeshData& data = node_->objects()[object].geometry->data();
+            const LightShares& shares = node_->objects()[object].geometry->shares();
             Rgb sum;
             for (std::size_t l = 0; l < group_.size(); ++l)
-                sum = sum + exitance(l) * data.lights[l].factor[vertex];
+                sum = sum + exitance(l) * shares[l].factor[vertex];
             return sum;
         });
         const std::vector<Rgb> exact = draw({});

@@ -88,8 +88,7 @@ public:
 private:
     void makeLight() {
         RadiosityOptions light;
-        light.meshing.patchSize = float(walk_.scene().patchSize);
-        light.meshing.elementSize = options_.elementSize;
+        light.meshing = meshingOf(walk_.loaded().asked, options_.elementSize);
         light.trigger = Trigger::implicit;
         light.solving.directOnly = !options_.indirect;
         light_ = std::make_unique<WalkLight>(walk_, light, makeThreadLink(), options_.blend);

@@ -6,9 +6,10 @@
 #include "radiosity/process/RadiosityOptions.h"
 #include "radiosity/process/RadiosityState.h"
 #include "radiosity/process/store/DirtyStatus.h"
+#include "radiosity/process/store/PublishedGeometry.h"
 #include "scenegraph/Camera.h"
 #include "scenegraph/Group.h"
-#include "scenegraph/LitGeometry.h"
+
 #include "scenegraph/Objects.h"
 
 #include <glm/glm.hpp>
@@ -32,7 +33,7 @@ struct LitObject {
     glm::dmat4 toObject{1.0}; ///< of the geometry's frame to the object's own
     /// Its patches with their light; the same node as long as the scene is not meshed anew. Null
     /// until all of it has light.
-    std::shared_ptr<LitGeometry> geometry;
+    std::shared_ptr<PublishedGeometry> geometry;
     std::vector<EmissiveMesh> emissive = {}; ///< in the frame of the geometry
 };
 

@@ -2,14 +2,14 @@
 
 namespace penumbra {
 
-RadiosityOptions optionsOf(const Scene& scene) {
-    RadiosityOptions options;
-    options.meshing.patchSize = float(scene.patchSize);
-    options.meshing.elementSize = float(scene.elementSize);
-    options.solving.residual = scene.residual;
-    if (scene.trigger == "onDemand") options.trigger = Trigger::onDemand;
-    if (scene.trigger == "continuous") options.trigger = Trigger::continuous;
-    if (scene.policy == "plain") options.solving.policy = PolicyKind::plain;
+RadiosityOptions optionsFor(const LightRequest& request, RadiosityOptions options) {
+    MeshingOptions& meshing = options.meshing;
+    if (request.patchSize) meshing.patchSize = float(*request.patchSize);
+    if (request.elementSize) meshing.elementSize = float(*request.elementSize);
+    SolverOptions& solving = options.solving;
+    solving.residual = request.residual.value_or(solving.residual);
+    solving.policy = request.policy.value_or(solving.policy);
+    options.trigger = request.trigger.value_or(options.trigger);
     return options;
 }
 

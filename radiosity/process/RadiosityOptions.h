@@ -1,20 +1,13 @@
 // What people may choose about a RadiosityNode.
 #pragma once
 
+#include "base/LightRequest.h"
 #include "radiosity/mesh/BuildPatches.h"
 #include "radiosity/transport/Solver.h"
-#include "scenegraph/Scene.h"
 
 #include <cstddef>
 
 namespace penumbra {
-
-/// When edits are sent to be lit.
-enum class Trigger {
-    implicit,  ///< at once, but those of a node in someone's hand when it is grabbed and let go
-    onDemand,  ///< when RadiosityNode::requestUpdate() is called
-    continuous ///< at once, while it is being dragged as well
-};
 
 struct RadiosityOptions {
     MeshingOptions meshing{};
@@ -27,7 +20,7 @@ struct RadiosityOptions {
     std::size_t mostMemory = std::size_t(4) << 30; ///< shared at most [bytes]
 };
 
-/// The defaults, and what the scene's file asks for.
-RadiosityOptions optionsOf(const Scene& scene);
+/// What is asked for, and where nothing is, what `options` say.
+RadiosityOptions optionsFor(const LightRequest& request, RadiosityOptions options = {});
 
 } // namespace penumbra

@@ -33,15 +33,13 @@ namespace penumbra {
 /// KernelEstimate: half-shadows are as wide as a few receivers.
 ///
 /// An entry of which nothing points at a moved object, and no sample was hidden by one, stays what
-/// it is: there is nothing to be done. What is found decides about an order only. One look a thread
-/// at a time, for it owns scratch space.
+/// it is: there is nothing to be done. What is found decides about an order only. One probe a
+/// thread, for it owns scratch space.
 ///
 /// It is the estimate from stored blockers of [MuellerSchoeffel1994]'s list, with rays against the
 /// moved object alone.
 class ChangeProbe {
 public:
-    static constexpr std::size_t kCost = 100; ///< of a look, about [rays]
-
     explicit ChangeProbe(const RayScene& rays) : rays_(rays), drafts_(RowBlock::kSize) {}
 
     /// \param receivers with those of which anything is to be known

@@ -18,14 +18,14 @@ constexpr WorkQueue::Fairness kFairness{.aging = 4e6, .reserve = 0.25};
 
 DirtySet::DirtySet(std::size_t rows, const Costs& costs)
     : rows_(rows), costs_(costs), queue_(kFairness) {
-    setPolicy(std::make_shared<const BoundPolicy>());
+    setPolicy(std::make_shared<BoundPolicy>());
 }
 
 std::size_t DirtySet::cost(const DirtyBlock& block) const {
     return costs_.visit + costs_.entry * std::size_t(std::popcount(block.anew));
 }
 
-void DirtySet::setPolicy(std::shared_ptr<const SchedulingPolicy> policy) {
+void DirtySet::setPolicy(std::shared_ptr<SchedulingPolicy> policy) {
     policy_ = std::move(policy);
     queue_ = WorkQueue(kFairness);
     setAging(aging_);
@@ -93,7 +93,7 @@ WorkQueue::Task DirtySet::task(std::uint32_t row, const Entry& entry) const {
         double(r.reflectance) * double(entry.factor) * (rows_[row].power + double(r.light));
     const DirtyBlock block{row, entry.block, entry.anew, entry.since, entry.factor};
     // A look may find that all the change is in a few receivers.
-    const double expense = policy_->probes() ? double(kVisitCost) : double(cost(block));
+    const double expense = policy_->probes() ? double(cost::kProbedVisit) : double(cost(block));
     WorkQueue::Task task = policy_->rank({row, entry.block, bound, expense});
     task.since = taken_;
     return task;

@@ -49,7 +49,7 @@ public:
     /// In the order of bound / cost, until another is set.
     DirtySet(std::size_t rows, const Costs& costs);
     /// Another order for all that is open, and for what comes.
-    void setPolicy(std::shared_ptr<const SchedulingPolicy> policy);
+    void setPolicy(std::shared_ptr<SchedulingPolicy> policy);
     /// The viewer has moved: what work is worth is asked for again.
     void rekey();
     /// What waits for longer than this gets a share of the work, whatever else is worth more
@@ -166,7 +166,7 @@ private:
     std::vector<Sum> sums_;            ///< a block of receivers each
     std::vector<Receivers> receivers_; ///< likewise
     Costs costs_;
-    std::shared_ptr<const SchedulingPolicy> policy_;
+    std::shared_ptr<SchedulingPolicy> policy_;
     bool whole_ = false;
     double aging_ = 4e6;                 ///< [rays]
     WorkQueue queue_;                    ///< of all that is not put off

@@ -9,13 +9,12 @@ namespace penumbra {
 
 namespace {
 
-constexpr float kEntry = 0.5f; ///< what an entry costs besides its rays [rays]
 /// A part takes so many rays at least, unless no more are left: else visits take more time than
 /// rays do.
-constexpr double kLeastPart = 4 * kVisitCost;
+constexpr double kLeastPart = 4 * cost::kProbedVisit;
 
 float entryCost(const ExpectedFactors& expected, std::size_t receiver) {
-    return kEntry + expected.rays[receiver];
+    return cost::kProbedEntry + expected.rays[receiver];
 }
 
 } // namespace
@@ -43,7 +42,7 @@ void PartialUpdate::rank(std::uint64_t left, std::span<const float> gains, std::
 }
 
 double PartialUpdate::cost(std::uint64_t receivers) const {
-    double cost = kVisitCost;
+    double cost = cost::kProbedVisit;
     for (; receivers != 0; receivers &= receivers - 1)
         cost += entryCost(expected_, std::size_t(std::countr_zero(receivers)));
     return cost;
@@ -55,7 +54,7 @@ PartialUpdate::Part PartialUpdate::bestPart(bool whole) const {
         all.receivers |= std::uint64_t(1) << by_[i];
         all.gain += gain_[i];
         all.cost += entryCost(expected_, by_[i]);
-        const bool few = best.cost < kVisitCost + kLeastPart;
+        const bool few = best.cost < cost::kProbedVisit + kLeastPart;
         if (whole || few || all.gain * best.cost >= best.gain * all.cost) best = all;
     }
     return best;

@@ -1,6 +1,8 @@
 // What a look at a block of open work said, and which of its receivers come first because of it.
 #pragma once
 
+#include "radiosity/schedule/WorkCosts.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -16,9 +18,6 @@ struct ExpectedFactors {
     std::array<float, kSize> factor{}; ///< by how much F V changes, more or less
     std::array<float, kSize> rays{};   ///< that it takes to find out
 };
-
-/// What a visit of a block costs besides its rays, if their number is known [rays].
-constexpr float kVisitCost = 48;
 
 /// A block that was looked at is done in parts: of the receivers that are left, in the order of
 /// what is gained at each per ray, as many as make the most of a visit,
@@ -45,7 +44,7 @@ public:
     struct Part {
         std::uint64_t receivers = 0; ///< bits
         double gain = 0;
-        double cost = kVisitCost; ///< [rays]
+        double cost = cost::kProbedVisit; ///< [rays]
     };
     /// What comes next. \pre they are in order \param whole all that is left
     Part bestPart(bool whole) const;

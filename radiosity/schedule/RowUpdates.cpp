@@ -3,6 +3,7 @@
 #include "base/Parallel.h"
 #include "radiosity/rays/Margins.h"
 #include "radiosity/rays/Shaft.h"
+#include "radiosity/schedule/WorkCosts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +13,8 @@ namespace penumbra {
 
 namespace {
 
-/// What finding costs: looking into a row; and each block that is found [rays].
-constexpr std::size_t kLook = 16, kOpen = 2;
-constexpr std::size_t kStep = 4;       ///< of DirtySet::next() [rays]
-constexpr std::size_t kMostLooks = 64; ///< at blocks, at a time
-constexpr double kTask = 256;          ///< is as much at least, for one thread [rays]
+constexpr std::size_t kMostProbes = 64; ///< of blocks, at a time
+constexpr double kTask = 256;           ///< is as much at least, for one thread [rays]
 
 /// Bound of the form factor, F <= cos A / (pi d^2), of a sender onto any receiver in a box.
 float factorBound(const RowUpdates::RowFacts& sender, const Bounds& receivers) {
@@ -169,7 +167,7 @@ void RowUpdates::find(std::size_t effort, const Facts& facts) {
         std::vector<Search> searches;
         Search search;
         for (std::size_t most = 0; most < effort && (more = nextSearch(search, facts));) {
-            most += kLook + kOpen * search.most;
+            most += cost::kRowSearch + cost::kRowFind * search.most;
             searches.push_back(std::move(search));
         }
         parallelFor(searches.size(), 4, [&](std::size_t first, std::size_t last) {
@@ -179,7 +177,7 @@ void RowUpdates::find(std::size_t effort, const Facts& facts) {
             open_.open(one.row, one.found);
             hidden_.insert(hidden_.end(), one.hidden.begin(), one.hidden.end());
             if (one.last) table_.edits(one.row) = edits_;
-            cost += kLook + kOpen * (one.found.size() + one.hidden.size());
+            cost += cost::kRowSearch + cost::kRowFind * (one.found.size() + one.hidden.size());
         }
     }
     if (found()) allFound();
@@ -194,7 +192,7 @@ void RowUpdates::allFound() {
 /// Looks at all that is to be looked at. \return what it cost, about [rays]
 std::size_t RowUpdates::probe(const Expect& expect) {
     constexpr std::size_t kGrain = 8;
-    while (probes_.size() < kMostLooks / kGrain) probes_.emplace_back(rayScene_);
+    while (probes_.size() < kMostProbes / kGrain) probes_.emplace_back(rayScene_);
     std::vector<ExpectedFactors> expected(unseen_.size());
     parallelFor(unseen_.size(), kGrain, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
@@ -203,9 +201,9 @@ std::size_t RowUpdates::probe(const Expect& expect) {
     for (std::size_t i = 0; i < unseen_.size(); ++i)
         open_.expect(unseen_[i].row, unseen_[i].block, expected[i]);
     for (ChangeProbe& search : probes_) rays_ += search.takeRayCount();
-    const std::size_t cost = unseen_.size() * ChangeProbe::kCost;
+    const std::size_t spent = unseen_.size() * cost::kProbe;
     unseen_.clear();
-    return cost;
+    return spent;
 }
 
 /// Parts of the same block are worked on as one.
@@ -233,12 +231,12 @@ void RowUpdates::uniteParts() {
 /// when no other could be worth more, by what is known of it, is one of them taken.
 void RowUpdates::choose(std::size_t effort, double enough, const Expect& expect) {
     items_.clear();
-    std::size_t steps = effort / kStep + 1;
+    std::size_t steps = effort / cost::kTake + 1;
     for (std::size_t sum = 0; sum < effort;) {
         const std::optional<DirtyBlock> item = open_.next(enough, steps);
         if (item && item->probe && expect) {
             unseen_.push_back(*item);
-            if (unseen_.size() == kMostLooks) sum += probe(expect);
+            if (unseen_.size() == kMostProbes) sum += probe(expect);
         } else if (!unseen_.empty()) {
             if (item) open_.putBack(*item);
             sum += probe(expect);

@@ -13,24 +13,24 @@
 namespace penumbra {
 
 ViewPriority::ViewPriority(const PatchSet& patches, const RayScene& rays, Light light)
-    : patches_(patches), rays_(rays), light_(std::move(light)), clusters_(patches),
-      policy_(std::make_shared<ImportancePolicy>(
-          clusters_.clusterOf(), [this](std::uint32_t cluster) { return probe(cluster); },
-          [this](std::uint32_t block, std::uint64_t which, std::span<ClusterPriority> values) {
-              probeClosely(block, which, values);
-          })) {}
+    : ViewPriority(patches, rays, std::move(light), VertexClusters(patches)) {}
+
+ViewPriority::ViewPriority(const PatchSet& patches, const RayScene& rays, Light light,
+                           VertexClusters clusters)
+    : ImportancePolicy(clusters.clusterOf()), patches_(patches), rays_(rays),
+      light_(std::move(light)), clusters_(std::move(clusters)) {}
 
 void ViewPriority::follow(std::span<const ObjectId> objects) {
     const Bounds before = clusters_.boundsOf(objects);
     clusters_.follow(objects);
     if (!from_) return;
-    if (from_->eye()) forgetViewSamples(objects, before, clusters_.boundsOf(objects));
-    policy_->attend(policy_->attention());
+    if (from_->eye()) forgetSeen(objects, before, clusters_.boundsOf(objects));
+    setAttention(attention());
 }
 
 /// Of the objects themselves, and of all that they may have hidden or may hide now.
-void ViewPriority::forgetViewSamples(std::span<const ObjectId> objects, const Bounds& before,
-                                     const Bounds& now) {
+void ViewPriority::forgetSeen(std::span<const ObjectId> objects, const Bounds& before,
+                              const Bounds& now) {
     const Bounds eye{glm::vec3(*from_->eye()), glm::vec3(*from_->eye())};
     // Beside a thing that stands on them, vertices are lit an element farther out: see Contact.h.
     const Bounds from = grown(before, patches_.elementSize), to = grown(now, patches_.elementSize);
@@ -41,11 +41,11 @@ void ViewPriority::forgetViewSamples(std::span<const ObjectId> objects, const Bo
         return shaftMeets(box, eye, from) || shaftMeets(box, eye, to);
     };
     const std::uint32_t firstPrivate = patches_.firstPrivate / PatchSet::kBlock;
-    std::erase_if(viewSamples_, [&](const auto& item) {
+    std::erase_if(seenVertices_, [&](const auto& item) {
         return item.first >= firstPrivate || // are handed out anew
                moved(patches_.vertexBlockObject[item.first]);
     });
-    for (auto& [block, sample] : viewSamples_) {
+    for (auto& [block, sample] : seenVertices_) {
         if (!stale(sample.box)) continue;
         for (const std::size_t r : bitsOf(sample.asked)) {
             const glm::vec3 p = patches_.vertices[block * PatchSet::kBlock + r].receiver.position;
@@ -67,14 +67,14 @@ void ViewPriority::forgetViewSamples(std::span<const ObjectId> objects, const Bo
 void ViewPriority::attend(const Attention& attention, double ambient) {
     ambient_ = ambient;
     if (from_ != attention.viewpoint) {
-        viewSamples_.clear();
+        seenVertices_.clear();
         values_.clear();
         clusterPixels_.clear();
         from_ = attention.viewpoint;
     }
     Attention now = attention;
     if (!(now.adaptation > 0)) now.adaptation = adaptationTo(now.viewpoint);
-    policy_->attend(now);
+    setAttention(now);
 }
 
 ReceiverCluster ViewPriority::clusterNow(std::uint32_t index) const {
@@ -97,18 +97,17 @@ double ViewPriority::adaptationTo(const Viewpoint& viewpoint) const {
     return pixels > 0 ? std::exp(sum / pixels) : 1e-4;
 }
 
-void ViewPriority::probeClosely(std::uint32_t block, std::uint64_t which,
-                                std::span<ClusterPriority> values) {
+void ViewPriority::sampleClosely(std::uint32_t block, std::uint64_t which,
+                                 std::span<ClusterPriority> values) {
     Values& known = values_[block];
-    if (known.view != policy_->view()) known.known = 0, known.view = policy_->view();
+    if (known.view != view()) known.known = 0, known.view = view();
     if (const std::uint64_t open = which & ~known.known; open != 0) evaluate(block, open, known);
     std::copy(known.of.begin(), known.of.end(), values.begin());
 }
 
 void ViewPriority::evaluate(std::uint32_t block, std::uint64_t which, Values& values) {
-    const Attention& attention = policy_->attention();
-    const bool probes = attention.factors.occlusion && attention.viewpoint.eye();
-    const ViewSample sample = probes ? viewSampleOf(block, which) : ViewSample();
+    const bool probes = attention().factors.occlusion && attention().viewpoint.eye();
+    const SeenVertices sample = probes ? seenVerticesOf(block, which) : SeenVertices();
     const std::size_t first = std::size_t(block) * PatchSet::kBlock;
     std::array<Receiver, PatchSet::kBlock> receivers;
     for (std::size_t r = 0; r < receivers.size(); ++r)
@@ -122,18 +121,18 @@ void ViewPriority::evaluate(std::uint32_t block, std::uint64_t which, Values& va
         if (probes) { // what is drawn around a hidden vertex may be seen
             const float seen =
                 0.5f * float(sample.seen >> r & 1) + 0.5f * share.at(r, sample.asked, sample.seen);
-            pixels = seen *
-                     float(attention.viewpoint.pixelsOf(cluster.box, cluster.normal, cluster.area));
+            pixels = seen * float(attention().viewpoint.pixelsOf(cluster.box, cluster.normal,
+                                                                 cluster.area));
         }
         values.of[r] =
-            cluster.box.empty() ? ClusterPriority() : clusterPriority(cluster, attention, pixels);
+            cluster.box.empty() ? ClusterPriority() : clusterPriority(cluster, attention(), pixels);
     }
 }
 
 /// What is known of a block once some of its vertices were asked for.
-const ViewPriority::ViewSample& ViewPriority::viewSampleOf(std::uint32_t block,
-                                                           std::uint64_t which) {
-    ViewSample& sample = viewSamples_[block];
+const ViewPriority::SeenVertices& ViewPriority::seenVerticesOf(std::uint32_t block,
+                                                               std::uint64_t which) {
+    SeenVertices& sample = seenVertices_[block];
     which &= ~sample.asked;
     sample.asked |= which;
     ask(block, which, sample);
@@ -145,8 +144,8 @@ const ViewPriority::ViewSample& ViewPriority::viewSampleOf(std::uint32_t block,
 }
 
 /// Finds which of some vertices of a block face the eye, are in the picture, and not hidden.
-void ViewPriority::ask(std::uint32_t block, std::uint64_t which, ViewSample& sample) {
-    const glm::vec3 eye(*policy_->attention().viewpoint.eye());
+void ViewPriority::ask(std::uint32_t block, std::uint64_t which, SeenVertices& sample) {
+    const glm::vec3 eye(*attention().viewpoint.eye());
     ShadowRays rays;
     std::array<std::uint32_t, ShadowRays::kMost> of{};
     int count = 0;
@@ -169,7 +168,7 @@ void ViewPriority::ask(std::uint32_t block, std::uint64_t which, ViewSample& sam
             patches_.vertices[std::size_t(block) * PatchSet::kBlock + r].receiver;
         const Bounds point{receiver.position, receiver.position};
         if (glm::dot(eye - receiver.position, receiver.normal) <= 0) continue; // also padding
-        if (policy_->attention().viewpoint.regionOf(point) != Viewpoint::Region::picture) continue;
+        if (attention().viewpoint.regionOf(point) != Viewpoint::Region::picture) continue;
         of[std::size_t(count)] = r;
         rays.set(count++, receiver.position, eye);
         if (count == ShadowRays::kMost) trace();
@@ -177,12 +176,11 @@ void ViewPriority::ask(std::uint32_t block, std::uint64_t which, ViewSample& sam
     trace();
 }
 
-ImportancePolicy::ViewSample ViewPriority::probe(std::uint32_t index) {
-    const Attention& attention = policy_->attention();
-    const Viewpoint& viewpoint = attention.viewpoint;
-    ImportancePolicy::ViewSample sample{clusterNow(index), {}};
+ImportancePolicy::ViewSample ViewPriority::sample(std::uint32_t index) {
+    const Viewpoint& viewpoint = attention().viewpoint;
+    ViewSample sample{clusterNow(index), {}};
     const ReceiverCluster& cluster = sample.cluster;
-    if (!attention.factors.occlusion || !viewpoint.eye() ||
+    if (!attention().factors.occlusion || !viewpoint.eye() ||
         viewpoint.regionOf(cluster.box) != Viewpoint::Region::picture)
         return sample;
     const auto [known, fresh] = clusterPixels_.try_emplace(index, 0.0f);
@@ -193,12 +191,12 @@ ImportancePolicy::ViewSample ViewPriority::probe(std::uint32_t index) {
 
 /// How many pixels an average block of a place covers, by vertices spread over it.
 float ViewPriority::pixelsSeen(std::uint32_t cluster) {
-    const Viewpoint& viewpoint = policy_->attention().viewpoint;
+    const Viewpoint& viewpoint = attention().viewpoint;
     const std::vector<std::size_t> vertices = clusters_.spread(cluster);
     float pixels = 0;
     for (const std::size_t v : vertices) {
         const std::uint64_t bit = std::uint64_t(1) << v % PatchSet::kBlock;
-        if (!(viewSampleOf(std::uint32_t(v / PatchSet::kBlock), bit).seen & bit)) continue;
+        if (!(seenVerticesOf(std::uint32_t(v / PatchSet::kBlock), bit).seen & bit)) continue;
         const Receiver& receiver = patches_.vertices[v].receiver;
         pixels += float(viewpoint.pixelsOf({receiver.position, receiver.position}, receiver.normal,
                                            clusters_.known(cluster).area));

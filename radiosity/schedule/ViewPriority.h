@@ -1,4 +1,4 @@
-// The open work of the direct light, as the viewer would have it done.
+// The dirty blocks of the direct light, as the viewer would have them done.
 #pragma once
 
 #include "importance/SchedulingPolicy.h"
@@ -8,7 +8,6 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -20,11 +19,11 @@ namespace penumbra {
 /// found by a ray to each vertex of which the light may change, and to a few of each place when it
 /// is asked for; so it costs nothing where nothing is open. What was found is kept, vertex by
 /// vertex, for as long as the viewer stays and nothing moves that may stand in between.
-class ViewPriority {
+class ViewPriority final : public ImportancePolicy {
 public:
     /// Direct light of the vertices as it is now [lux].
     using Light = std::function<std::span<const Rgb>()>;
-    /// All must outlive this and the policy.
+    /// All must outlive this.
     ViewPriority(const PatchSet& patches, const RayScene& rays, Light light);
 
     /// Objects were placed anew, hidden or shown.
@@ -36,29 +35,30 @@ public:
     /// \param ambient about what indirect light adds everywhere [lux]
     void attend(const Attention& attention, double ambient);
 
-    std::shared_ptr<const SchedulingPolicy> policy() const { return policy_; }
     std::uint64_t rays() const { return rayCount_; } ///< to the eye, so far
 
 private:
+    ViewPriority(const PatchSet& patches, const RayScene& rays, Light light,
+                 VertexClusters clusters);
     /// What rays found of the vertices of a block.
-    struct ViewSample {
+    struct SeenVertices {
         Bounds box; ///< around those that were asked for [m, world]
         std::uint64_t asked = 0, seen = 0, behindMovable = 0; ///< bits
     };
     /// What vertices of a block are worth.
     struct Values {
-        std::uint64_t known = 0; ///< bits, in the order's view
+        std::uint64_t known = 0; ///< bits, in the policy's view
         std::uint32_t view = 0;
         std::array<ClusterPriority, 64> of;
     };
-    ImportancePolicy::ViewSample probe(std::uint32_t cluster);
-    void probeClosely(std::uint32_t block, std::uint64_t which, std::span<ClusterPriority> values);
+    ViewSample sample(std::uint32_t cluster) override;
+    void sampleClosely(std::uint32_t block, std::uint64_t which,
+                       std::span<ClusterPriority> values) override;
     void evaluate(std::uint32_t block, std::uint64_t which, Values& values);
-    const ViewSample& viewSampleOf(std::uint32_t block, std::uint64_t which);
+    const SeenVertices& seenVerticesOf(std::uint32_t block, std::uint64_t which);
     float pixelsSeen(std::uint32_t cluster);
-    void ask(std::uint32_t block, std::uint64_t which, ViewSample& sample);
-    void forgetViewSamples(std::span<const ObjectId> objects, const Bounds& before,
-                           const Bounds& now);
+    void ask(std::uint32_t block, std::uint64_t which, SeenVertices& sample);
+    void forgetSeen(std::span<const ObjectId> objects, const Bounds& before, const Bounds& now);
     ReceiverCluster clusterNow(std::uint32_t cluster) const;
     double adaptationTo(const Viewpoint& viewpoint) const;
 
@@ -66,12 +66,11 @@ private:
     const RayScene& rays_;
     Light light_;
     VertexClusters clusters_;
-    std::shared_ptr<ImportancePolicy> policy_;
-    double ambient_ = 0;                                        ///< [lux]
-    std::unordered_map<std::uint32_t, ViewSample> viewSamples_; ///< by block
-    std::unordered_map<std::uint32_t, Values> values_;          ///< by block
-    std::unordered_map<std::uint32_t, float> clusterPixels_;    ///< by place: those that are seen
-    std::optional<Viewpoint> from_;                             ///< where all of that was found
+    double ambient_ = 0;                                           ///< [lux]
+    std::unordered_map<std::uint32_t, SeenVertices> seenVertices_; ///< by block
+    std::unordered_map<std::uint32_t, Values> values_;             ///< by block
+    std::unordered_map<std::uint32_t, float> clusterPixels_; ///< by cluster: those that are seen
+    std::optional<Viewpoint> from_;                          ///< where all of that was found
     std::uint64_t rayCount_ = 0;
 };
 

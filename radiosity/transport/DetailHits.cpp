@@ -5,6 +5,7 @@
 #include "radiosity/mesh/Interpolation.h"
 #include "radiosity/rays/Margins.h"
 #include "radiosity/rays/Shaft.h"
+#include "radiosity/schedule/WorkCosts.h"
 
 #include <algorithm>
 #include <bit>
@@ -21,7 +22,6 @@ constexpr float kFar = std::numeric_limits<float>::infinity();
 constexpr float kInward = 0.5f;
 constexpr std::size_t kNodeRays = 64, kVertexRays = 32; ///< that a fresh receiver takes, about
 constexpr std::size_t kGroupsATask = 2;
-constexpr std::size_t kVisit = 16; ///< what looking at a group costs [rays]
 
 double smoothstep(double low, double high, double x) {
     const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
@@ -151,7 +151,7 @@ bool DetailHits::workOn(DirtyGroups& open, std::size_t rays, std::size_t effort,
         std::vector<Bounds> ways;
         for (std::size_t i = 0; i < outcomes.size(); ++i) {
             rayCount_ += outcomes[i].rays;
-            spent += kVisit + outcomes[i].rays;
+            spent += cost::kDetailVisit + outcomes[i].rays;
             ways.push_back(outcomes[i].ways);
             for (const int node : bitsOf(outcomes[i].changed))
                 for (const std::uint32_t p :

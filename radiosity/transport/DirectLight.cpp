@@ -1,5 +1,7 @@
 #include "radiosity/transport/DirectLight.h"
 
+#include "radiosity/schedule/WorkCosts.h"
+
 #include "base/Bits.h"
 #include "base/Parallel.h"
 
@@ -22,7 +24,8 @@ EmitterSender sender(const Emitter& emitter, int samples) {
 
 DirectLight::DirectLight(const PatchSet& set, const RayScene& rays, int samples)
     : set_(set), samples_(samples), walls_(set), table_(set.emitters.size()),
-      updates_(set, rays, table_, set.vertexBlockObject, {.visit = 256, .entry = 20}),
+      updates_(set, rays, table_, set.vertexBlockObject,
+               {.visit = cost::kDirectVisit, .entry = cost::kDirectEntry}),
       patchTouched_(set.patches.size()), patches_(set.patches.size()),
       patchLit_(set.patches.size()) {
     for (const Emitter& emitter : set.emitters) emitters_.push_back(sender(emitter, samples));
@@ -188,7 +191,7 @@ bool DirectLight::update(std::size_t effort, double enough) {
                             std::span<const MovedObject> moved, std::size_t) {
         const ReceiverBlock receivers = receiversFor(item);
         return builder.emitters.update(emitters_[item.row], receivers, item.anew, moved,
-                                          table_[item.row][item.block]);
+                                       table_[item.row][item.block]);
     };
     for (const DirtyBlock& item : updates_.work(effort, enough, facts, update, expect))
         touchBlock(item.block);
@@ -222,9 +225,9 @@ std::uint64_t DirectLight::hidden(std::uint32_t emitter, std::uint32_t block,
 
 bool DirectLight::sumBlocks(std::size_t effort) {
     if (touchedBlocks_.empty()) return false;
-    const std::size_t cost = 16 + 8 * emitters_.size(); // a sum, in rays
+    const std::size_t each = cost::kSum + cost::kSumRow * emitters_.size();
     const std::size_t count =
-        std::min(touchedBlocks_.size(), std::max<std::size_t>(4, effort / cost));
+        std::min(touchedBlocks_.size(), std::max<std::size_t>(4, effort / each));
     const auto some = std::span(touchedBlocks_).last(count);
     parallelFor(count, 16, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) sumBlock(some[i]);
@@ -259,9 +262,10 @@ void DirectLight::sumBlock(std::uint32_t block) {
 
 bool DirectLight::averagePatches(std::size_t effort) {
     if (touchedPatches_.empty()) return false;
-    const std::size_t cost = 16 + 4 * set_.elements.size() / set_.patches.size(); // in rays
+    const std::size_t each =
+        cost::kMean + cost::kMeanElement * set_.elements.size() / set_.patches.size();
     const std::size_t count =
-        std::min(touchedPatches_.size(), std::max<std::size_t>(2, effort / cost));
+        std::min(touchedPatches_.size(), std::max<std::size_t>(2, effort / each));
     const auto some = std::span(touchedPatches_).last(count);
     std::vector<std::uint8_t> before(count);
     for (std::size_t i = 0; i < count; ++i) before[i] = patchLit_[some[i]];

@@ -36,7 +36,7 @@ public:
     /// Bound of what is still open in the mean light of patches [lux].
     std::vector<double> dirtyLight() const;
     /// See DirtySet.
-    void setPolicy(std::shared_ptr<const SchedulingPolicy> policy) {
+    void setPolicy(std::shared_ptr<SchedulingPolicy> policy) {
         updates_.open().setPolicy(std::move(policy));
     }
     void rekey() { updates_.open().rekey(); }

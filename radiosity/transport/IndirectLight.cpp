@@ -4,6 +4,7 @@
 
 #include "base/Parallel.h"
 #include "radiosity/rows/SenderSamples.h"
+#include "radiosity/schedule/WorkCosts.h"
 #include "radiosity/transport/DirectLight.h"
 
 #include <algorithm>
@@ -27,10 +28,11 @@ IndirectLight::IndirectLight(const PatchSet& set, const RayScene& rays, const Di
                              std::size_t rowMemory, std::size_t flatPatches)
     : set_(set), rays_(rays), direct_(direct), rowMemory_(rowMemory), senders_(set, flatPatches),
       table_(senders_.count()),
-      updates_(set, rays, table_, set.nodeBlockObject, {.visit = 48, .entry = 1}), reach_(set),
-      reached_(set.nodes.size() / kBlock), nodes_(set.nodes.size()), rowSums_(set.nodes.size()),
-      sent_(senders_.count()), residuals_(senders_.count()), colours_(senders_.count()),
-      known_(senders_.count()), kept_(senders_.count()) {
+      updates_(set, rays, table_, set.nodeBlockObject,
+               {.visit = cost::kIndirectVisit, .entry = cost::kIndirectEntry}),
+      reach_(set), reached_(set.nodes.size() / kBlock), nodes_(set.nodes.size()),
+      rowSums_(set.nodes.size()), sent_(senders_.count()), residuals_(senders_.count()),
+      colours_(senders_.count()), known_(senders_.count()), kept_(senders_.count()) {
     for (std::uint32_t p = 0; p < senders_.patchCount(); ++p) {
         const Patch& patch = set.patches[p];
         const auto points = std::span(senders_.sender(p).samples, kPatchSamples);

@@ -56,7 +56,7 @@ public:
     glm::dvec3 reflected(std::uint32_t patch) const;
 
     /// See DirtySet.
-    void setPolicy(std::shared_ptr<const SchedulingPolicy> policy) {
+    void setPolicy(std::shared_ptr<SchedulingPolicy> policy) {
         updates_.open().setPolicy(std::move(policy));
     }
 

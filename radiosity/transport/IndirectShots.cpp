@@ -6,6 +6,8 @@
 // 1993, Xu & Fussell 1994 call this overshooting).
 #include "radiosity/transport/IndirectLight.h"
 
+#include "radiosity/schedule/WorkCosts.h"
+
 #include "base/Parallel.h"
 #include "importance/HighestPriorities.h"
 
@@ -19,8 +21,6 @@ namespace {
 constexpr std::uint32_t kBlock = PatchSet::kBlock;
 /// Senders shot at a time: a share of them all, for choosing them goes through all.
 constexpr std::size_t kLeastBatch = 32, kMostBatch = 1024, kBatchShare = 32;
-/// What serving a block of a row costs that is there, and of one that is not [rays].
-constexpr std::size_t kServe = 8, kBuild = 100;
 
 } // namespace
 
@@ -137,7 +137,8 @@ void IndirectLight::serve(std::size_t effort) {
     for (std::size_t sum = 0, pairs = 0; last < shot.receivers.size() && sum < effort; ++last) {
         if (pairs >= kGrain) cuts.push_back(last), pairs = 0;
         pairs += shot.receivers[last].size();
-        for (std::uint32_t i : shot.receivers[last]) sum += shot.build[i] ? kBuild : kServe;
+        for (std::uint32_t i : shot.receivers[last])
+            sum += shot.build[i] ? cost::kBuild : cost::kServe;
     }
     cuts.push_back(last);
     const std::size_t tasks = cuts.size() - 1;

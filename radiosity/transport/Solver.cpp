@@ -46,17 +46,17 @@ void Solver::attend(const Attention& attention) {
     direct_.setWhole(attention.whole);
     const double ambient = meanRadiosity();
     if (!seen_)
-        seen_ = std::make_unique<ViewPriority>(set_, rays_, [this] { return direct_.vertices(); });
+        seen_ = std::make_shared<ViewPriority>(set_, rays_, [this] { return direct_.vertices(); });
     seen_->attend(attention, ambient);
     if (std::exchange(inViewOrder_, true))
         direct_.rekey();
     else
-        direct_.setPolicy(seen_->policy());
+        direct_.setPolicy(seen_);
 }
 
 void Solver::setPolicy(PolicyKind policy) {
     options_.policy = policy;
-    std::shared_ptr<const SchedulingPolicy> all = std::make_shared<BoundPolicy>();
+    std::shared_ptr<SchedulingPolicy> all = std::make_shared<BoundPolicy>();
     if (policy == PolicyKind::plain) all = std::make_shared<PlainPolicy>();
     if (policy == PolicyKind::random) all = std::make_shared<RandomPolicy>(1);
     setDirectPolicy(all);
@@ -64,7 +64,7 @@ void Solver::setPolicy(PolicyKind policy) {
     if (attention_) attend(*attention_);
 }
 
-void Solver::setDirectPolicy(std::shared_ptr<const SchedulingPolicy> policy) {
+void Solver::setDirectPolicy(std::shared_ptr<SchedulingPolicy> policy) {
     direct_.setPolicy(std::move(policy));
     inViewOrder_ = false;
 }

@@ -1,6 +1,7 @@
 // The radiosity solution: direct light onto elements, indirect light between patches.
 #pragma once
 
+#include "base/LightRequest.h"
 #include "base/Rgb.h"
 #include "base/SolutionState.h"
 #include "radiosity/mesh/PatchSet.h"
@@ -24,13 +25,6 @@
 namespace penumbra {
 
 class ViewPriority;
-
-/// Which of the open work comes first; never what comes out.
-enum class PolicyKind : std::uint8_t {
-    importance, ///< what the viewer gains most from; if there is none, what may change most
-    plain,      ///< sender by sender: the original method, and the yardstick
-    random      ///< the same each time
-};
 
 struct SolverOptions {
     int samples = 16; ///< visibility samples of an emitter and a receiver that agree
@@ -122,7 +116,7 @@ public:
     /// Another order for what is open and for what comes.
     void setPolicy(PolicyKind policy);
     /// Another order for the work on direct light alone, as for measurements.
-    void setDirectPolicy(std::shared_ptr<const SchedulingPolicy> policy);
+    void setDirectPolicy(std::shared_ptr<SchedulingPolicy> policy);
 
     /// Of the open work on direct light only these receivers are done, as if others were not
     /// concerned: for measurements, by someone who knows that these do not change. Who blocks an
@@ -207,7 +201,7 @@ private:
     SolverOptions options_;
     DirectLight direct_;
     std::optional<Attention> attention_;      ///< of the viewer, if there is one
-    std::unique_ptr<ViewPriority> seen_;      ///< what they see, once somebody looked
+    std::shared_ptr<ViewPriority> seen_;      ///< what they see, once somebody looked
     bool inViewOrder_ = false;                ///< direct light is done in the order of that
     std::unique_ptr<IndirectLight> indirect_; ///< null: direct light only
     std::unique_ptr<DetailGather> detail_;

@@ -1,4 +1,4 @@
-// Ways of ordering open work.
+// Ways of ordering dirty blocks.
 #include "importance/SchedulingPolicy.h"
 
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ using testing::UnorderedElementsAre;
 using Ids = std::vector<std::uint64_t>;
 
 /// Indices of pieces of work, in the order that comes of it.
-Ids sorted(const SchedulingPolicy& policy, const std::vector<CandidateBlock>& work) {
+Ids sorted(SchedulingPolicy& policy, const std::vector<CandidateBlock>& work) {
     WorkQueue queue;
     for (std::size_t i = 0; i < work.size(); ++i) {
         WorkQueue::Task task = policy.rank(work[i]);
@@ -30,6 +30,9 @@ Ids sorted(const SchedulingPolicy& policy, const std::vector<CandidateBlock>& wo
     while (const auto task = queue.take(0)) ids.push_back(task->id);
     return ids;
 }
+Ids sorted(SchedulingPolicy&& policy, const std::vector<CandidateBlock>& work) {
+    return sorted(policy, work);
+}
 
 /// Two senders and two blocks; the second sender's light on the second block may change most.
 const std::vector<CandidateBlock> kWork{{.row = 1, .block = 0, .bound = 5, .cost = 10},
@@ -39,6 +42,12 @@ const std::vector<CandidateBlock> kWork{{.row = 1, .block = 0, .bound = 5, .cost
 
 TEST(PlainPolicy, GoesSenderBySender) {
     EXPECT_THAT(sorted(PlainPolicy(), kWork), ElementsAre(2, 3, 0, 1));
+}
+
+TEST(PlainPolicy, TellsAMillionSendersApart) {
+    const PlainPolicy plain;
+    for (const std::uint32_t row : {0u, 999u, 1'000'000u})
+        EXPECT_GT(float(plain.priority({.row = row})), float(plain.priority({.row = row + 1})));
 }
 
 TEST(BoundPolicy, TakesWhatMayChangeMostPerCost) {
@@ -70,7 +79,7 @@ TEST(RandomPolicy, PrefersNoRowAndNoBlock) {
     EXPECT_NEAR(blocks, 24.5, 2.5);
 }
 
-/// Two places in front of a camera that looks along -Z: block 0 at its left, block 1 behind it.
+/// A camera that looks along -Z.
 class TwoPlaces : public testing::Test {
 protected:
     static Attention looking(double turn) { // about the vertical [degrees]
@@ -83,7 +92,19 @@ protected:
         const Viewpoint viewpoint(makeView(lens, camera, 100, 100), 100, 100);
         return {viewpoint, Gaze(viewpoint), 50, {}, {}};
     }
-    static ImportancePolicy::ViewSample sample(std::uint32_t cluster) {
+};
+
+/// Knows block 0 in front of the camera and block 1 behind it; all receivers of a block alike but
+/// for the first two, of 100 pixels and of one.
+class TwoClusters : public ImportancePolicy {
+public:
+    using ImportancePolicy::ImportancePolicy;
+    void attend(const Attention& attention) { setAttention(attention); }
+
+    std::uint64_t asked = 0; ///< receivers, of the last block
+
+protected:
+    ViewSample sample(std::uint32_t cluster) override {
         const glm::vec3 at = cluster == 0 ? glm::vec3(0, 0, -5) : glm::vec3(0, 0, 5);
         ReceiverCluster known;
         known.box.add(at - 0.1f), known.box.add(at + 0.1f);
@@ -92,10 +113,15 @@ protected:
         known.luminance = 50;
         return {known, {}};
     }
+    void sampleClosely(std::uint32_t, std::uint64_t which,
+                       std::span<ClusterPriority> values) override {
+        asked = which;
+        values[0] = {100, 1, false}, values[1] = {1, 1, false}; // pixels; steps per nit
+    }
 };
 
 TEST_F(TwoPlaces, ImportanceTakesWhatTheViewerSees) {
-    ImportancePolicy policy({0, 1}, sample);
+    TwoClusters policy({0, 1});
     policy.attend(looking(0));
     // Sender 1 may change 8 times as much on what is behind the viewer; it comes last all the same.
     EXPECT_THAT(sorted(policy, kWork), ElementsAre(0, 2, 1, 3));
@@ -104,11 +130,7 @@ TEST_F(TwoPlaces, ImportanceTakesWhatTheViewerSees) {
 }
 
 TEST_F(TwoPlaces, ImportanceGainsWhereReceiversAreSeen) {
-    const auto close = [](std::uint32_t, std::uint64_t which, std::span<ClusterPriority> values) {
-        EXPECT_EQ(which, 0b11u);
-        values[0] = {100, 1, false}, values[1] = {1, 1, false}; // pixels; steps per nit
-    };
-    ImportancePolicy policy({0, 1}, sample, close);
+    TwoClusters policy({0, 1});
     EXPECT_FALSE(policy.probes()) << "nobody is there";
     policy.attend(looking(0));
     EXPECT_TRUE(policy.probes());
@@ -119,13 +141,14 @@ TEST_F(TwoPlaces, ImportanceGainsWhereReceiversAreSeen) {
     const std::vector<float> change{nit, nit, 0};
     std::vector<float> gains(3);
     policy.gains({}, change, gains);
+    EXPECT_EQ(policy.asked, 0b11u);
     EXPECT_NEAR(gains[0], 100 * 0.5, 1e-3); // g(1) = 1/2
     EXPECT_NEAR(gains[1], 0.5, 1e-5);
     EXPECT_EQ(gains[2], 0);
 }
 
 TEST_F(TwoPlaces, ImportanceCountsWhatHasNoPlaceAsSomethingInView) {
-    ImportancePolicy policy({ReceiverClusters::kNowhere, 1}, sample);
+    TwoClusters policy({ReceiverClusters::kNowhere, 1});
     policy.attend(looking(0));
     EXPECT_THAT(sorted(policy, {{.row = 0, .block = 0, .bound = 99, .cost = 1},
                                 {.row = 0, .block = 7, .bound = 9, .cost = 1},

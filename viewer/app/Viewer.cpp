@@ -76,7 +76,7 @@ private:
     ViewerSettings settings_;
     Signals signals_; // before any thread
     std::optional<SceneLoader> loader_;
-    MeshingOptions startSizes_; ///< where none are asked for
+    LightRequest fromFile_; ///< settings of the light, where nobody else asks
     Window window_;
     const bool software_;
     InteractiveRenderer renderer_;
@@ -113,8 +113,8 @@ Viewer::Viewer(const ViewerOptions& options)
     state_.showPanels = settings_.panels;
     state_.trigger = settings_.trigger;
     state_.exposure.setCompensation(settings_.compensation);
-    state_.patchSize = options.light.meshing.patchSize;
-    state_.elementSize = options.light.meshing.elementSize;
+    state_.patchSize = float(options.asked.patchSize.value_or(0));
+    state_.elementSize = float(options.asked.elementSize.value_or(0));
 }
 
 Viewer::~Viewer() {
@@ -124,7 +124,7 @@ Viewer::~Viewer() {
     }
     settings_.tone = state_.tone;
     settings_.panels = state_.showPanels;
-    settings_.trigger = state_.trigger;
+    if (state_.trigger != fromFile_.trigger) settings_.trigger = state_.trigger;
     settings_.compensation = state_.exposure.compensation();
     if (walk_) {
         settings_.walkSpeed = walk_->rig().options.speed;
@@ -159,7 +159,7 @@ void Viewer::openScene(ReadyScene ready) {
     if (!again && options_.opened) options_.opened(ready.loaded.files);
     if (!again && options_.reported) options_.reported(ready.loaded.diagnostics);
     watcher_ = FileWatcher(ready.loaded.files);
-    startSizes_ = ready.sizes;
+    fromFile_ = ready.settings;
     walk_.emplace(std::move(ready));
     previewOf_ = 0;
     CameraRig& rig = walk_->rig();
@@ -178,19 +178,21 @@ void Viewer::openScene(ReadyScene ready) {
     if (!again && !options_.record.empty())
         session_.emplace(*walk_, options_.scene, options_.record);
     state_.recording = session_.has_value();
-    if (!again) state_.policy = options_.policy.value_or(optionsOf(walk_->scene()).solving.policy);
+    if (!again) {
+        const RadiosityOptions how = optionsFor(options_.asked.orElse(fromFile_));
+        state_.policy = how.solving.policy;
+        if (fromFile_.trigger) state_.trigger = *fromFile_.trigger;
+    }
     lightScene();
     stale_ = kAfterglow;
 }
 
 void Viewer::lightScene() {
-    RadiosityOptions how = options_.light;
-    how.trigger = state_.trigger;
-    const RadiosityOptions asked = optionsOf(walk_->scene());
-    how.solving.policy = state_.policy;
-    how.meshing.patchSize = state_.patchSize > 0 ? state_.patchSize : startSizes_.patchSize;
-    how.meshing.elementSize = state_.elementSize > 0 ? state_.elementSize : startSizes_.elementSize;
-    if (how.solving.residual == 0) how.solving.residual = asked.solving.residual;
+    LightRequest asked{
+        .residual = options_.asked.residual, .trigger = state_.trigger, .policy = state_.policy};
+    if (state_.patchSize > 0) asked.patchSize = state_.patchSize;
+    if (state_.elementSize > 0) asked.elementSize = state_.elementSize;
+    const RadiosityOptions how = optionsFor(asked.orElse(fromFile_), options_.light);
     light_.reset();
     light_.emplace(
         *walk_, how, makeProcessLink(),

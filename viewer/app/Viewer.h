@@ -13,13 +13,13 @@
 namespace penumbra {
 
 struct ViewerOptions {
-    std::string scene;                ///< USD text
-    std::optional<double> frame;      ///< time code to begin with; none: the file's start
-    RadiosityOptions light;           ///< its trigger is that of the user's settings
-    std::optional<PolicyKind> policy; ///< of its work; none: what the file asks for
-    std::string camera;               ///< path of the camera to begin with; empty: the first one
-    std::string record;               ///< layer to record the session in; empty: none
-    bool replay = false;              ///< play the file's animation from the start
+    std::string scene;           ///< USD text
+    std::optional<double> frame; ///< time code to begin with; none: the file's start
+    RadiosityOptions light;      ///< but for what is in `asked`
+    LightRequest asked;          ///< of the light; what is empty: what the file asks for
+    std::string camera;          ///< path of the camera to begin with; empty: the first one
+    std::string record;          ///< layer to record the session in; empty: none
+    bool replay = false;         ///< play the file's animation from the start
     bool vsync = true;
     int samples = 0; ///< a pixel; 0: 4 with a graphics card, 1 without
     /// Told what the reader has to say about the file, once.

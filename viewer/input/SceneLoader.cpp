@@ -1,7 +1,7 @@
 #include "viewer/input/SceneLoader.h"
 
 #include "base/Error.h"
-#include "viewer/input/StartSizes.h"
+#include "viewer/input/LightSettings.h"
 
 #include <chrono>
 
@@ -17,7 +17,7 @@ ReadyScene readyScene(const std::string& file, std::optional<double> frame) {
     ready.placed = placeScene(*ready.loaded.scene);
     if (ready.placed.meshes.empty() && ready.placed.lights.empty())
         throw SceneFileError({file}, "nothing to see: no visible mesh that can be read");
-    ready.sizes = startSizes(file, ready.loaded, frame, {});
+    ready.settings = lightSettings(file, ready.loaded, frame, {});
     ready.rays = std::make_unique<SceneRays>(ready.placed);
     return ready;
 }

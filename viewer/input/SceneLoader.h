@@ -1,8 +1,8 @@
 // Reading a scene while the window is already there.
 #pragma once
 
+#include "base/LightRequest.h"
 #include "io/usd/scene/UsdScene.h"
-#include "radiosity/mesh/BuildPatches.h"
 #include "radiosity/query/SceneRays.h"
 #include "scenegraph/Objects.h"
 
@@ -17,7 +17,7 @@ namespace penumbra {
 struct ReadyScene {
     LoadedScene loaded;
     PlacedScene placed;
-    MeshingOptions sizes; ///< unless others are asked for, see startSizes()
+    LightRequest settings; ///< of the light, where nobody but the file asks: lightSettings()
     std::unique_ptr<SceneRays> rays;
 };
 

@@ -82,7 +82,7 @@ public:
 private:
     struct Entry {
         std::string path;
-        std::shared_ptr<LitGeometry> geometry;
+        std::shared_ptr<PublishedGeometry> geometry;
         std::unique_ptr<LightFade> fade;
     };
 

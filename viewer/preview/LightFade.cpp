@@ -36,7 +36,7 @@ bool unseen(Rgb a, Rgb b) {
 
 } // namespace
 
-LightFade::LightFade(const LitGeometry& geometry) {
+LightFade::LightFade(const PublishedGeometry& geometry) {
     shown_.blockRevisions = geometry.blockRevisions();
     followTopology(geometry);
     seen_ = geometry.blockRevisions();
@@ -44,7 +44,7 @@ LightFade::LightFade(const LitGeometry& geometry) {
 }
 
 /// Vertices may have been added, and triangles may have other ones.
-void LightFade::followTopology(const LitGeometry& geometry) {
+void LightFade::followTopology(const PublishedGeometry& geometry) {
     if (topology_ == geometry.topologyRevision()) return;
     topology_ = geometry.topologyRevision();
     const LitMeshData& data = geometry.data();
@@ -64,7 +64,7 @@ void LightFade::followTopology(const LitGeometry& geometry) {
     seen_.resize(geometry.blockRevisions().size(), 0);
     std::erase_if(flights_, [&](const auto& f) { return f.first >= seen_.size(); });
     ++shown_.revision;
-    if (before > 0) adopt(data);
+    if (before > 0) adopt(geometry);
     corners_ = data.indices;
     findBorders(data);
 }
@@ -72,7 +72,8 @@ void LightFade::followTopology(const LitGeometry& geometry) {
 /// Vertices that stand for none of the corners that they stood for before take over what was shown
 /// at one of those that they stand for now. All others show their own light, and corners that have
 /// come to be drawn with them go to that.
-void LightFade::adopt(const LitMeshData& data) {
+void LightFade::adopt(const PublishedGeometry& geometry) {
+    const LitMeshData& data = geometry.data();
     shown_.adopted.clear();
     if (corners_.size() != data.indices.size()) return cornerFade_.clear();
     std::vector<bool> settled(data.positions.size());
@@ -91,7 +92,7 @@ void LightFade::adopt(const LitMeshData& data) {
         beginWith(v, light);
     }
     for (const auto& [entry, light] : changed)
-        cornerFade_.put(entry, data.indices[entry], beyond(data, data.indices[entry], light));
+        cornerFade_.put(entry, data.indices[entry], beyond(geometry, data.indices[entry], light));
 }
 
 LightFade::Light LightFade::shownAt(std::uint32_t entry) const {
@@ -119,15 +120,15 @@ void LightFade::beginWith(std::uint32_t vertex, const Light& light) {
 
 /// How much more light that is than what a vertex shows, without that of live lamps: it is brought
 /// up to date, from whatever it is in both, to what it is now.
-CornerFade::Over LightFade::beyond(const LitMeshData& data, std::uint32_t vertex,
+CornerFade::Over LightFade::beyond(const PublishedGeometry& geometry, std::uint32_t vertex,
                                    const Light& light) const {
     CornerFade::Over over{light.direct - shown_.direct[vertex],
                           light.indirect - shown_.indirect[vertex]};
     if (shown_.factors.empty()) return over;
-    for (std::size_t l = 0; l < data.lights.size() && l < kMostPreviewed; ++l) {
+    const LightShares& shares = geometry.shares();
+    for (std::size_t l = 0; l < shares.size() && l < kMostPreviewed; ++l) {
         const float was = light.factors[l], is = shown_.factors[vertex][l];
-        if (was >= 0 && is >= 0)
-            over.direct -= data.lights[l].exitance[vertex / kBlock] * (was - is);
+        if (was >= 0 && is >= 0) over.direct -= shares[l].exitance[vertex / kBlock] * (was - is);
     }
     return over;
 }
@@ -175,27 +176,31 @@ void LightFade::takeOver(const LightFade& before) {
     revision_ = 0;
 }
 
-bool LightFade::blockReady(const LitMeshData& data, std::size_t block, const Frame& frame) const {
+bool LightFade::blockReady(const PublishedGeometry& geometry, std::size_t block,
+                           const Frame& frame) const {
     if (frame.lights == 0) return true;
-    if (data.lights.size() != frame.lights) return false;
-    return std::all_of(data.lights.begin(), data.lights.end(), [&](const LightShare& source) {
-        return source.known[block] == LightShare::Known::exact;
+    const LightShares& shares = geometry.shares();
+    if (shares.size() != frame.lights) return false;
+    return std::all_of(shares.begin(), shares.end(), [&](const LightShare& share) {
+        return share.known[block] == LightShare::Known::exact;
     });
 }
 
-bool LightFade::ready(const LitMeshData& data, std::size_t vertex, const Frame& frame) const {
-    if (!frame.fresh || !blockReady(data, vertex / kBlock, frame)) return false;
+bool LightFade::ready(const PublishedGeometry& geometry, std::size_t vertex,
+                      const Frame& frame) const {
+    if (!frame.fresh || !blockReady(geometry, vertex / kBlock, frame)) return false;
     for (std::uint32_t i = borderFirst_[vertex]; i < borderFirst_[vertex + 1]; ++i)
-        if (!blockReady(data, borders_[i], frame)) return false;
+        if (!blockReady(geometry, borders_[i], frame)) return false;
     return true;
 }
 
-LightFade::Direct LightFade::target(const LitMeshData& data, std::size_t vertex) const {
-    Direct direct{data.direct[vertex]};
+LightFade::Direct LightFade::target(const PublishedGeometry& geometry, std::size_t vertex) const {
+    Direct direct{geometry.data().direct[vertex]};
     if (shown_.factors.empty()) return direct;
-    for (std::size_t l = 0; l < data.lights.size() && l < kMostPreviewed; ++l)
-        if (data.lights[l].known[vertex / kBlock] != LightShare::Known::no)
-            direct.factors[l] = data.lights[l].factor[vertex];
+    const LightShares& shares = geometry.shares();
+    for (std::size_t l = 0; l < shares.size() && l < kMostPreviewed; ++l)
+        if (shares[l].known[vertex / kBlock] != LightShare::Known::no)
+            direct.factors[l] = shares[l].factor[vertex];
     return direct;
 }
 
@@ -247,16 +252,16 @@ void LightFade::goOn(std::size_t vertex, Way<Direct>& way, const Frame& frame) {
              frame);
 }
 
-bool LightFade::advanceDirect(const LitMeshData& data, std::size_t vertex, Way<Direct>& way,
-                              const Frame& frame) {
+bool LightFade::advanceDirect(const PublishedGeometry& geometry, std::size_t vertex,
+                              Way<Direct>& way, const Frame& frame) {
     goOn(vertex, way, frame);
     const bool behind = !shown_.factors.empty() && shown_.behind[vertex] > 0;
     const bool early = behind && !frame.behindIsRest && frame.rest > 0;
-    if (early || !ready(data, vertex, frame)) {
+    if (early || !ready(geometry, vertex, frame)) {
         waiting_ = true;
         return false;
     }
-    const Direct wanted = target(data, vertex);
+    const Direct wanted = target(geometry, vertex);
     const Direct now = shownDirect(vertex, frame);
     if (!behind && way.start == kNever && wanted.light == now.light &&
         wanted.factors == now.factors)
@@ -311,13 +316,13 @@ void LightFade::noteIndirectChange(std::size_t block) {
 }
 
 /// \return whether all of the block has come to rest at what the geometry carries
-bool LightFade::advanceBlock(const LitMeshData& data, std::size_t block, Flight& flight,
+bool LightFade::advanceBlock(const PublishedGeometry& geometry, std::size_t block, Flight& flight,
                              const Frame& frame) {
     directChanged_ = indirectChanged_ = false;
     bool done = true;
     for (std::size_t i = 0; i < flight.direct.size(); ++i) {
-        done &= advanceDirect(data, block * kBlock + i, flight.direct[i], frame);
-        done &= advanceIndirect(data, block * kBlock + i, flight.indirect[i], frame);
+        done &= advanceDirect(geometry, block * kBlock + i, flight.direct[i], frame);
+        done &= advanceIndirect(geometry.data(), block * kBlock + i, flight.indirect[i], frame);
     }
     if (directChanged_ || indirectChanged_) {
         if (!directChanged_) noteIndirectChange(block);
@@ -327,9 +332,9 @@ bool LightFade::advanceBlock(const LitMeshData& data, std::size_t block, Flight&
     return done;
 }
 
-void LightFade::advanceCorners(const LitMeshData& data, const Frame& frame) {
+void LightFade::advanceCorners(const PublishedGeometry& geometry, const Frame& frame) {
     const auto fadeStart = [&](std::uint32_t vertex) -> std::optional<double> {
-        if (!ready(data, vertex, frame)) return std::nullopt;
+        if (!ready(geometry, vertex, frame)) return std::nullopt;
         const auto flight = flights_.find(vertex / kBlock);
         return flight != flights_.end() ? flight->second.direct[vertex % kBlock].start : kNever;
     };
@@ -338,7 +343,7 @@ void LightFade::advanceCorners(const LitMeshData& data, const Frame& frame) {
     fading_ |= !cornerFade_.empty();
 }
 
-void LightFade::advance(const LitGeometry& geometry, const Frame& frame) {
+void LightFade::advance(const PublishedGeometry& geometry, const Frame& frame) {
     CornerFade::hide(shown_, vertices_);
     followTopology(geometry);
     if (revision_ != geometry.revision()) {
@@ -352,23 +357,23 @@ void LightFade::advance(const LitGeometry& geometry, const Frame& frame) {
     }
     fading_ = waiting_ = false;
     for (auto flight = flights_.begin(); flight != flights_.end();)
-        if (advanceBlock(geometry.data(), flight->first, flight->second, frame))
+        if (advanceBlock(geometry, flight->first, flight->second, frame))
             flight = flights_.erase(flight);
         else
             ++flight;
-    advanceCorners(geometry.data(), frame);
+    advanceCorners(geometry, frame);
 }
 
-bool LightFade::anyUnready(const LitGeometry& geometry, const Frame& frame) const {
+bool LightFade::anyUnready(const PublishedGeometry& geometry, const Frame& frame) const {
     for (std::size_t block = 0; block < seen_.size(); ++block)
-        if (!blockReady(geometry.data(), block, frame)) return true;
+        if (!blockReady(geometry, block, frame)) return true;
     return false;
 }
 
-bool LightFade::leaveBehind(const LitGeometry& geometry, const Frame& frame) {
+bool LightFade::leaveBehind(const PublishedGeometry& geometry, const Frame& frame) {
     if (shown_.factors.empty() || !anyUnready(geometry, frame)) return false;
     for (std::size_t v = 0; v < vertices_; ++v) {
-        if (ready(geometry.data(), v, frame)) continue;
+        if (ready(geometry, v, frame)) continue;
         Flight& flight = flightOf(v / kBlock);
         Way<Direct>& way = flight.direct[v % kBlock];
         way.from.old = way.target.old = 1;

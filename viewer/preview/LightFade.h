@@ -1,7 +1,7 @@
 // How the light of one lit surface changes on the screen.
 #pragma once
 
-#include "scenegraph/LitGeometry.h"
+#include "radiosity/process/store/PublishedGeometry.h"
 #include "viewer/preview/CornerFade.h"
 #include "viewer/preview/ShownLight.h"
 
@@ -12,7 +12,7 @@
 
 namespace penumbra {
 
-/// Keeps what is shown of a LitGeometry apart from what it carries, and lets the one follow the
+/// Keeps what is shown of a geometry apart from what it carries, and lets the one follow the
 /// other without a jump: each vertex by a smoothstep in time, in linear light,
 ///
 ///     shown = from + (target - from) w,   w = s^2 (3 - 2 s),   s = (t - start) / seconds
@@ -30,7 +30,7 @@ namespace penumbra {
 class LightFade {
 public:
     /// Shows what the geometry carries.
-    explicit LightFade(const LitGeometry& geometry);
+    explicit LightFade(const PublishedGeometry& geometry);
 
     struct Frame {
         double time = 0;        ///< [s]
@@ -50,11 +50,11 @@ public:
 
     /// Another arrangement comes to rest: vertices that are not ready stay behind with the one
     /// before (see ShownLight::behind). \return whether there are any
-    bool leaveBehind(const LitGeometry& geometry, const Frame& frame);
+    bool leaveBehind(const PublishedGeometry& geometry, const Frame& frame);
     /// What leaveBehind() would return.
-    bool anyUnready(const LitGeometry& geometry, const Frame& frame) const;
+    bool anyUnready(const PublishedGeometry& geometry, const Frame& frame) const;
 
-    void advance(const LitGeometry& geometry, const Frame& frame);
+    void advance(const PublishedGeometry& geometry, const Frame& frame);
 
     /// Goes on from what was shown of another geometry with the same vertices, if it has.
     void takeOver(const LightFade& before);
@@ -87,11 +87,11 @@ private:
         std::vector<Way<Rgb>> indirect;
     };
 
-    void followTopology(const LitGeometry& geometry);
+    void followTopology(const PublishedGeometry& geometry);
     void findBorders(const LitMeshData& data);
-    bool blockReady(const LitMeshData& data, std::size_t block, const Frame& frame) const;
-    bool ready(const LitMeshData& data, std::size_t vertex, const Frame& frame) const;
-    Direct target(const LitMeshData& data, std::size_t vertex) const;
+    bool blockReady(const PublishedGeometry& geometry, std::size_t block, const Frame& frame) const;
+    bool ready(const PublishedGeometry& geometry, std::size_t vertex, const Frame& frame) const;
+    Direct target(const PublishedGeometry& geometry, std::size_t vertex) const;
     Direct shownDirect(std::size_t vertex, const Frame& frame) const;
     void setShown(std::size_t vertex, const Direct& direct, const Frame& frame);
     void setBehind(std::size_t vertex, float behind);
@@ -101,18 +101,18 @@ private:
         LightFactors factors = {};
         float behind = 0;
     };
-    void adopt(const LitMeshData& data);
+    void adopt(const PublishedGeometry& geometry);
     Light shownAt(std::uint32_t entry) const;
     void beginWith(std::uint32_t vertex, const Light& light);
-    CornerFade::Over beyond(const LitMeshData& data, std::uint32_t vertex,
+    CornerFade::Over beyond(const PublishedGeometry& geometry, std::uint32_t vertex,
                             const Light& light) const;
     Flight& flightOf(std::size_t block);
     void noteIndirectChange(std::size_t block);
-    bool advanceBlock(const LitMeshData& data, std::size_t block, Flight& flight,
+    bool advanceBlock(const PublishedGeometry& geometry, std::size_t block, Flight& flight,
                       const Frame& frame);
-    void advanceCorners(const LitMeshData& data, const Frame& frame);
+    void advanceCorners(const PublishedGeometry& geometry, const Frame& frame);
     void goOn(std::size_t vertex, Way<Direct>& way, const Frame& frame);
-    bool advanceDirect(const LitMeshData& data, std::size_t vertex, Way<Direct>& way,
+    bool advanceDirect(const PublishedGeometry& geometry, std::size_t vertex, Way<Direct>& way,
                        const Frame& frame);
     bool advanceIndirect(const LitMeshData& data, std::size_t vertex, Way<Rgb>& way,
                          const Frame& frame);

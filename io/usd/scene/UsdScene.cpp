@@ -268,43 +268,53 @@ void readStageMetadata(const UsdLayer& layer, Scene& scene, Diagnostics& warning
     scene.timeCodesPerSecond = timeCodesPerSecond(layer);
 }
 
-/// A positive number; 0: the prim says none.
-double positive(const UsdPrim& prim, std::string_view name, const char* what,
-                Diagnostics& warnings) {
+/// A positive number, if the prim says one.
+std::optional<double> positive(const UsdPrim& prim, std::string_view name, const char* what,
+                               Diagnostics& warnings, double unit = 1) {
     const UsdAttributes attributes(prim, std::nullopt);
     const double number = attributes.number(name, 0);
-    if (number > 0 && std::isfinite(number)) return number;
+    if (number > 0 && std::isfinite(number)) return unit * number;
     if (UsdStage::property(prim, name))
         warnings.warn(attributes.location(name), std::string(what) + " ignored: not positive");
-    return 0;
+    return std::nullopt;
 }
 
-/// One of some words; empty: the prim says none of them.
-std::string word(const UsdPrim& prim, std::string_view name,
-                 std::initializer_list<std::string_view> words, Diagnostics& warnings) {
+/// What one of some words stands for, if the prim says one of them.
+template <class Value>
+std::optional<Value> word(const UsdPrim& prim, std::string_view name,
+                          std::initializer_list<std::pair<std::string_view, Value>> words,
+                          Diagnostics& warnings) {
     const UsdAttributes attributes(prim, std::nullopt);
     const std::string text = attributes.text(name, "");
-    if (std::find(words.begin(), words.end(), text) != words.end()) return text;
-    if (!UsdStage::property(prim, name)) return {};
     std::string known;
-    for (std::string_view one : words) known += (known.empty() ? "" : ", ") + std::string(one);
-    warnings.warn(attributes.location(name), "'" + text + "' is none of " + known);
-    return {};
+    for (const auto& [one, value] : words) {
+        if (one == text) return value;
+        known += (known.empty() ? "" : ", ") + std::string(one);
+    }
+    if (UsdStage::property(prim, name))
+        warnings.warn(attributes.location(name), "'" + text + "' is none of " + known);
+    return std::nullopt;
 }
 
-// What the default prim says about the scene as a whole; unlike metadata of a layer this reaches
-// the layers above it.
-void readDefaultPrim(const UsdStage& stage, Scene& scene, Diagnostics& warnings) {
+// What the default prim asks of the light; unlike metadata of a layer this reaches the layers above
+// it. \param unit [m]
+LightRequest askedByDefaultPrim(const UsdStage& stage, double unit, Diagnostics& warnings) {
     const UsdValue* name = find(stage.rootLayer().metadata, "defaultPrim");
     const UsdPrim* prim = name && name->text() ? stage.find("/" + *name->text()) : nullptr;
-    if (!prim) return;
-    const double unit = scene.metersPerUnit;
-    scene.patchSize = unit * positive(*prim, "penumbra:patchSize", "patch size", warnings);
-    scene.elementSize = unit * positive(*prim, "penumbra:elementSize", "element size", warnings);
-    scene.residual = positive(*prim, "penumbra:residual", "residual", warnings);
-    scene.trigger =
-        word(*prim, "penumbra:trigger", {"implicit", "onDemand", "continuous"}, warnings);
-    scene.policy = word(*prim, "penumbra:order", {"importance", "plain"}, warnings);
+    if (!prim) return {};
+    LightRequest asked;
+    asked.patchSize = positive(*prim, "penumbra:patchSize", "patch size", warnings, unit);
+    asked.elementSize = positive(*prim, "penumbra:elementSize", "element size", warnings, unit);
+    asked.residual = positive(*prim, "penumbra:residual", "residual", warnings);
+    asked.trigger = word<Trigger>(*prim, "penumbra:trigger",
+                                  {{"implicit", Trigger::implicit},
+                                   {"onDemand", Trigger::onDemand},
+                                   {"continuous", Trigger::continuous}},
+                                  warnings);
+    asked.policy = word<PolicyKind>(
+        *prim, "penumbra:order",
+        {{"importance", PolicyKind::importance}, {"plain", PolicyKind::plain}}, warnings);
+    return asked;
 }
 
 } // namespace
@@ -317,7 +327,7 @@ LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& o
     Scene& scene = *loaded.scene;
     scene.name = file.stem().string();
     readStageMetadata(stage->rootLayer(), scene, stage->diagnostics());
-    readDefaultPrim(*stage, scene, stage->diagnostics());
+    loaded.asked = askedByDefaultPrim(*stage, scene.metersPerUnit, stage->diagnostics());
     if (scene.metersPerUnit != 1) {
         auto toMetres = std::make_shared<Transform>("");
         glm::dmat4 scale(scene.metersPerUnit);

@@ -1,6 +1,7 @@
 // Loading a scene: USD text to the scene graph.
 #pragma once
 
+#include "base/LightRequest.h"
 #include "io/usd/layer/UsdDiagnostic.h"
 #include "io/usd/scene/UsdAddresses.h"
 #include "io/usd/scene/UsdAnimation.h"
@@ -24,6 +25,7 @@ struct LoadOptions {
 struct LoadedScene {
     std::shared_ptr<Scene> scene;
     std::shared_ptr<UsdAnimation> animation; ///< plays the file's time samples; null: nothing moves
+    LightRequest asked;                      ///< what the file asks of the light
     std::vector<Diagnostic> diagnostics;     ///< what was not understood or left out; see summary()
     UsdAddresses addresses;                  ///< where in the file the nodes come from
     /// All layers, also sublayers that could not be understood; the file itself first.
@@ -48,8 +50,8 @@ struct LoadedScene {
 /// inactive, invisible, abstract, only `over`, or of purpose proxy or guide is left out. A
 /// Transform is movable if its ops change with time or `bool penumbra:movable` says so. The default
 /// prim's `double penumbra:patchSize` and `penumbra:elementSize`, in units of the file, `double
-/// penumbra:residual`, and the tokens `penumbra:trigger` and `penumbra:order` become members of
-/// Scene.
+/// penumbra:residual`, and the tokens `penumbra:trigger` and `penumbra:order` become
+/// LoadedScene::asked.
 ///
 /// Throws SceneFileError if the file can't be read at all.
 LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& options = {});

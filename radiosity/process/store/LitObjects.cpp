@@ -26,12 +26,6 @@ std::size_t indexCount(const std::array<std::uint32_t, 4>& base) {
     return base[2] == base[3] ? 3 : 6;
 }
 
-void clearLights(LitMeshData& data, std::size_t count) {
-    const std::size_t blocks = data.positions.size() / kBlock;
-    data.lights.assign(count, {std::vector<float>(data.positions.size()),
-                               std::vector<LightShare::Known>(blocks), std::vector<Rgb>(blocks)});
-}
-
 /// Emitters of one mesh follow each other. Meshes with several materials that shine are left out:
 /// one factor says nothing of two brightnesses.
 std::vector<EmissiveMesh> emissiveOf(std::vector<LitMeshEmitter> emitters) {
@@ -67,7 +61,7 @@ void LitObjects::setLights(const Lights& lights) {
         if (entries_[o].geometry)
             entries_[o].geometry->setLights(lights.count);
         else
-            clearLights(parts_[o].data, lights.count);
+            parts_[o].shares = unknownShares(lights.count, parts_[o].data.positions.size());
     }
 }
 
@@ -106,7 +100,7 @@ void LitObjects::takeObject(const Colour& colour) {
     part.data.indirect.resize(vertices);
     for (const LitMeshMaterial& material : mesh_.head().materials)
         part.data.materials.push_back(colour(material));
-    clearLights(part.data, lights_.count);
+    part.shares = unknownShares(lights_.count, vertices);
     part.base = std::move(object->elements);
     part.now = part.base;
     part.standsFor.assign(vertices, kNoCorner);
@@ -143,12 +137,8 @@ void LitObjects::takePrivate(const StoreReader::Got& got, Slot& slot) {
     edit(slot.object, [&](LitMeshData& data) {
         for (auto* points : {&data.positions, &data.normals}) points->resize(part.standsFor.size());
         for (auto* light : {&data.direct, &data.indirect}) light->resize(part.standsFor.size());
-        for (LightShare& light : data.lights) {
-            light.factor.resize(part.standsFor.size());
-            light.known.resize(part.standsFor.size() / kBlock);
-            light.exitance.resize(part.standsFor.size() / kBlock);
-        }
     });
+    if (!entries_[slot.object].geometry) growShares(part.shares, part.standsFor.size());
 }
 
 void LitObjects::takeBlock(const StoreReader::Got& got) {
@@ -158,15 +148,15 @@ void LitObjects::takeBlock(const StoreReader::Got& got) {
     if (slot.object == Slot::kNone || slot.object != got.light.object) senseless();
     Part& part = parts_[slot.object];
     const std::size_t first = slot.block * kBlock;
-    const auto write = [&](LitMeshData& data) {
+    const auto write = [&](LitMeshData& data, LightShares& shares) {
         std::ranges::copy(got.light.direct, &data.direct[first]);
         std::ranges::copy(got.light.indirect, &data.indirect[first]);
-        takeLights(got.light, slot.block, data);
+        takeShares(got.light, slot.block, shares);
     };
     if (const auto& geometry = entries_[slot.object].geometry)
         geometry->setBlock(slot.block, write);
     else
-        write(part.data);
+        write(part.data, part.shares);
     if (isPrivate) {
         follow(part, std::uint32_t(first), got.light);
         changedParts_.push_back(slot.object);
@@ -176,10 +166,10 @@ void LitObjects::takeBlock(const StoreReader::Got& got) {
     }
 }
 
-void LitObjects::takeLights(const LightBlock& light, std::size_t block, LitMeshData& data) const {
-    if (light.previewSet != lights_.set || light.lights != lights_.count) return; // of other lamps
+void LitObjects::takeShares(const LightBlock& light, std::size_t block, LightShares& shares) const {
+    if (light.previewSet != lights_.set || light.lights != lights_.count) return; // of others
     for (std::size_t l = 0; l < lights_.count; ++l) {
-        LightShare& share = data.lights[l];
+        LightShare& share = shares[l];
         std::ranges::copy(light.factor[l], &share.factor[block * kBlock]);
         share.exitance[block] = light.exitance[l];
         share.known[block] =
@@ -239,8 +229,9 @@ std::optional<PatchSet> LitObjects::patches() const {
 void LitObjects::finish(std::uint32_t object) {
     Part& part = parts_[object];
     if (part.data.indices.empty()) return; // nothing to draw
-    entries_[object].geometry = std::make_shared<LitGeometry>(
-        entries_[object].path, ObjectId{object}, std::exchange(part.data, {}));
+    entries_[object].geometry = std::make_shared<PublishedGeometry>(
+        entries_[object].path, ObjectId{object}, std::exchange(part.data, {}),
+        std::exchange(part.shares, {}));
     ++revision_;
 }
 

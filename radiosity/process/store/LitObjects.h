@@ -3,7 +3,7 @@
 
 #include "radiosity/process/store/LightStore.h"
 #include "radiosity/process/store/LitMesh.h"
-#include "scenegraph/LitGeometry.h"
+#include "radiosity/process/store/PublishedGeometry.h"
 
 #include <glm/glm.hpp>
 
@@ -23,7 +23,7 @@ class LitObjects {
 public:
     using Colour = std::function<LitMaterial(const LitMeshMaterial&)>;
 
-    /// Which live lamps the light of blocks is to be about: a serial number, and how many.
+    /// Which previewed lights the light of blocks is to be about: a serial number, how many.
     struct Lights {
         std::uint32_t set = 0;
         std::size_t count = 0;
@@ -46,7 +46,7 @@ public:
     struct Entry {
         std::string path;
         glm::dmat4 toObject{1.0};
-        std::shared_ptr<LitGeometry> geometry; ///< null: not all of it has light
+        std::shared_ptr<PublishedGeometry> geometry; ///< null: not all of it has light
         std::vector<EmissiveMesh> emissive;
     };
     const std::vector<Entry>& entries() const { return entries_; }
@@ -62,6 +62,7 @@ private:
     /// What is needed to follow changes of the topology.
     struct Part {
         LitMeshData data;               ///< until there is a geometry
+        LightShares shares;             ///< the same
         std::vector<Corners> base, now; ///< of the elements
         std::vector<std::uint32_t> firstIndex;
         std::vector<std::uint32_t> standsFor; ///< of private vertices, kNoCorner for others
@@ -80,7 +81,7 @@ private:
     void standFor(Part& part, std::uint32_t vertex, std::uint32_t corner);
     void writeTriangles();
     void finish(std::uint32_t object);
-    void takeLights(const LightBlock& light, std::size_t block, LitMeshData& data) const;
+    void takeShares(const LightBlock& light, std::size_t block, LightShares& shares) const;
     void edit(std::uint32_t object, const std::function<void(LitMeshData&)>& change);
 
     std::shared_ptr<StoreReader> store_;

@@ -43,7 +43,7 @@ public:
     Shares shares() const {
         Shares all;
         for (const LitObject& object : room_.node->objects())
-            if (object.geometry) all[object.path] = object.geometry->data().lights;
+            if (object.geometry) all[object.path] = object.geometry->shares();
         return all;
     }
     std::size_t blocks(Known known) const {
@@ -117,7 +117,7 @@ void expectLightsAreAllDirectLight(const LightRoom& lights, const RadiosityNode&
         for (std::uint32_t v : data.indices) {
             Rgb sum;
             bool known = true;
-            for (const LightShare& light : data.lights) {
+            for (const LightShare& light : object.geometry->shares()) {
                 sum += light.factor[v] * light.exitance[v / LitGeometry::kBlock];
                 known &= light.known[v / LitGeometry::kBlock] != Known::no;
             }
@@ -171,7 +171,7 @@ TEST(PreviewLights, NothingIsExactWhereALightThatIsNotLiveHasYetToCome) {
     const auto floor = [&]() -> Moment {
         for (const LitObject& object : lights.room().node->objects())
             if (object.path == "/room")
-                return {object.geometry->data().direct, object.geometry->data().lights[0].known};
+                return {object.geometry->data().direct, object.geometry->shares()[0].known};
         return {};
     };
     std::vector<Moment> seen;

@@ -181,14 +181,15 @@ TEST_F(DirtySetOfTwoRows, CanBePutInAnotherOrderAtAnyTime) {
 }
 
 /// Blocks are places, and the last one is the one that counts.
-class LastFirst : public BoundPolicy {
+class LastFirst : public SchedulingPolicy {
 public:
     WorkQueue::Task rank(const CandidateBlock& work) const override {
-        WorkQueue::Task task = BoundPolicy::rank(work);
+        WorkQueue::Task task;
         task.cluster = work.block;
+        task.priority.change = float(work.bound);
         return task;
     }
-    ClusterPriority value(std::uint32_t cluster) const override {
+    ClusterPriority value(std::uint32_t cluster) override {
         return {turned ? 10.0 - cluster : 1.0 + cluster, 1, true};
     }
     bool turned = false;
@@ -211,7 +212,7 @@ class Looking : public BoundPolicy {
 public:
     bool probes() const override { return true; }
     void gains(const CandidateBlock&, std::span<const float> change,
-               std::span<float> gains) const override {
+               std::span<float> gains) override {
         for (std::size_t r = 0; r < change.size(); ++r)
             gains[r] = change[r] * (r >= 32 && turned ? 4.0f : 1.0f);
     }

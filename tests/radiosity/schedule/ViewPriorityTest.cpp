@@ -43,11 +43,11 @@ Attention from(glm::dvec3 eye) {
 constexpr glm::dvec3 kEye{0, -9, 4};
 
 /// What is gained if all vertices become brighter by as much.
-std::vector<float> gainsOf(const ViewPriority& seen, const PatchSet& set) {
+std::vector<float> gainsOf(ViewPriority& seen, const PatchSet& set) {
     const std::vector<float> change(PatchSet::kBlock, 1);
     std::vector<float> all, gains(PatchSet::kBlock);
     for (std::uint32_t b = 0; b < set.firstPrivate / PatchSet::kBlock; ++b) {
-        seen.policy()->gains({0, b, 1, 1}, change, gains);
+        seen.gains({0, b, 1, 1}, change, gains);
         all.insert(all.end(), gains.begin(), gains.end());
     }
     return all;
@@ -112,7 +112,7 @@ TEST(ViewPriority, PlacesAndTheirVerticesShareWhatWasFound) {
     const std::uint64_t rays = watched.seen.rays();
     const VertexClusters clusters(watched.lit.patches());
     for (std::uint32_t cluster = 0; cluster < clusters.size(); ++cluster)
-        EXPECT_GT(watched.seen.policy()->value(cluster).weight, 0) << "place " << cluster;
+        EXPECT_GT(watched.seen.value(cluster).weight, 0) << "place " << cluster;
     EXPECT_EQ(watched.seen.rays(), rays);
 }
 
@@ -129,7 +129,7 @@ TEST(ViewPriority, APlaceCountsForThePixelsOfItThatAreSeen) {
         for (std::uint32_t b = 0; b < clusters.clusterOf().size(); ++b)
             if (clusters.clusterOf()[b] != ReceiverClusters::kNowhere &&
                 set.objects[set.vertexBlockObject[b].value].path == "/floor")
-                sum += watched.seen.policy()->value(clusters.clusterOf()[b]).weight; // of one block
+                sum += watched.seen.value(clusters.clusterOf()[b]).weight; // of one block
         return sum;
     };
     constexpr double kPerMetre = 600.0 / 40; // pixels, from so far
@@ -146,7 +146,7 @@ TEST(ViewPriority, AThingTakenAwayShowsOfAPlaceWhatItHid) {
     const auto weights = [&] {
         std::vector<double> all;
         for (std::uint32_t cluster = 0; cluster < clusters.size(); ++cluster)
-            all.push_back(watched.seen.policy()->value(cluster).weight);
+            all.push_back(watched.seen.value(cluster).weight);
         return all;
     };
     watched.seen.attend(from(kEye), 0);

@@ -18,7 +18,7 @@ using Known = LightShare::Known;
 
 /// Two triangles in a strip of `blocks` blocks of vertices each: triangle i joins three
 /// consecutive vertices, so that the last of a block and the first of the next share some.
-LitMeshData strip(std::size_t blocks, std::size_t lights) {
+LitMeshData strip(std::size_t blocks) {
     LitMeshData data;
     const std::size_t count = blocks * LitGeometry::kBlock;
     data.normals.assign(count, {0, 0, 1});
@@ -31,27 +31,30 @@ LitMeshData strip(std::size_t blocks, std::size_t lights) {
         data.triangleMaterial.push_back(0);
     }
     data.materials.emplace_back();
-    data.lights.assign(lights, {.factor = std::vector<float>(count, 0.5f),
+    return data;
+}
+
+LightShares exactShares(std::size_t blocks, std::size_t lights) {
+    return LightShares(lights, {.factor = std::vector<float>(blocks * LitGeometry::kBlock, 0.5f),
                                 .known = std::vector<Known>(blocks, Known::exact),
                                 .exitance = std::vector<Rgb>(blocks)});
-    return data;
 }
 
 /// A strip whose light is edited and shown.
 struct Surface {
     explicit Surface(std::size_t blocks = 1, std::size_t lights = 1)
-        : geometry("strip", ObjectId{0}, strip(blocks, lights)), fade(geometry),
-          lightCount(lights) {
+        : geometry("strip", ObjectId{0}, strip(blocks), exactShares(blocks, lights)),
+          fade(geometry), lightCount(lights) {
         if (lights > 0) fade.setLights(lights);
         show(0);
     }
     void publish(std::size_t block, float direct, Known known = Known::exact, float indirect = 20) {
-        geometry.setBlock(block, [&](LitMeshData& data) {
+        geometry.setBlock(block, [&](LitMeshData& data, LightShares& shares) {
             for (std::size_t v = 0; v < LitGeometry::kBlock; ++v) {
                 data.direct[block * LitGeometry::kBlock + v] = Rgb(direct);
                 data.indirect[block * LitGeometry::kBlock + v] = Rgb(indirect);
             }
-            for (LightShare& light : data.lights) light.known[block] = known;
+            for (LightShare& light : shares) light.known[block] = known;
         });
     }
     void show(double time, bool fresh = true, double seconds = 0.25) {
@@ -59,7 +62,7 @@ struct Surface {
     }
     float direct(std::size_t vertex = 5) const { return fade.shown().direct[vertex].r; }
 
-    LitGeometry geometry;
+    PublishedGeometry geometry;
     LightFade fade;
     std::size_t lightCount;
 };
@@ -227,12 +230,12 @@ void expectTheLightOfNow(float light) {
         return LightFade::Frame{time, 0.25, 1, true, float(1 - s * s * (3 - 2 * s)), true};
     };
     const auto publish = [&](std::size_t block, Known known) {
-        surface.geometry.setBlock(block, [&](LitMeshData& data) {
+        surface.geometry.setBlock(block, [&](LitMeshData& data, LightShares& shares) {
             for (std::size_t v = 0; v < LitGeometry::kBlock; ++v) {
-                data.lights[0].factor[block * LitGeometry::kBlock + v] = 0.8f;
+                shares[0].factor[block * LitGeometry::kBlock + v] = 0.8f;
                 data.direct[block * LitGeometry::kBlock + v] = Rgb(light);
             }
-            data.lights[0].known[block] = known;
+            shares[0].known[block] = known;
         });
     };
     publish(0, Known::exact);
@@ -374,11 +377,11 @@ TEST(LightFade, ACornerThatIsDrawnWithASharedVertexAgainKeepsNoLightOfLiveLights
     // At both it is brought up to date to the same: 300 and 0.5 of the lamp's 100, 120 and 0.25.
     ReturnedCorner surface(1);
     const auto publish = [&](std::size_t block, float direct, float factor) {
-        surface.geometry.setBlock(block, [&](LitMeshData& data) {
+        surface.geometry.setBlock(block, [&](LitMeshData& data, LightShares& shares) {
             for (std::size_t v = block * LitGeometry::kBlock; v < (block + 1) * LitGeometry::kBlock;
                  ++v)
-                data.direct[v] = Rgb(direct), data.lights[0].factor[v] = factor;
-            data.lights[0].exitance.assign(2, Rgb(100));
+                data.direct[v] = Rgb(direct), shares[0].factor[v] = factor;
+            shares[0].exitance.assign(2, Rgb(100));
         });
     };
     publish(0, 300, 0.5f), publish(1, 120, 0.25f);

@@ -163,7 +163,8 @@ TEST_F(UsdRecordingTest, PlaysWhatWasMovedWhereAndWhenItWasMoved) {
     const LoadedScene loaded = replay(3);
     const PlacedScene placed = placeScene(*loaded.scene);
     EXPECT_TRUE(placed.objects[meshAt(placed, path).object.value].movable);
-    EXPECT_DOUBLE_EQ(loaded.scene->patchSize, 0.5) << "what the default prim says still counts";
+    EXPECT_DOUBLE_EQ(loaded.asked.patchSize.value_or(0), 0.5)
+        << "what the default prim says still counts";
     EXPECT_EQ(loaded.scene->endTimeCode, 91);
     static_cast<void>(after);
 }

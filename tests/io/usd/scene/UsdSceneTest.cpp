@@ -63,12 +63,12 @@ TEST(UsdScene, TheDefaultPrimMayAskForAPatchSize) {
         return loadText("(\n defaultPrim = \"w\"\n metersPerUnit = 0.01\n)\ndef Xform \"w\"\n{\n" +
                         size + "}\n");
     };
-    EXPECT_EQ(asking("").scene->patchSize, 0);
+    EXPECT_FALSE(asking("").asked.patchSize);
     const std::string attribute = " custom uniform double penumbra:patchSize = ";
-    EXPECT_DOUBLE_EQ(asking(attribute + "25\n").scene->patchSize, 0.25);
+    EXPECT_DOUBLE_EQ(asking(attribute + "25\n").asked.patchSize.value_or(0), 0.25);
     for (const char* nonsense : {"-1\n", "0\n", "nan\n"}) {
         const LoadedScene loaded = asking(attribute + nonsense);
-        EXPECT_EQ(loaded.scene->patchSize, 0) << nonsense;
+        EXPECT_FALSE(loaded.asked.patchSize) << nonsense;
         EXPECT_EQ(countOf(loaded, "patch size ignored"), 1u) << nonsense;
     }
 }
@@ -80,10 +80,10 @@ TEST(UsdScene, TheDefaultPrimMayAskForSizesToleranceTriggerAndOrder) {
                  " custom uniform double penumbra:residual = 0.001\n"
                  " custom uniform token penumbra:trigger = \"continuous\"\n"
                  " custom uniform token penumbra:order = \"fastest\"\n}\n");
-    EXPECT_DOUBLE_EQ(loaded.scene->elementSize, 0.04);
-    EXPECT_DOUBLE_EQ(loaded.scene->residual, 0.001);
-    EXPECT_EQ(loaded.scene->trigger, "continuous");
-    EXPECT_EQ(loaded.scene->policy, "");
+    EXPECT_DOUBLE_EQ(loaded.asked.elementSize.value_or(0), 0.04);
+    EXPECT_DOUBLE_EQ(loaded.asked.residual.value_or(0), 0.001);
+    EXPECT_EQ(loaded.asked.trigger, Trigger::continuous);
+    EXPECT_FALSE(loaded.asked.policy);
     EXPECT_EQ(countOf(loaded, "'fastest' is none of importance, plain"), 1u);
 }
 
