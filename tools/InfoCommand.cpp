@@ -9,6 +9,7 @@
 #include "scenegraph/Mesh.h"
 #include "scenegraph/Objects.h"
 #include "tools/Commands.h"
+#include "tools/OutputFiles.h"
 #include "tools/SceneSolution.h"
 
 #include <CLI/CLI.hpp>
@@ -62,11 +63,6 @@ void printLights(const PlacedScene& placed) {
     }
 }
 
-void checkStandardOutput() {
-    if (std::fflush(stdout) != 0 || std::ferror(stdout))
-        throw Error("standard output: error: can't be written");
-}
-
 void describeScene(const SolveSettings& command) {
     LoadOptions options;
     options.time = command.frame;
@@ -96,7 +92,7 @@ void describeScene(const SolveSettings& command) {
         for (std::size_t i = 0; i < placed.objects.size(); ++i)
             fmt::print("  object {:>4} {}{}\n", i, placed.objects[i].path,
                        placed.objects[i].movable ? " (movable)" : "");
-    checkStandardOutput();
+    finishStandardOutput();
     reportDiagnostics(loaded.diagnostics, command.verbose);
 }
 
@@ -178,7 +174,7 @@ void explain(const SolveSettings& settings, glm::vec3 point) {
     if (!patches.receives(at.element))
         fmt::print("  something lies on it there: nobody sees it and no light gets there\n");
     printAccount(solution, at, settings.solver.directOnly);
-    checkStandardOutput();
+    finishStandardOutput();
 }
 
 void run(const InfoCommand& command) {

@@ -1,16 +1,20 @@
 #include "tools/OutputFiles.h"
 
 #include "base/Error.h"
+#include "base/SystemError.h"
 #include "io/image/AtomicFile.h"
 #include "tools/SceneSolution.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstdio>
 #include <map>
 #include <utility>
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 namespace penumbra {
 
@@ -50,14 +54,19 @@ private:
     std::map<std::pair<dev_t, ino_t>, std::string> files_;
 };
 
+/// Says what is wrong with a place before anything is computed for it.
 void requireAPlaceFor(const std::string& output) {
-    std::error_code unknown; // writing will say what is wrong
-    const fs::path folder = fs::path(output).parent_path();
-    if (!folder.empty() && !fs::is_directory(folder, unknown))
-        throw Error(fmt::format("{}: error: can't write: no folder '{}' (create it first)", output,
-                                folder.string()));
-    if (fs::is_directory(output, unknown))
-        throw Error(fmt::format("{}: error: can't write: is a folder (name a file)", output));
+    struct stat status {};
+    const bool there = ::stat(output.c_str(), &status) == 0;
+    if (!there && errno != ENOENT) failToUse(output, errno, FileUse::write);
+    if (there && S_ISDIR(status.st_mode)) failToUse(output, EISDIR, FileUse::write);
+    if (there && !S_ISREG(status.st_mode)) return; // a device or a pipe
+    const fs::path parent = writtenPlace(output).parent_path();
+    const std::string folder = parent.empty() ? "." : parent.string();
+    if (::access(folder.c_str(), W_OK | X_OK) == 0) return;
+    if (errno != ENOENT) failToUse(output, errno, FileUse::write);
+    throw Error(
+        fmt::format("{}: error: can't write: no folder '{}' (create it first)", output, folder));
 }
 
 } // namespace
@@ -69,6 +78,12 @@ std::vector<std::string> everyName(const std::string& pattern, FrameRange frames
     for (int frame = frames.first; frame <= frames.last; ++frame)
         names.push_back(numberedPath(pattern, frame));
     return names;
+}
+
+void finishStandardOutput() {
+    errno = 0;
+    if (std::fflush(stdout) != 0 || std::ferror(stdout))
+        failToUse("standard output", errno ? errno : EIO, FileUse::write);
 }
 
 void checkOutputs(const std::vector<fs::path>& read, const std::vector<std::string>& outputs) {

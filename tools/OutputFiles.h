@@ -1,4 +1,4 @@
-// Results must not take the place of what is read, nor of one another.
+// Where results go: they must not take the place of what is read, nor of one another.
 #pragma once
 
 #include <filesystem>
@@ -13,13 +13,16 @@ struct FrameRange;
 /// stands for none.
 std::vector<std::string> everyName(const std::string& pattern, FrameRange frames);
 
-/// Fails before the work when a result could not be written after it (no such folder, a folder in
-/// its place), and when it would take the place of a file that is read or of another result: under
-/// whatever name, so also through a symbolic link or as a hard link.
+/// Fails before the work when a result could not be written after it (no such folder, no
+/// permission, a folder in its place), and when it would take the place of a file that is read or
+/// of another result: under whatever name, so also through a symbolic link or as a hard link.
 /// \param read    files that are read: the scene's layers, sensor lists; need not exist
 /// \param outputs names of results; empty ones and "-", standard output, are left out
 /// \throws Error, CLI::ValidationError
 void checkOutputs(const std::vector<std::filesystem::path>& read,
                   const std::vector<std::string>& outputs);
+
+/// Sees to it that all that was printed has arrived. \throws Error if it has not
+void finishStandardOutput();
 
 } // namespace penumbra

@@ -1,16 +1,18 @@
 #include "tools/SensorFile.h"
 
 #include "base/Error.h"
+#include "base/SystemError.h"
 #include "io/image/AtomicFile.h"
+#include "tools/OutputFiles.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <string_view>
 
@@ -45,10 +47,11 @@ float number(std::string_view cell, const SourceLocation& where) {
 } // namespace
 
 std::vector<Receiver> readSensors(const std::string& path) {
-    if (std::filesystem::is_directory(path))
-        throw SceneFileError({path}, "is a folder, not a sensor list");
+    const std::string unreadable = whyUnreadable(path);
+    if (!unreadable.empty()) throw SceneFileError({path}, "can't read: " + unreadable);
+    errno = 0;
     std::ifstream file(path);
-    if (!file) throw SceneFileError({path}, "can't be read (does it exist?)");
+    if (!file) failToUse(path, errno ? errno : EIO, FileUse::read);
     std::string line;
     std::getline(file, line);
     if (line.starts_with("\xef\xbb\xbf")) line.erase(0, 3); // what some spreadsheets begin with
@@ -92,10 +95,8 @@ void writeValues(const std::string& path, std::span<const Receiver> sensors,
                             values[i].r, values[i].g, values[i].b);
     }
     if (path == "-") {
-        if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||
-            std::fflush(stdout) != 0)
-            throw Error("standard output: error: can't be written");
-        return;
+        std::fwrite(text.data(), 1, text.size(), stdout);
+        return finishStandardOutput();
     }
     writeFileAtomically(path, text);
 }

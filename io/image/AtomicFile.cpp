@@ -1,6 +1,6 @@
 #include "io/image/AtomicFile.h"
 
-#include "base/Error.h"
+#include "base/SystemError.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
-#include <system_error>
 #include <utility>
 
 namespace penumbra {
@@ -20,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr int kMostLinks = 40; ///< followed one after another, as Linux itself does
 
 [[noreturn]] void fail(const std::string& path, int errorNumber) {
-    throw Error(path + ": error: can't write: " + std::generic_category().message(errorNumber));
+    failToUse(path, errorNumber, FileUse::write);
 }
 
 /// A file descriptor that closes itself.
@@ -91,9 +90,10 @@ fs::path writtenPlace(const fs::path& path) {
 }
 
 void writeFileAtomically(const std::string& path, std::span<const std::byte> bytes) {
-    std::error_code ignored; // of what can't be looked at; opening it will say why
+    std::error_code failed;
     const fs::path target = writtenPlace(path);
-    const fs::file_status status = fs::status(target, ignored);
+    const fs::file_status status = fs::status(target, failed);
+    if (status.type() == fs::file_type::none) fail(path, failed.value());
     if (fs::is_directory(status)) fail(path, EISDIR);
     if (fs::exists(status) && !fs::is_regular_file(status)) return writeStraight(path, bytes);
 

@@ -13,7 +13,7 @@ namespace penumbra {
 /// same folder, which then takes the place of `path` in one step. When that fails, a file that was
 /// there before is untouched and the temporary one is gone. A symbolic link is followed; into a
 /// device or a pipe (/dev/null, /dev/stdout) the bytes are written straight. \throws Error `path:
-/// error: can't write: reason` (no such folder, no permission, disk full, ...)
+/// error: can't write: reason (advice)`, see SystemError.h
 void writeFileAtomically(const std::string& path, std::span<const std::byte> bytes);
 void writeFileAtomically(const std::string& path, std::string_view text);
 

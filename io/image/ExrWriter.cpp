@@ -160,8 +160,11 @@ std::size_t writeExr(const std::string& path, const FrameLayers& frame, const Vi
         Imf::OutputFile file(stream, header);
         file.setFrameBuffer(pixels);
         file.writePixels(frame.height);
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& exception) {
-        throw Error(path + ": error: can't write as OpenEXR: " + exception.what());
+        throw Error(path + ": error: this picture can't be stored as OpenEXR (try another size; " +
+                    "the library gives as its reason: " + exception.what() + ")");
     }
     writeFileAtomically(path, stream.bytes());
     return clamped;

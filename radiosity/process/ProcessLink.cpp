@@ -1,6 +1,7 @@
 #include "radiosity/process/ProcessLink.h"
 
 #include "base/Error.h"
+#include "base/SystemError.h"
 #include "radiosity/process/memory/ControlBlock.h"
 #include "radiosity/process/memory/SharedRegions.h"
 
@@ -62,7 +63,7 @@ pid_t spawn(const std::string& program, std::vector<std::string> arguments) {
     pid_t process = 0;
     const int error = posix_spawn(&process, program.c_str(), settings.files(),
                                   settings.attributes(), list.data(), environ);
-    if (error != 0) throw Error(program + ": can't be started: " + std::strerror(error));
+    if (error != 0) throw Error(program + ": can't be started: " + reasonOf(error, FileUse::read));
     return process;
 }
 

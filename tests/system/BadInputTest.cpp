@@ -57,6 +57,30 @@ TEST_F(BadInput, AFolderInsteadOfAFileIsToldApart) {
     EXPECT_EQ(lineCount(outcome.err), 1u);
 }
 
+TEST_F(BadInput, AFileThatCannotBeReadIsOneLineOfOurOwn) {
+    std::filesystem::create_symlink("loop.usda", here.path("loop.usda"));
+    std::filesystem::create_directory(here.path("folder"));
+    const std::string room = here.write("room.usda", smallRoom());
+    const std::vector<std::pair<std::string, std::string>> faults{
+        {here.path("none"), "there is no such file ("},
+        {here.path("loop.usda"), "its symbolic links lead in a circle ("},
+        {here.path(std::string(300, 'n')), "its name is too long ("},
+        {room + "/below", "is a file, not a folder ("},
+        {here.path("folder"), "it is a folder ("}};
+    for (const auto& [file, reason] : faults) {
+        for (const auto& arguments :
+             {std::vector<std::string>{"info", file},
+              {"solve", file},
+              {"solve", room, "--sensors", file, "--values", here.path("v.csv")}}) {
+            const Outcome outcome = runPenumbra(arguments);
+            EXPECT_EQ(outcome.exitCode, 1) << outcome.err;
+            EXPECT_THAT(outcome.err, HasSubstr(file + ": error: can't read: "));
+            EXPECT_THAT(outcome.err, HasSubstr(reason));
+            EXPECT_EQ(lineCount(outcome.err), 1u) << outcome.err;
+        }
+    }
+}
+
 TEST_F(BadInput, ATruncatedFileIsRefusedWithThePlaceWhereItEnds) {
     const std::string room = smallRoom();
     for (std::size_t part : {10u, 40u, 300u, 700u, 1000u})

@@ -63,11 +63,25 @@ TEST_F(Output, OntoAFullDiskLeavesTheOldPictureWhole) {
     EXPECT_THAT(here.files(), ElementsAre("a.exr", "room.usda"));
 }
 
+TEST_F(Output, UnderANameThatCannotBeIsRefusedBeforeTheWork) {
+    std::filesystem::create_symlink("loop.exr", here.path("loop.exr"));
+    expectOneLine(render(here.path(std::string(300, 'n'))), "its name is too long (");
+    expectOneLine(render(here.path("loop.exr")), "its symbolic links lead in a circle (");
+    expectOneLine(render(here.path("room.usda/a.exr")), "is a file, not a folder (");
+    EXPECT_THAT(here.files(), ElementsAre("loop.exr", "room.usda"));
+}
+
+TEST_F(Output, OntoADeviceThatIsFullFails) {
+    expectOneLine(render("/dev/full"),
+                  "/dev/full: error: can't write: no space left on the device (");
+    expectOneLine(solve({"--quiet", "--stats", "/dev/full"}), "no space left on the device (");
+}
+
 TEST_F(Output, IntoAFolderWithoutPermissionFails) {
     if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
     std::filesystem::create_directory(here.path("locked"));
     std::filesystem::permissions(here.path("locked"), std::filesystem::perms::owner_read);
-    expectOneLine(render(here.path("locked/a.exr")), "a.exr: error: ");
+    expectOneLine(render(here.path("locked/a.exr")), "a.exr: error: can't write: no permission (");
 }
 
 TEST_F(Output, OfStatisticsAndValuesOntoAFullDiskFails) {

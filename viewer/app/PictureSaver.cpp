@@ -29,7 +29,9 @@ std::string freeStem(const std::string& name) {
         char digits[16];
         std::snprintf(digits, sizeof digits, "-%04d", number);
         const std::string stem = name + digits;
-        if (!std::filesystem::exists(stem + ".exr") && !std::filesystem::exists(stem + ".png"))
+        std::error_code unknown; // writing will say what is wrong
+        if (!std::filesystem::exists(stem + ".exr", unknown) &&
+            !std::filesystem::exists(stem + ".png", unknown))
             return stem;
     }
 }

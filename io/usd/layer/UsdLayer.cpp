@@ -1,8 +1,9 @@
 // Getting the text of a layer from the disk.
 #include "io/usd/layer/UsdLayer.h"
 
+#include "base/SystemError.h"
+
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 
 namespace penumbra {
@@ -16,14 +17,13 @@ namespace {
 std::string readWholeFile(const std::filesystem::path& path, const std::string& name,
                           std::uintmax_t maxBytes) {
     namespace fs = std::filesystem;
+    const std::string unreadable = whyUnreadable(name);
+    if (!unreadable.empty()) refuse(name, "can't read: " + unreadable);
     std::error_code failed;
-    const fs::file_status status = fs::status(path, failed);
-    if (status.type() == fs::file_type::not_found) refuse(name, "there is no such file");
-    if (failed) refuse(name, failed.message());
-    if (fs::is_directory(status)) refuse(name, "this is a folder, not a scene file");
-    if (!fs::is_regular_file(status)) refuse(name, "this is not a regular file");
+    if (!fs::is_regular_file(path, failed))
+        refuse(name, "can't read: it is a device or a pipe (name a file)");
     const std::uintmax_t bytes = fs::file_size(path, failed);
-    if (failed) refuse(name, failed.message());
+    if (failed) refuse(name, "can't read: " + reasonOf(failed.value(), FileUse::read));
     if (bytes > maxBytes)
         refuse(name, "the file is too large: " + std::to_string(bytes) + " bytes (the limit is " +
                          std::to_string(maxBytes) + ")");
@@ -31,7 +31,7 @@ std::string readWholeFile(const std::filesystem::path& path, const std::string& 
     std::ifstream in(path, std::ios::binary);
     std::string text(bytes, '\0');
     if (!in || !in.read(text.data(), std::streamsize(bytes)))
-        refuse(name, std::string("can't be read: ") + std::strerror(errno ? errno : EIO));
+        refuse(name, "can't read: " + reasonOf(errno ? errno : EIO, FileUse::read));
     return text;
 }
 

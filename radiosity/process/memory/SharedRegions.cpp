@@ -1,6 +1,7 @@
 #include "radiosity/process/memory/SharedRegions.h"
 
 #include "base/Error.h"
+#include "base/SystemError.h"
 
 #include <boost/interprocess/file_mapping.hpp>
 #include <boost/interprocess/mapped_region.hpp>
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -72,7 +72,7 @@ class MemoryFile {
 public:
     explicit MemoryFile(const std::string& name)
         : handle_(memfd_create(name.c_str(), MFD_CLOEXEC | MFD_ALLOW_SEALING)) {
-        if (handle_ < 0) fail(std::strerror(errno));
+        if (handle_ < 0) fail(reasonOf(errno, FileUse::write));
     }
     ~MemoryFile() { close(handle_); }
     MemoryFile(const MemoryFile&) = delete;
@@ -106,7 +106,8 @@ public:
             size > availableMemory()
                 ? ENOMEM
                 : posix_fallocate(mapping_.get_mapping_handle().handle, 0, off_t(size));
-        if (error != 0) fail(std::to_string((size >> 20) + 1) + " MB: " + std::strerror(error));
+        if (error != 0)
+            fail(std::to_string((size >> 20) + 1) + " MB: " + reasonOf(error, FileUse::write));
     }
 
 private:
@@ -125,7 +126,7 @@ public:
         if (fchmod(handle, 0600) != 0 ||
             ftruncate(handle, off_t(std::max<std::size_t>(bytes, 1))) != 0 ||
             fcntl(handle, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) != 0)
-            fail(std::to_string((bytes >> 20) + 1) + " MB: " + std::strerror(errno));
+            fail(std::to_string((bytes >> 20) + 1) + " MB: " + reasonOf(errno, FileUse::write));
         const std::string number = std::to_string(handle);
         try {
             ipc::file_mapping mapping(pathOf("self", number).c_str(), ipc::read_write);

@@ -67,8 +67,9 @@ TEST(AtomicFile, LeavesTheOldFileAndNothingElseWhenTheDiskIsFull) {
 }
 
 TEST(AtomicFile, SaysThatTheFolderIsMissing) {
-    EXPECT_EQ(errorOf("/nonexistent/a.txt", "x"),
-              "/nonexistent/a.txt: error: can't write: No such file or directory");
+    EXPECT_EQ(
+        errorOf("/nonexistent/a.txt", "x"),
+        "/nonexistent/a.txt: error: can't write: its folder does not exist (create it first)");
 }
 
 TEST(AtomicFile, SaysThatTheFolderMayNotBeWritten) {
@@ -76,20 +77,40 @@ TEST(AtomicFile, SaysThatTheFolderMayNotBeWritten) {
     const TemporaryFolder folder;
     std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_read |
                                                     std::filesystem::perms::owner_exec);
-    EXPECT_THAT(errorOf(folder.file("a.txt"), "x"), HasSubstr("Permission denied"));
+    EXPECT_THAT(errorOf(folder.file("a.txt"), "x"),
+                HasSubstr("no permission (choose another place"));
     std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_all);
 }
 
 TEST(AtomicFile, RefusesAFolderAsTarget) {
     const TemporaryFolder folder;
-    EXPECT_THAT(errorOf(folder.path().string(), "x"), HasSubstr("Is a directory"));
+    EXPECT_THAT(errorOf(folder.path().string(), "x"), HasSubstr("it is a folder (name a file)"));
 }
 
 TEST(AtomicFile, NeverReplacesADevice) {
     // /dev/full takes no byte: writing to it fails as a full disk does.
-    EXPECT_EQ(errorOf("/dev/full", "x"), "/dev/full: error: can't write: No space left on device");
+    EXPECT_EQ(errorOf("/dev/full", "x"),
+              "/dev/full: error: can't write: no space left on the device (free some space or "
+              "choose another place)");
     EXPECT_EQ(errorOf("/dev/null", "x"), "");
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST(AtomicFile, SaysThatANameIsTooLongOrLeadsThroughAFile) {
+    const TemporaryFolder folder;
+    EXPECT_THAT(errorOf(folder.file(std::string(256, 'n')), "x"), HasSubstr("name is too long"));
+    writeFileAtomically(folder.file("file"), "x");
+    EXPECT_THAT(errorOf(folder.file("file/a.txt"), "x"), HasSubstr("is a file, not a folder"));
+    EXPECT_EQ(folder.fileCount(), 1);
+}
+
+TEST(AtomicFile, LeavesACircleOfLinksAsItIs) {
+    const TemporaryFolder folder;
+    std::filesystem::create_symlink("b", folder.path() / "a");
+    std::filesystem::create_symlink("a", folder.path() / "b");
+    EXPECT_THAT(errorOf(folder.file("a"), "x"), HasSubstr("lead in a circle"));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "a"));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "b"));
 }
 
 TEST(AtomicFile, FollowsASymbolicLink) {

@@ -183,7 +183,8 @@ TEST(ExrWriter, ErrorsAreOneLineAndBeginWithTheFile) {
         FAIL();
     } catch (const Error& error) {
         EXPECT_STREQ(error.what(),
-                     "/nonexistent/a.exr: error: can't write: No such file or directory");
+                     "/nonexistent/a.exr: error: can't write: its folder does not exist (create it "
+                     "first)");
     }
     const TemporaryFolder folder;
     ExrMetadata clash; // an attribute that OpenEXR itself needs, with another type
