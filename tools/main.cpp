@@ -1,3 +1,4 @@
+#include "io/image/UnfinishedFile.h"
 #include "tools/Commands.h"
 
 #include <CLI/CLI.hpp>
@@ -10,6 +11,7 @@ int main(int argc, char** argv) {
     // A full disk or a closed pipe is told by the failing write, not by a signal.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
+    penumbra::removeUnfinishedFilesOnSignals();
     CLI::App app{
         "Penumbra: soft, physically right light for scenes in which things move.\n"
         "Reads USD text (.usda), solves radiosity, shows it in a window or writes lit frames.\n",

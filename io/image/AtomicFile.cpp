@@ -1,14 +1,13 @@
 #include "io/image/AtomicFile.h"
 
 #include "base/SystemError.h"
+#include "io/image/UnfinishedFile.h"
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <filesystem>
-#include <utility>
 
 namespace penumbra {
 
@@ -22,37 +21,6 @@ constexpr int kMostLinks = 40; ///< followed one after another, as Linux itself 
     failToUse(path, errorNumber, FileUse::write);
 }
 
-/// A file descriptor that closes itself.
-class Descriptor {
-public:
-    explicit Descriptor(int number) : number_(number) {}
-    ~Descriptor() { close(); }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-
-    int number() const { return number_; }
-    /// False, with errno set, if the system reports late that it could not keep the bytes.
-    bool close() { return number_ < 0 || ::close(std::exchange(number_, -1)) == 0; }
-
-private:
-    int number_;
-};
-
-/// Removes a file when the scope is left, unless it was kept.
-class TemporaryName {
-public:
-    explicit TemporaryName(std::string path) : path_(std::move(path)) {}
-    ~TemporaryName() {
-        if (!path_.empty()) ::unlink(path_.c_str());
-    }
-    TemporaryName(const TemporaryName&) = delete;
-    TemporaryName& operator=(const TemporaryName&) = delete;
-    void keep() { path_.clear(); }
-
-private:
-    std::string path_;
-};
-
 bool writeAll(int descriptor, std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
         const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
@@ -64,19 +32,10 @@ bool writeAll(int descriptor, std::span<const std::byte> bytes) {
 }
 
 void writeStraight(const std::string& path, std::span<const std::byte> bytes) {
-    Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-    if (file.number() < 0 || !writeAll(file.number(), bytes) || !file.close()) fail(path, errno);
-}
-
-/// Creates a file of a name that was free, with the permissions that the user's umask leaves.
-std::pair<int, std::string> openTemporary(const fs::path& folder) {
-    for (int attempt = 0;; ++attempt) {
-        const std::string name =
-            ".penumbra-" + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".tmp";
-        const std::string path = (folder / name).string();
-        const int number = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (number >= 0 || errno != EEXIST) return {number, path};
-    }
+    const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file < 0) fail(path, errno);
+    const int error = writeAll(file, bytes) ? 0 : errno;
+    if (::close(file) != 0 || error != 0) fail(path, error ? error : errno);
 }
 
 } // namespace
@@ -98,13 +57,10 @@ void writeFileAtomically(const std::string& path, std::span<const std::byte> byt
     if (fs::exists(status) && !fs::is_regular_file(status)) return writeStraight(path, bytes);
 
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-    const auto [number, temporaryPath] = openTemporary(folder);
-    if (number < 0) fail(path, errno);
-    Descriptor file(number);
-    TemporaryName temporary(temporaryPath);
-    if (!writeAll(file.number(), bytes) || !file.close()) fail(path, errno);
-    if (std::rename(temporaryPath.c_str(), target.c_str()) != 0) fail(path, errno);
-    temporary.keep();
+    UnfinishedFile file(folder.string());
+    if (file.descriptor() < 0 || !writeAll(file.descriptor(), bytes) || !file.close() ||
+        !file.renameTo(target.string()))
+        fail(path, errno);
 }
 
 void writeFileAtomically(const std::string& path, std::string_view text) {

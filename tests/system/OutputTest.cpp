@@ -45,6 +45,21 @@ TEST_F(Output, IntoAFolderThatDoesNotExistFailsAtOnce) {
     EXPECT_THAT(here.files(), ElementsAre("room.usda"));
 }
 
+TEST_F(Output, IsNotLeftHalfWrittenWhenTheProgramIsTerminated) {
+    // Ended as soon as a file appears that is being written: a picture of some megabytes takes a
+    // while. Should it be whole before the signal comes, that is no fault.
+    RunLimits limits;
+    limits.endWhenItWritesInto = here.path("out");
+    std::filesystem::create_directory(here.path("out"));
+    const Outcome outcome =
+        runPenumbra({"render", room, "-o", here.path("out/a.exr"), "--pixels", "float", "--width",
+                     "512", "--patch-size", "0.5", "--element-size", "0.25", "--quiet"},
+                    limits);
+    EXPECT_THAT(outcome.exitCode, testing::AnyOf(-1, 0)) << outcome.err;
+    for (const auto& file : std::filesystem::directory_iterator(here.path("out")))
+        EXPECT_EQ(file.path().filename(), "a.exr");
+}
+
 TEST_F(Output, OntoAFolderFails) {
     std::filesystem::create_directory(here.path("a.exr"));
     expectOneLine(render(here.path("a.exr")), "a.exr: error: ");

@@ -1,5 +1,7 @@
 #include "Program.h"
 
+#include <poll.h>
+#include <sys/inotify.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -33,6 +35,15 @@ void limit(int resource, rlim_t value) {
     _exit(127);
 }
 
+/// Waits until a file appears in the folder that is watched, or the child has ended.
+void endAtFirstFile(pid_t child, int watch) {
+    pollfd created{watch, POLLIN, 0};
+    siginfo_t ended{};
+    while (poll(&created, 1, 20) == 0 && ended.si_pid == 0)
+        waitid(P_PID, id_t(child), &ended, WEXITED | WNOHANG | WNOWAIT);
+    kill(child, SIGTERM);
+}
+
 } // namespace
 
 Outcome runPenumbra(const std::vector<std::string>& arguments, const RunLimits& limits) {
@@ -43,9 +54,14 @@ Outcome runPenumbra(const std::vector<std::string>& arguments, const RunLimits& 
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
+    const int watch = inotify_init1(IN_CLOEXEC);
+    if (!limits.endWhenItWritesInto.empty())
+        inotify_add_watch(watch, limits.endWhenItWritesInto.c_str(), IN_CREATE);
     const pid_t child = fork();
     if (child < 0) throw std::runtime_error("fork failed");
     if (child == 0) becomeProgram(pointers, out, err, limits);
+    if (!limits.endWhenItWritesInto.empty()) endAtFirstFile(child, watch);
+    close(watch);
     int status = 0;
     waitpid(child, &status, 0);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readFile(out), readFile(err)};

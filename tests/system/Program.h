@@ -19,6 +19,7 @@ struct Outcome {
 struct RunLimits {
     std::optional<std::size_t> fileBytes = {}; ///< no file may grow beyond this: a full disk
     unsigned cpuSeconds = 60;                  ///< then it is killed
+    std::string endWhenItWritesInto = {}; ///< gets SIGTERM when it creates a file in this folder
 };
 
 /// Runs penumbra with these arguments and waits for its end.
