@@ -1,11 +1,13 @@
 #include "io/image/UnfinishedFile.h"
 #include "tools/Commands.h"
+#include "tools/UnknownWords.h"
 
 #include <CLI/CLI.hpp>
 
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <span>
 
 int main(int argc, char** argv) {
     // A full disk or a closed pipe is told by the failing write, not by a signal.
@@ -32,7 +34,12 @@ int main(int argc, char** argv) {
     } catch (const CLI::Success& success) { // --help, --version
         return app.exit(success);
     } catch (const CLI::ParseError& error) {
-        app.exit(error);
+        const std::string unknown = penumbra::aboutUnknownWords(
+            app, std::span<const char* const>(argv, std::size_t(argc)).subspan(1));
+        if (unknown.empty())
+            app.exit(error);
+        else
+            std::fprintf(stderr, "%s\n", unknown.c_str());
         return 2;
     } catch (const std::bad_alloc&) {
         std::fprintf(stderr, "penumbra: error: out of memory (try a larger --element-size)\n");

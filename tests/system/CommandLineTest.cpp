@@ -69,6 +69,25 @@ TEST(CommandLine, ThatIsWrongExitsWithTwoAndPrintsNothingToStandardOutput) {
     EXPECT_THAT(here.files(), testing::ElementsAre("room.usda"));
 }
 
+TEST(CommandLine, NamesTheWordThatItDoesNotKnow) {
+    const std::vector<std::pair<std::vector<std::string>, std::string>> lines{
+        {{"rendr", "x"}, "penumbra: error: unknown command 'rendr'; did you mean 'render'? ("},
+        {{"--quiet", "slove", "x"}, "unknown command 'slove'; did you mean 'solve'? ("},
+        {{"paint"}, "unknown command 'paint' (there are: view, render, solve, info, "},
+        {{"--bogus"}, "penumbra: error: unknown option '--bogus' ("},
+        {{"solve", "a", "--elemnt-size", "3"},
+         "penumbra solve: error: unknown option '--elemnt-size'; did you mean '--element-size'? ("},
+        {{"render", "a", "-o", "b", "--widht=3"}, "option '--widht'; did you mean '--width'? ("},
+        {{"info", "a", "b"}, "penumbra info: error: 'b' is one word too many ("}};
+    for (const auto& [arguments, text] : lines) {
+        const Outcome outcome = runPenumbra(arguments);
+        EXPECT_EQ(outcome.exitCode, 2) << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr(text));
+        EXPECT_EQ(lineCount(outcome.err), 1u) << outcome.err;
+        EXPECT_THAT(outcome.out, IsEmpty());
+    }
+}
+
 TEST(CommandLine, InfoSaysWhatIsInAScene) {
     const Workplace here;
     const Outcome info = runPenumbra({"info", here.write("room.usda", smallRoom())});
