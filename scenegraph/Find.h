@@ -8,9 +8,17 @@
 
 namespace penumbra {
 
-/// The nodes from below `root` down to the one at `path`, e.g. "/World/Seat": those whose names it
-/// is made of, as Visitor::path() gives them. Of several with one name the first that the rest of
-/// the path goes on below. Empty if there is none, and for "/".
-std::vector<NodePtr> nodesAlong(const Group& root, std::string_view path);
+/// All nodes at a path, e.g. "/World/Seat", as Visitor::path() gives it, in the order in which they
+/// are visited. There may be several: a node shares its path with nameless ones below, and others
+/// may have its name. Empty if there is none, and for "/".
+std::vector<NodePtr> nodesAt(const Group& root, std::string_view path);
+
+/// The first of them that is a T; null: there is none.
+template <class T>
+std::shared_ptr<T> findAt(const Group& root, std::string_view path) {
+    for (const NodePtr& node : nodesAt(root, path))
+        if (auto found = std::dynamic_pointer_cast<T>(node)) return found;
+    return nullptr;
+}
 
 } // namespace penumbra

@@ -28,7 +28,8 @@ void Visitor::traverse(const Group& group) {
 
 std::string Visitor::path() const {
     std::string path;
-    for (const Node* node : nodes_) path += "/" + node->name();
+    for (const Node* node : nodes_)
+        if (!node->name().empty()) path += "/" + node->name();
     return path.empty() ? "/" : path;
 }
 

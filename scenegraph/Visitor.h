@@ -39,7 +39,8 @@ protected:
     /// Local frame of the node being visited to the root's frame (column vectors). A Transform's
     /// own matrix comes on top of it when its children are visited.
     const glm::dmat4& toWorld() const { return matrices_.back(); }
-    /// Names from below the root to the node being visited, e.g. "/World/Seat/Cushion".
+    /// Names from below the root to the node being visited, e.g. "/World/Seat/Cushion". A node
+    /// without a name has no part in it: it shares the path of the one above.
     std::string path() const;
     const std::vector<const Node*>& nodePath() const { return nodes_; }
 

@@ -63,11 +63,7 @@ void printLights(const PlacedScene& placed) {
     }
 }
 
-void describeScene(const SolveSettings& command) {
-    LoadOptions options;
-    options.time = command.frame;
-    const LoadedScene loaded = loadUsdScene(command.scene, options);
-    const PlacedScene placed = placeScene(*loaded.scene);
+void printMeshes(const PlacedScene& placed) {
     std::size_t faces = 0, points = 0, emissive = 0, cages = 0;
     for (const auto& mesh : placed.meshes) {
         faces += mesh.node->faceCount();
@@ -77,13 +73,46 @@ void describeScene(const SolveSettings& command) {
         for (const auto& material : mesh.node->data().materials) emits |= material->emissive();
         emissive += emits;
     }
+    fmt::print("  {} objects, {} meshes ({} subdivision cages, {} emissive), {} faces, {} points\n",
+               placed.objects.size(), placed.meshes.size(), cages, emissive, faces, points);
+}
+
+/// What may be moved, hidden and shown without lighting everything anew.
+void printMovables(const PlacedScene& placed) {
+    constexpr std::size_t kMost = 8; // lines
+    std::vector<std::string> paths;
+    for (const Object& object : placed.objects)
+        if (object.movable) paths.push_back(object.path + (object.visible ? "" : " (hidden)"));
+    fmt::print("  {} movable objects\n", paths.size());
+    for (std::size_t i = 0; i < std::min(paths.size(), kMost); ++i) fmt::print("  {}\n", paths[i]);
+    if (paths.size() > kMost)
+        fmt::print("  and {} more (--verbose lists all objects)\n", paths.size() - kMost);
+}
+
+void printFrames(const LoadedScene& loaded) {
+    const Scene& scene = *loaded.scene;
+    if (!loaded.animation)
+        fmt::print("  no animation\n");
+    else if (scene.endTimeCode > scene.startTimeCode)
+        fmt::print("  animation from frame {:g} to {:g}, {:g} a second\n", scene.startTimeCode,
+                   scene.endTimeCode, scene.timeCodesPerSecond);
+    else
+        fmt::print("  animation; the file does not say from which frame to which\n");
+}
+
+void describeScene(const SolveSettings& command) {
+    LoadOptions options;
+    options.time = command.frame;
+    const LoadedScene loaded = loadUsdScene(command.scene, options);
+    const PlacedScene placed = placeScene(*loaded.scene);
     const glm::vec3 size = placed.bounds.size();
     fmt::print("{}\n", command.scene);
     fmt::print("  up axis {}, {} m a unit, {:.4g} x {:.4g} x {:.4g} m\n",
                loaded.scene->upAxis == UpAxis::y ? "Y" : "Z", loaded.scene->metersPerUnit, size.x,
                size.y, size.z);
-    fmt::print("  {} objects, {} meshes ({} subdivision cages, {} emissive), {} faces, {} points\n",
-               placed.objects.size(), placed.meshes.size(), cages, emissive, faces, points);
+    printFrames(loaded);
+    printMeshes(placed);
+    printMovables(placed);
     fmt::print("  {} lamps\n", placed.lights.size());
     printLights(placed);
     fmt::print("  {} cameras\n", placed.cameras.size());

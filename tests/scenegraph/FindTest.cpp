@@ -9,20 +9,33 @@ namespace penumbra {
 
 namespace {
 
-TEST(Find, NodesAlongAPathAreThoseOfItsNames) {
+TEST(Find, NodesAtAPathAreThoseWhosePathItIs) {
     const auto bulb = light("Bulb");
     const auto place = make("Bulb", {bulb});
     const auto arm = make("Arm", {square("Rod"), place});
+    const auto other = square("Arm"); // the same name, but nothing below
     const Group root("");
     Group top("");
-    top.add(square("Arm")); // the same name, but nothing below
+    top.add(other);
     top.add(arm);
-    const std::vector<NodePtr> expected{arm, place, bulb};
-    EXPECT_EQ(nodesAlong(top, "/Arm/Bulb/Bulb"), expected);
-    EXPECT_EQ(nodesAlong(top, "/Arm").size(), 1u);
-    for (const char* wrong : {"", "/", "Arm", "/Arm/", "/Arm/Rod/Bulb", "/Leg"})
-        EXPECT_TRUE(nodesAlong(top, wrong).empty()) << wrong;
-    EXPECT_TRUE(nodesAlong(root, "/Arm").empty());
+    EXPECT_EQ(nodesAt(top, "/Arm/Bulb/Bulb"), std::vector<NodePtr>{bulb});
+    EXPECT_EQ(nodesAt(top, "/Arm"), (std::vector<NodePtr>{other, arm}));
+    for (const char* wrong : {"", "/", "Arm", "/Arm/", "/Ar", "/Arms", "/Arm/Rod/Bulb", "/Leg"})
+        EXPECT_TRUE(nodesAt(top, wrong).empty()) << wrong;
+    EXPECT_TRUE(nodesAt(root, "/Arm").empty());
+}
+
+TEST(Find, ANodeWithoutANameSharesThePathOfTheOneAbove) {
+    const auto bulb = light(""), lens = light("Lens");
+    const auto place = make<Transform>("", {bulb, lens});
+    const auto fixture = make("Fixture", {place});
+    Group top("");
+    top.add(fixture);
+    EXPECT_EQ(nodesAt(top, "/Fixture"), (std::vector<NodePtr>{fixture, place, bulb}));
+    EXPECT_EQ(findAt<Light>(top, "/Fixture"), bulb);
+    EXPECT_EQ(findAt<Light>(top, "/Fixture/Lens"), lens);
+    EXPECT_EQ(findAt<Transform>(top, "/Fixture"), place);
+    EXPECT_EQ(findAt<Transform>(top, "/Fixture/Lens"), nullptr);
 }
 
 } // namespace

@@ -92,9 +92,51 @@ TEST(CommandLine, InfoSaysWhatIsInAScene) {
     const Workplace here;
     const Outcome info = runPenumbra({"info", here.write("room.usda", smallRoom())});
     EXPECT_EQ(info.exitCode, 0);
-    for (const char* word : {"up axis Z", "2 meshes", "1 lamps", "/Lamp", "1 cameras", "/Eye"})
+    for (const char* word : {"up axis Z", "2 meshes", "1 lamps", "  /Lamp ", "1 cameras",
+                             "  /Eye\n", "no animation", "0 movable objects"})
         EXPECT_THAT(info.out, HasSubstr(word));
     EXPECT_THAT(info.err, IsEmpty());
+}
+
+TEST(CommandLine, InfoSaysTheFramesAndWhatMayMoveAndPathsAsTheFileHasThem) {
+    const Workplace here;
+    const Outcome info = runPenumbra({"info", here.write("played.usda", R"(#usda 1.0
+(
+    metersPerUnit = 1
+    startTimeCode = 3
+    endTimeCode = 48
+    timeCodesPerSecond = 12
+)
+def Xform "World"
+{
+    def SphereLight "Bulb"
+    {
+        double3 xformOp:translate.timeSamples = { 3: (0, 0, 2), 48: (1, 0, 2) }
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }
+    def Cube "Guest"
+    {
+        token visibility.timeSamples = { 3: "invisible", 20: "inherited" }
+    }
+    def Cube "Wall"
+    {
+        double3 xformOp:translate = (0, 5, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }
+    def Camera "C"
+    {
+        double3 xformOp:translate = (0, -5, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }
+}
+)")});
+    EXPECT_EQ(info.exitCode, 0) << info.err;
+    for (const char* word : {"animation from frame 3 to 48, 12 a second\n",
+                             "  2 movable objects\n  /World/Bulb\n  /World/Guest (hidden)\n",
+                             "  /World/Bulb  ", "  1 cameras\n  /World/C\n"})
+        EXPECT_THAT(info.out, HasSubstr(word));
+    for (const char* twice : {"Bulb/Bulb", "Guest/Guest", "C/C"})
+        EXPECT_THAT(info.out, testing::Not(HasSubstr(twice)));
 }
 
 } // namespace

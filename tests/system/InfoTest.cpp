@@ -44,7 +44,7 @@ TEST_F(InfoAt, NamesTheSurfaceTheLightsAndWhatArrives) {
     for (const char* word : {"on / (what belongs to no object)", "0 mm away", "facing (0, 0, 1)",
                              "/Lamp", "indirect light"})
         EXPECT_THAT(info.out, HasSubstr(word));
-    const auto light = figures(info.out, "/Lamp/Lamp");
+    const auto light = figures(info.out, "/Lamp");
     ASSERT_EQ(light.size(), 4u) << info.out; // unoccluded, arrives, lost, percent
     EXPECT_GT(light[0], 1);
     EXPECT_EQ(light[1], light[0]);
@@ -70,7 +70,7 @@ def Cube "Board"
 )");
     const Outcome info = at("0.6,0.6,0", {"--element-size", "0.05", "--direct-only"});
     EXPECT_EQ(info.exitCode, 0) << info.err;
-    const auto light = figures(info.out, "/Lamp/Lamp"), board = figures(info.out, "to /Board");
+    const auto light = figures(info.out, "/Lamp"), board = figures(info.out, "to /Board");
     ASSERT_TRUE(light.size() == 4 && board.size() == 2) << info.out;
     EXPECT_EQ(light[1], 0);
     EXPECT_EQ(light[2], light[0]);

@@ -46,7 +46,7 @@ std::size_t cameraIndex(const PlacedScene& scene, const std::string& path,
     std::string known;
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
         const Placed<Camera>& camera = scene.cameras[i];
-        if (camera.path == path || camera.path == path + "/" + camera.node->name()) return i;
+        if (camera.path == path) return i;
         known += (known.empty() ? "" : ", ") + camera.path;
     }
     throw SceneFileError({file}, "no camera '" + path + "' (" +

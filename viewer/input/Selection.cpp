@@ -6,15 +6,6 @@
 
 namespace penumbra {
 
-namespace {
-
-std::shared_ptr<Light> findLight(const Scene& scene, const std::string& path) {
-    const std::vector<NodePtr> nodes = nodesAlong(*scene.root, path);
-    return nodes.empty() ? nullptr : std::dynamic_pointer_cast<Light>(nodes.back());
-}
-
-} // namespace
-
 Selection selectionOf(const Scene& scene, const PlacedScene& placed, const Touch& touch) {
     Selection selection;
     selection.object = touch.object;
@@ -23,22 +14,23 @@ Selection selectionOf(const Scene& scene, const PlacedScene& placed, const Touch
     selection.position = touch.position;
     selection.normal = touch.normal;
     selection.material = touch.material;
-    const std::vector<NodePtr> nodes = nodesAlong(*scene.root, selection.objectPath);
-    if (!nodes.empty()) selection.node = std::dynamic_pointer_cast<Transform>(nodes.back());
+    selection.node = findAt<Transform>(*scene.root, selection.objectPath);
     if (!selection.node) { // of what belongs to no object, only the lamp that was touched
-        if (const auto light = findLight(scene, touch.path)) selection.lights.push_back(light);
+        if (const auto light = findAt<Light>(*scene.root, touch.path))
+            selection.lights.push_back(light);
         return selection;
     }
     for (const auto& light : placed.lights)
         if (light.object == touch.object)
-            if (const auto node = findLight(scene, light.path)) selection.lights.push_back(node);
+            if (const auto node = findAt<Light>(*scene.root, light.path))
+                selection.lights.push_back(node);
     return selection;
 }
 
 std::vector<std::shared_ptr<Light>> allLights(const Scene& scene, const PlacedScene& placed) {
     std::vector<std::shared_ptr<Light>> lights;
     for (const auto& light : placed.lights)
-        if (const auto node = findLight(scene, light.path))
+        if (const auto node = findAt<Light>(*scene.root, light.path))
             if (std::find(lights.begin(), lights.end(), node) == lights.end())
                 lights.push_back(node);
     return lights;

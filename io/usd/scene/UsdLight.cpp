@@ -148,7 +148,8 @@ double tubeArea(const glm::dmat3& m, double radius, double length) {
 
 // The regular polygon that stands in for the circle has its area per length of side, hence the
 // light's flux: the corners lie outside the circle by (pi/n) / sin(pi/n).
-NodePtr makeTube(const std::string& name, double radius, double length, Rgb luminance) {
+NodePtr makeTube(const std::string& name, const std::string& material, double radius, double length,
+                 Rgb luminance) {
     const double corner = radius * (kPi / kTubeSides) / std::sin(kPi / kTubeSides);
     MeshData data;
     for (int i = 0; i < kTubeSides; ++i) {
@@ -161,10 +162,10 @@ NodePtr makeTube(const std::string& name, double radius, double length, Rgb lumi
         for (const int point : {2 * i, 2 * next, 2 * next + 1, 2 * i + 1})
             data.faceVertexIndices.push_back(point);
     }
-    auto material = std::make_shared<Material>(name);
-    material->setReflectance(Rgb());
-    material->setEmission(luminance);
-    data.materials.push_back(std::move(material));
+    auto paint = std::make_shared<Material>(material);
+    paint->setReflectance(Rgb());
+    paint->setEmission(luminance);
+    data.materials.push_back(std::move(paint));
     return std::make_shared<Mesh>(name, std::move(data));
 }
 
@@ -185,10 +186,9 @@ double usdLightArea(const UsdAttributes& light, const glm::dmat4& toWorld) {
     return tubeArea(linear, r, size("inputs:length", 1));
 }
 
-NodePtr makeUsdLight(const UsdAttributes& light, const glm::dmat4& toWorld,
+NodePtr makeUsdLight(const std::string& name, const UsdAttributes& light, const glm::dmat4& toWorld,
                      Diagnostics& diagnostics) {
     const std::string& type = light.prim().typeName;
-    const std::string& name = light.prim().name;
     const double area = usdLightArea(light, toWorld);
     if (!(area > 0) || !std::isfinite(area)) {
         diagnostics.warn(light.prim().location(), "a light without area left out");
@@ -205,7 +205,8 @@ NodePtr makeUsdLight(const UsdAttributes& light, const glm::dmat4& toWorld,
     const float radius = size("inputs:radius", 0.5);
     if (type == "DiskLight") return std::make_shared<Light>(name, DiskShape{radius}, luminance);
     if (type == "SphereLight") return std::make_shared<Light>(name, SphereShape{radius}, luminance);
-    return makeTube(name, double(radius), light.number("inputs:length", 1), luminance);
+    return makeTube(name, light.prim().name, double(radius), light.number("inputs:length", 1),
+                    luminance);
 }
 
 bool isUsdLightWithoutArea(std::string_view typeName) {

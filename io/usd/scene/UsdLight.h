@@ -32,8 +32,9 @@ Rgb usdLightLuminance(const UsdAttributes& light, double area, Diagnostics& diag
 double usdLightArea(const UsdAttributes& light, const glm::dmat4& toWorld);
 
 /// The node of a RectLight, DiskLight, SphereLight or CylinderLight (an open tube of 24 sides, as
-/// large as the cylinder, black and emitting outwards). Null, with a warning, if it has no area.
-NodePtr makeUsdLight(const UsdAttributes& light, const glm::dmat4& toWorld,
+/// large as the cylinder, black and emitting outwards). \param name of the node. Null, with a
+/// warning, if it has no area.
+NodePtr makeUsdLight(const std::string& name, const UsdAttributes& light, const glm::dmat4& toWorld,
                      Diagnostics& diagnostics);
 
 /// Lights at infinity and portals: understood, but without a place in the scene graph yet.

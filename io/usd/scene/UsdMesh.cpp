@@ -183,8 +183,8 @@ void addLight(std::vector<std::shared_ptr<Material>>& table, Rgb luminance) {
 
 } // namespace
 
-NodePtr makeUsdMesh(const UsdStage& stage, const UsdAttributes& prim, UsdPolygons polygons,
-                    const UsdInherited& inherited, UsdMaterials& materials,
+NodePtr makeUsdMesh(const std::string& name, const UsdStage& stage, const UsdAttributes& prim,
+                    UsdPolygons polygons, const UsdInherited& inherited, UsdMaterials& materials,
                     const std::optional<Rgb>& lightOf, Diagnostics& diagnostics) {
     Painter painter(prim, polygons, materials, diagnostics);
     painter.paintAll(inherited);
@@ -202,7 +202,7 @@ NodePtr makeUsdMesh(const UsdStage& stage, const UsdAttributes& prim, UsdPolygon
     if (lightOf) addLight(data.materials, *lightOf);
     if (data.materials.size() > 1)
         for (const std::size_t f : faceOf) data.faceMaterial.push_back(faceMaterial[f]);
-    return std::make_shared<Mesh>(prim.prim().name, std::move(data));
+    return std::make_shared<Mesh>(name, std::move(data));
 }
 
 std::optional<Rgb> usdConstantColour(const UsdAttributes& prim) {

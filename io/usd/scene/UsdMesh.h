@@ -23,11 +23,12 @@ struct UsdInherited {
 /// 3. primvars:displayColor: constant, uniform, or the mean of the face's corners,
 /// 4. the neutral material.
 ///
+/// \param name     of the node
 /// \param lightOf  luminance to add if the mesh is a light (MeshLightAPI): the material's own glow
 /// tints it,
 ///                 if there is one
-NodePtr makeUsdMesh(const UsdStage& stage, const UsdAttributes& prim, UsdPolygons polygons,
-                    const UsdInherited& inherited, UsdMaterials& materials,
+NodePtr makeUsdMesh(const std::string& name, const UsdStage& stage, const UsdAttributes& prim,
+                    UsdPolygons polygons, const UsdInherited& inherited, UsdMaterials& materials,
                     const std::optional<Rgb>& lightOf, Diagnostics& diagnostics);
 
 /// The prim's own displayColor if it is constant: what it hands down to its descendants.

@@ -83,7 +83,9 @@ private:
         }
         Place place = clusterOf(attributes, parent);
         const auto transform = makeTransform(attributes, parent, place);
-        const NodePtr leaf = place.drawn ? makeLeaf(attributes, place) : nullptr;
+        const bool shares = transform || hasChildren(prim); // its path, with what holds it
+        const NodePtr leaf =
+            place.drawn ? makeLeaf(shares ? std::string() : prim.name, attributes, place) : nullptr;
         if (leaf && isUsdAreaLight(prim.typeName)) tracks_.addLight(leaf, prim, place.toWorld);
         if (const auto camera = std::dynamic_pointer_cast<Camera>(leaf))
             tracks_.addCamera(camera, prim);
@@ -125,7 +127,7 @@ private:
             local.animated || comesAndGoes(prim) || attributes.flag("penumbra:movable", false);
         if (prim.typeName != "Xform" && !local.authored && !movable) return nullptr;
         if (local.resetsStack) local.matrix = relativeToParent(local, parent.toWorld);
-        auto transform = std::make_shared<Transform>(prim.name);
+        auto transform = std::make_shared<Transform>(comesAndGoes(prim) ? "" : prim.name);
         transform->setMatrix(local.matrix);
         transform->setMovable(movable);
         place.toWorld = parent.toWorld * local.matrix;
@@ -134,16 +136,15 @@ private:
         return transform;
     }
 
-    NodePtr makeLeaf(const UsdAttributes& attributes, const Place& place) {
+    NodePtr makeLeaf(const std::string& name, const UsdAttributes& attributes, const Place& place) {
         const UsdPrim& prim = attributes.prim();
         const std::string& type = prim.typeName;
-        if (type == "Mesh") return makeMesh(attributes, place);
+        if (type == "Mesh") return makeMesh(name, attributes, place);
         if (isUsdGprim(type))
-            return makeUsdMesh(stage_, attributes, makeUsdGprim(attributes, warnings_),
+            return makeUsdMesh(name, stage_, attributes, makeUsdGprim(attributes, warnings_),
                                place.inherited, materials_, std::nullopt, warnings_);
-        if (isUsdAreaLight(type)) return makeUsdLight(attributes, place.toWorld, warnings_);
-        if (type == "Camera")
-            return std::make_shared<Camera>(prim.name, usdLens(attributes, warnings_));
+        if (isUsdAreaLight(type)) return makeUsdLight(name, attributes, place.toWorld, warnings_);
+        if (type == "Camera") return std::make_shared<Camera>(name, usdLens(attributes, warnings_));
         if (isUsdLightWithoutArea(type) || isUnsupportedShape(type))
             warnings_.warn(prim.location(), type + " not supported yet: left out");
         else if (!type.empty() && type != "Scope" && type != "Xform")
@@ -151,7 +152,7 @@ private:
         return nullptr;
     }
 
-    NodePtr makeMesh(const UsdAttributes& attributes, const Place& place) {
+    NodePtr makeMesh(const std::string& name, const UsdAttributes& attributes, const Place& place) {
         const UsdPrim& prim = attributes.prim();
         if (UsdStage::animated(prim, "points"))
             warnings_.warn(attributes.location("points"), "animated points are held");
@@ -161,8 +162,8 @@ private:
             const double area = areaOf(polygons, glm::dmat3(place.toWorld));
             light = usdLightLuminance(attributes, area, warnings_);
         }
-        return makeUsdMesh(stage_, attributes, std::move(polygons), place.inherited, materials_,
-                           light, warnings_);
+        return makeUsdMesh(name, stage_, attributes, std::move(polygons), place.inherited,
+                           materials_, light, warnings_);
     }
 
     bool hasChildren(const UsdPrim& prim) const {

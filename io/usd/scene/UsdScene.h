@@ -45,8 +45,9 @@ struct LoadedScene {
 /// | Camera | Camera |
 /// | Material with a UsdPreviewSurface | Material, shared |
 ///
-/// Each node carries its prim's name, so that paths are those of the file. A mesh, light or camera
-/// with xformOps of its own becomes a Transform that holds the node under the same name. What is
+/// Each prim's first node carries its name, and what else comes of the prim has none, so that paths
+/// are those of the file: a mesh, light or camera with xformOps of its own becomes a Transform that
+/// holds a nameless node. What is
 /// inactive, invisible, abstract, only `over`, or of purpose proxy or guide is left out. A
 /// Transform is movable if its ops change with time or `bool penumbra:movable` says so. The default
 /// prim's `double penumbra:patchSize` and `penumbra:elementSize`, in units of the file, `double

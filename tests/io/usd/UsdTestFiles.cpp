@@ -53,13 +53,10 @@ std::map<std::string, PlacedNode> nodesByPath(const Scene& scene) {
 }
 
 const PlacedNode* leafOf(const std::map<std::string, PlacedNode>& nodes, const std::string& path) {
-    for (const std::string& place : {path, path + path.substr(path.rfind('/'))}) {
-        const auto found = nodes.find(place);
-        if (found == nodes.end()) return nullptr;
-        const PlacedNode& placed = found->second;
-        if (placed.mesh() || placed.light() || placed.camera()) return &placed;
-    }
-    return nullptr;
+    const auto found = nodes.find(path);
+    if (found == nodes.end()) return nullptr;
+    const PlacedNode& placed = found->second;
+    return placed.mesh() || placed.light() || placed.camera() ? &placed : nullptr;
 }
 
 std::size_t countOf(const LoadedScene& loaded, const std::string& text) {

@@ -36,8 +36,7 @@ struct PlacedNode {
 /// All nodes by their path.
 std::map<std::string, PlacedNode> nodesByPath(const Scene& scene);
 
-/// The mesh, light or camera that a prim became: the node at its path, or, if that is a Transform
-/// for the prim's own xformOps, the node of the same name below it. Null if there is none.
+/// The mesh, light or camera that a prim became. Null if there is none.
 const PlacedNode* leafOf(const std::map<std::string, PlacedNode>& nodes, const std::string& path);
 
 /// How often a diagnostic with that text was raised.

@@ -151,7 +151,7 @@ TEST_F(UsdRecordingTest, PlaysWhatWasMovedWhereAndWhenItWasMoved) {
     const glm::dmat4 after = placeScene(*scene.scene).objects[1].toWorld;
     sample(2);
     sample(3);
-    const std::string path = "/World/Group/Seat/Seat";
+    const std::string path = "/World/Group/Seat";
     const auto toWorld = [&](double seconds) {
         const LoadedScene loaded = replay(seconds);
         return meshAt(placeScene(*loaded.scene), path).toWorld;
@@ -201,8 +201,8 @@ TEST_F(UsdRecordingTest, PlaysRepaintedMaterialsAndColoursOfMeshesWithoutOne) {
         if (address.shader.empty() && address.meshes.at(0) == "/World/Bin")
             address.material->setReflectance({0.1f, 0.8f, 0.1f});
     sample(2);
-    EXPECT_EQ(colourOf(0, "/World/Group/Seat/Seat"), before) << "metallic and all";
-    EXPECT_EQ(colourOf(2, "/World/Group/Seat/Seat"), Rgb(0.9f, 0.1f, 0.2f));
+    EXPECT_EQ(colourOf(0, "/World/Group/Seat"), before) << "metallic and all";
+    EXPECT_EQ(colourOf(2, "/World/Group/Seat"), Rgb(0.9f, 0.1f, 0.2f));
     EXPECT_EQ(colourOf(0, "/World/Bin"), Rgb(0.5f, 0.1f, 0.1f));
     EXPECT_EQ(colourOf(2, "/World/Bin"), Rgb(0.1f, 0.8f, 0.1f));
     EXPECT_EQ(colourOf(2, "/World/Stone"), Rgb(0.5f)) << "untouched";
@@ -238,7 +238,7 @@ TEST_F(UsdRecordingTest, WhatTheFileItselfMovesStandsAsItStoodInTheSession) {
     text.replace(text.find(still), still.size(),
                  "double3 xformOp:translate.timeSamples = { 1: (10, 20, 30), 100: (99, 20, 30) }");
     open(text);
-    const auto path = "/World/Group/Seat/Seat";
+    const auto path = "/World/Group/Seat";
     const glm::dmat4 stood = meshAt(placeScene(*scene.scene), path).toWorld;
     sample(0);
     sample(2);
@@ -253,7 +253,7 @@ TEST_F(UsdRecordingTest, ShearedAndMirroredPlacesAreWrittenAsMatrices) {
     sheared[1] += 0.5 * sheared[0];
     sheared[2] = -sheared[2];
     seat.setMatrix(sheared);
-    const auto path = "/World/Group/Seat/Seat";
+    const auto path = "/World/Group/Seat";
     sample(2);
     const LoadedScene loaded = replay(2);
     EXPECT_LT(distance(meshAt(placeScene(*loaded.scene), path).toWorld,

@@ -1,5 +1,7 @@
 #include "tests/io/usd/UsdTestFiles.h"
 
+#include "scenegraph/Find.h"
+#include "scenegraph/Objects.h"
 #include "scenegraph/Transform.h"
 
 #include <gtest/gtest.h>
@@ -34,15 +36,17 @@ TEST(UsdScene, PathsAreThoseOfTheFile) {
 TEST(UsdScene, ALeafWithItsOwnPlaceIsHeldByATransform) {
     const LoadedScene loaded =
         loadText("(metersPerUnit = 1)\ndef Camera \"c\"\n{\n" + kMoved + "}\n");
-    const auto nodes = nodesByPath(*loaded.scene);
-    EXPECT_TRUE(dynamic_cast<const Transform*>(nodes.at("/c").node));
-    ASSERT_TRUE(nodes.at("/c/c").camera());
-    EXPECT_EQ(glm::dvec3(nodes.at("/c/c").toWorld[3]), glm::dvec3(1, 2, 3));
+    EXPECT_TRUE(findAt<Transform>(*loaded.scene->root, "/c"));
+    const PlacedScene placed = placeScene(*loaded.scene);
+    ASSERT_EQ(placed.cameras.size(), 1u);
+    EXPECT_EQ(placed.cameras[0].path, "/c"); // as the file has it
+    EXPECT_EQ(glm::dvec3(placed.cameras[0].toWorld[3]), glm::dvec3(1, 2, 3));
 }
 
 TEST(UsdScene, AMeshWithChildrenIsHeldByAGroup) {
     const LoadedScene loaded = loadText("def Cube \"c\"\n{\n def Sphere \"s\"\n {\n }\n}\n");
-    EXPECT_EQ(paths(loaded), (Paths{"/", "/c", "/c/c", "/c/s"}));
+    EXPECT_EQ(paths(loaded), (Paths{"/", "/c", "/c/s"}));
+    EXPECT_EQ(nodesAt(*loaded.scene->root, "/c").size(), 2u);
 }
 
 TEST(UsdScene, TheWorldIsInMetres) {
