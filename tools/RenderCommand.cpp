@@ -83,7 +83,7 @@ FrameLayers draw(const RenderCommand& command, SceneSolution& solution, const Vi
         return traceFrame(solution.patches(), solution.rays(), solution.lighting(), view,
                           command.width, command.height, options);
     }
-    OffscreenContext context;
+    OffscreenContext context(std::size_t(command.width) * std::size_t(command.height));
     Renderer renderer;
     const LitBranch lit(solution.patches(), solution.lighting());
     return renderFrame(context, renderer, lit, view, command.width, command.height);

@@ -1,3 +1,4 @@
+#include "base/MemoryError.h"
 #include "io/image/UnfinishedFile.h"
 #include "tools/Commands.h"
 #include "tools/UnknownWords.h"
@@ -8,12 +9,14 @@
 #include <cstdio>
 #include <exception>
 #include <span>
+#include <system_error>
 
 int main(int argc, char** argv) {
     // A full disk or a closed pipe is told by the failing write, not by a signal.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
     penumbra::removeUnfinishedFilesOnSignals();
+    penumbra::spareAddressSpaceIfLimited();
     CLI::App app{
         "Penumbra: soft, physically right light for scenes in which things move.\n"
         "Reads USD text (.usda), solves radiosity, shows it in a window or writes lit frames.\n",
@@ -42,7 +45,10 @@ int main(int argc, char** argv) {
             std::fprintf(stderr, "%s\n", unknown.c_str());
         return 2;
     } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "penumbra: error: out of memory (try a larger --element-size)\n");
+        std::fprintf(stderr, "%s\n", penumbra::MemoryError("for the scene").what());
+        return 1;
+    } catch (const std::system_error&) { // of std::thread: files are told as Error
+        std::fprintf(stderr, "%s\n", penumbra::MemoryError("for another thread").what());
         return 1;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "%s\n", error.what());

@@ -94,7 +94,7 @@ void LightingClient::launch() {
     } catch (const Error& error) {
         failed(error.what());
     } catch (const std::bad_alloc&) {
-        failed("out of memory");
+        failed("memory is short (allow more: ulimit -v)");
     }
 }
 

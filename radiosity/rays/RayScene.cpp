@@ -2,6 +2,7 @@
 
 #include "base/Bits.h"
 #include "base/Error.h"
+#include "base/MemoryError.h"
 #include "radiosity/rays/Margins.h"
 #include "radiosity/rays/Traceable.h"
 
@@ -179,6 +180,7 @@ struct RayScene::Impl {
     };
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
+    bool broken = false;
     std::vector<Member> members; // one an object; geometries point to them
 
     Impl() {
@@ -189,8 +191,9 @@ struct RayScene::Impl {
 #else
         device = rtcNewDevice(nullptr);
 #endif
-        if (!device)
+        if (!device && rtcGetDeviceError(nullptr) == RTC_ERROR_UNSUPPORTED_CPU)
             throw Error("ray tracing: Embree can't start on this processor (SSE2 is needed)");
+        if (!device) throw MemoryError("for ray tracing");
         scene = newScene();
     }
     RTCScene newScene() const {
@@ -200,7 +203,15 @@ struct RayScene::Impl {
         rtcSetSceneBuildQuality(made, RTC_BUILD_QUALITY_LOW);
         return made;
     }
+    /// Embree says that something went wrong, and what it holds is half built. Its release would
+    /// end the program where memory is short (it allocates, and throws in destructors): so it is
+    /// left to the end of the process.
+    [[noreturn]] void fail() {
+        broken = true;
+        throw MemoryError("for ray tracing");
+    }
     ~Impl() {
+        if (broken) return;
         for (const Member& member : members) {
             if (member.alone) rtcReleaseScene(member.alone);
             if (member.geometry) rtcReleaseGeometry(member.geometry);
@@ -221,7 +232,7 @@ struct RayScene::Impl {
         void* indices =
             rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                     3 * sizeof(std::uint32_t), mesh.triangles.size());
-        if (!vertices || !indices) throw Error("ray tracing: not enough memory for the scene");
+        if (!vertices || !indices) fail();
         std::memcpy(vertices, mesh.vertices.data(), mesh.vertices.size() * sizeof(glm::vec3));
         std::memcpy(indices, mesh.triangles.data(),
                     mesh.triangles.size() * 3 * sizeof(std::uint32_t));
@@ -285,8 +296,7 @@ void RayScene::commit() {
         rtcCommitScene(member.alone);
         member.moved = false;
     }
-    if (rtcGetDeviceError(impl_->device) != RTC_ERROR_NONE)
-        throw Error("ray tracing: Embree could not build the scene (out of memory?)");
+    if (rtcGetDeviceError(impl_->device) != RTC_ERROR_NONE) impl_->fail();
 }
 
 RayScene::~RayScene() = default;

@@ -30,6 +30,8 @@ void limit(int resource, rlim_t value) {
     dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
     limit(RLIMIT_CPU, limits.cpuSeconds);
     limit(RLIMIT_CORE, 0);
+    if (limits.addressBytes) limit(RLIMIT_AS, *limits.addressBytes);
+    alarm(limits.seconds); // the program that it becomes keeps it
     if (limits.fileBytes) limit(RLIMIT_FSIZE, *limits.fileBytes);
     execv(PENUMBRA_PROGRAM, arguments.data());
     _exit(127);

@@ -17,8 +17,10 @@ struct Outcome {
 };
 
 struct RunLimits {
-    std::optional<std::size_t> fileBytes = {}; ///< no file may grow beyond this: a full disk
-    unsigned cpuSeconds = 60;                  ///< then it is killed
+    std::optional<std::size_t> fileBytes = {};    ///< no file may grow beyond this: a full disk
+    std::optional<std::size_t> addressBytes = {}; ///< as `ulimit -v`
+    unsigned seconds = 280;                       ///< then it is killed: it may wait for ever
+    unsigned cpuSeconds = 60;                     ///< then it is killed
     std::string endWhenItWritesInto = {}; ///< gets SIGTERM when it creates a file in this folder
 };
 

@@ -1,6 +1,7 @@
 #include "viewer/gl/OffscreenContext.h"
 
 #include "base/Error.h"
+#include "base/MemoryError.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -112,7 +113,8 @@ struct OffscreenContext::Impl {
     }
 };
 
-OffscreenContext::OffscreenContext() : impl_(std::make_unique<Impl>()) {
+OffscreenContext::OffscreenContext(std::size_t pixels) : impl_(std::make_unique<Impl>()) {
+    requireMemoryToDraw(pixels);
     requireLibrary({"libEGL.so.1"});
     requireLibrary({"libOpenGL.so.0", "libGL.so.1"});
     for (EGLDisplay display : candidateDisplays())

@@ -1,6 +1,7 @@
 // OpenGL without a window.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 
@@ -14,8 +15,9 @@ namespace penumbra {
 class OffscreenContext {
 public:
     /// Creates the context and makes it current in this thread.
+    /// \param pixels of the picture that will be drawn: whether there is memory is asked first
     /// \throws Error one line that says what is missing and what to install
-    OffscreenContext();
+    explicit OffscreenContext(std::size_t pixels = 0);
     ~OffscreenContext();
     OffscreenContext(const OffscreenContext&) = delete;
     OffscreenContext& operator=(const OffscreenContext&) = delete;

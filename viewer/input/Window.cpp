@@ -1,6 +1,7 @@
 #include "viewer/input/Window.h"
 
 #include "base/Error.h"
+#include "base/MemoryError.h"
 
 #include <epoxy/gl.h>
 
@@ -119,6 +120,7 @@ struct Window::Impl {
 };
 
 Window::Impl::Impl(const WindowOptions& options) {
+    requireMemoryToDraw(std::size_t(options.width) * std::size_t(options.height));
     const auto tryWith = [&](bool robust) {
         glfwDefaultWindowHints();
         glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);

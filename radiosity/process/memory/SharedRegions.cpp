@@ -135,7 +135,8 @@ public:
                                                       "-" + number + "-" + random,
                                                   std::move(file));
         } catch (const ipc::interprocess_exception& error) {
-            fail(std::to_string((bytes >> 20) + 1) + " MB: " + error.what());
+            fail(std::to_string((bytes >> 20) + 1) +
+                 " MB: " + reasonOf(error.get_native_error(), FileUse::write));
         }
     }
 
