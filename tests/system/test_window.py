@@ -334,6 +334,7 @@ def main():
     OUTPUT.mkdir(parents=True)
     with xwindow.Display() as display:
         recording_over_a_layer(display)
+        xwindow.remember_size(OUTPUT / "config", 1280, 800)
         walk_about(display)
         overlays(display)
         take, last = office_session(display)

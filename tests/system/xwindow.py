@@ -75,6 +75,15 @@ class Display:
             file.writelines(rows)
 
 
+def remember_size(config, width, height):
+    """Walkthroughs with this $XDG_CONFIG_HOME open windows of this size, as if the last had been."""
+    settings = pathlib.Path(config) / "penumbra/viewer.conf"
+    settings.parent.mkdir(parents=True, exist_ok=True)
+    others = [line for line in (settings.read_text() if settings.exists() else "").splitlines()
+              if not line.startswith(("width", "height"))]
+    settings.write_text("\n".join([*others, f"width = {width}", f"height = {height}", ""]))
+
+
 class Program:
     """A running program; what it says to standard error goes to a file."""
 

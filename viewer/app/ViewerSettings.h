@@ -10,7 +10,7 @@
 namespace penumbra {
 
 struct ViewerSettings {
-    int width = 1280, height = 800; ///< of the window, at 96 dpi
+    int width = 1136, height = 639; ///< of the window, at 96 dpi: fits a screen of 1280 x 720
     bool panels = true;
     ToneStyle tone = ToneStyle::agx;
     float compensation = 0;  ///< of exposure [stops]

@@ -24,15 +24,15 @@ constexpr std::array kHelp = std::to_array<HelpLine>({
     {"Edit", "... with Ctrl", "turn"},
     {"Edit", "arrows, Page up, down", "nudge what is selected by 1 cm (Shift: 10 cm)"},
     {"Edit", "R  Shift+R", "turn it by 15 degrees"},
-    {"Edit", "-  +", "dim or brighten the selected lamp, or all lamps, by a third of a stop"},
+    {"Edit", "-  +", "dim or brighten the selected lamp, or all lamps, by a quarter"},
     {"Edit", "L", "the lamp off and on"},
     {"Edit", "Ctrl+Z  Ctrl+Shift+Z", "undo, redo"},
     {"Edit", "Esc", "put back what is being dragged; select nothing"},
     {"View", "[  ]", "darker, brighter (exposure)"},
-    {"View", "\\", "exposure by itself, or fixed"},
+    {"View", "\\", "automatic exposure, or fixed"},
     {"View", "T", "next tone curve: AgX, ACES, sRGB"},
-    {"View", "O  Shift+O", "next, previous overlay: patch mesh, age of the light,"},
-    {"View", "...", "open work, its worth, blockers (why it is dark at the pointer)"},
+    {"View", "O  Shift+O", "show on top: mesh, age of the light, light still to compute,"},
+    {"View", "...", "what is computed first, why it is dark at the pointer"},
     {"View", "N", "panels on, off"},
     {"View", "F11", "full screen"},
     {"View", "?", "this help"},
@@ -40,7 +40,7 @@ constexpr std::array kHelp = std::to_array<HelpLine>({
     {"Scene", "U", "update the light now"},
     {"Scene", "P", "play the file's animation, pause"},
     {"Scene", "F5", "read the file again; also when it has been saved"},
-    {"Scene", "F12", "save the picture as EXR and PNG"},
+    {"Scene", "F12", "save the picture: PNG as shown, EXR with its light"},
 });
 
 std::optional<Command> ofText(char32_t character) {

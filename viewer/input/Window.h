@@ -14,7 +14,7 @@ struct GLFWwindow;
 namespace penumbra {
 
 struct WindowOptions {
-    int width = 1280, height = 800; ///< [screen coordinates]
+    int width = 1136, height = 639; ///< [screen coordinates]
     std::string title = "Penumbra";
     bool vsync = true;
 };

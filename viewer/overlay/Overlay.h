@@ -12,12 +12,12 @@ namespace penumbra {
 class LitGeometry;
 
 enum class Overlay : std::uint8_t { none, mesh, age, dirtyBlocks, importance, blockers };
-inline constexpr const char* kOverlayNames[] = {"none",
-                                                "patch mesh",
+inline constexpr const char* kOverlayNames[] = {"nothing",
+                                                "mesh",
                                                 "age of the light",
-                                                "open work",
-                                                "importance of open work",
-                                                "blockers: why it is dark"};
+                                                "light still to compute",
+                                                "what is computed first",
+                                                "why it is dark"};
 
 /// Whether it shows what RadiosityNode::watchDirty() asks for.
 constexpr bool watchesDirty(Overlay overlay) {

@@ -35,7 +35,7 @@ std::string lux(float value) {
 
 /// What belongs to no object has the path "/".
 std::string nameOf(const std::string& path) {
-    return path == "/" ? "the fixed part" : path;
+    return path == "/" ? "what can't be moved" : path;
 }
 
 } // namespace
@@ -45,8 +45,8 @@ OverlayView meshView() {
     view.picture.mesh = true;
     view.legend.title = "Mesh";
     view.legend.kinds = {
-        {kindColour(OverlayPass::kPatchKind), "patches, which send light"},
-        {kindColour(OverlayPass::kElementKind), "elements, at whose corners it is received"}};
+        {kindColour(OverlayPass::kPatchKind), "patches: each passes light on"},
+        {kindColour(OverlayPass::kElementKind), "elements: light is computed at their corners"}};
     return view;
 }
 
@@ -71,10 +71,10 @@ OverlayView dirtyView(std::span<const LitObject> objects, WorkOfObjects work) {
         std::size_t blocks = 0;
     };
     std::array<Shown, 4> kinds{
-        {{DirtyStatus::Kind::lights, 0, "light of lamps is open"},
-         {DirtyStatus::Kind::coming, 3, "worked on, about to be shown"},
-         {DirtyStatus::Kind::patches, 1, "light from patches is open"},
-         {DirtyStatus::Kind::deferred, 6, "put off: too little to matter yet"}}};
+        {{DirtyStatus::Kind::lights, 0, "light straight from lamps"},
+         {DirtyStatus::Kind::coming, 3, "computed, about to be shown"},
+         {DirtyStatus::Kind::patches, 1, "light that surfaces pass on"},
+         {DirtyStatus::Kind::deferred, 6, "deferred: too little to matter yet"}}};
     OverlayView view;
     forEachBlock(objects, work, [&](const LitGeometry& geometry, const DirtyStatus& block) {
         glm::u8vec4 colour(0);
@@ -85,7 +85,7 @@ OverlayView dirtyView(std::span<const LitObject> objects, WorkOfObjects work) {
             }
         view.picture.blocks[&geometry].push_back(colour);
     });
-    view.legend.title = "Open work [blocks of 64 vertices]";
+    view.legend.title = "Light still to compute [pieces of 64 points]";
     for (const Shown& shown : kinds)
         view.legend.kinds.push_back(
             {kindColour(shown.colour), std::to_string(shown.blocks) + "  " + shown.label});
@@ -106,15 +106,16 @@ OverlayView importanceView(std::span<const LitObject> objects, WorkOfObjects wor
             block.priority > 0 ? blockColour(viridis(scale.at(double(block.priority))))
                                : glm::u8vec4(0));
     });
-    view.legend.title =
-        "Worth of open work [visible steps x pixel / ray], " + std::to_string(open) + " blocks";
+    view.legend.title = "What is computed first: " + std::to_string(open) + " pieces wait";
+    view.legend.lines = {
+        "by what can be seen of it for the work [just visible steps x pixels / ray]"};
     view.legend.ticks = ticksOf(scale);
     return view;
 }
 
 OverlayView noImportanceView() {
     OverlayView view;
-    view.legend.title = "No importance: the order of work is another one";
+    view.legend.title = "Only when what I see is computed first (panel Light)";
     return view;
 }
 

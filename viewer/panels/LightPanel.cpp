@@ -1,4 +1,5 @@
 // Radiosity: when it is updated, how fine it is, how far it is, what it may be wrong by.
+#include "viewer/panels/LightWords.h"
 #include "viewer/panels/PanelState.h"
 #include "viewer/panels/Panels.h"
 
@@ -11,34 +12,39 @@ namespace penumbra {
 
 namespace {
 
-constexpr const char* kTriggers[] = {"on grab and release", "on demand (U)", "continuously"};
-constexpr const char* kPolicies[] = {"what is seen first", "lamp by lamp", "at random"};
+constexpr const char* kTriggers[] = {"when I grab or let go", "when I press U", "all the time"};
+constexpr const char* kPolicies[] = {"what I see", "one lamp by one", "anything"};
+
+/// What the last thing that was drawn means, for those who point at it.
+void explain(const char* words) {
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", words);
+}
 
 void drawCertificate(const PanelState& state) {
     const RadiosityState& light = state.light;
     if (!(light.meanRadiosity > 0)) return;
-    const double share = light.certificate / light.meanRadiosity;
-    if (share > 1) // while a scene is young: nothing is bounded yet that anybody could use
-        ImGui::TextUnformatted("certificate: above the mean light");
-    else
-        ImGui::TextWrapped("certificate: %.2g %% of the mean light", 100 * share);
+    ImGui::TextWrapped("%s", errorWords(light).c_str());
     if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("What the picture may still be wrong by, of the meshed scene: %.3g lm/m2",
+        ImGui::SetTooltip("How far the light of any surface may be from its final value: at most\n"
+                          "%.3g lm/m2 (the certificate). It shrinks while light is computed.",
                           light.certificate);
     const History& history = state.certificates;
     if (history.size() > 1)
         ImGui::PlotLines("##certificates", history.values().data(), int(history.size()),
-                         int(history.oldest()), "log of the certificate, last minute", -4, 1,
+                         int(history.oldest()), "what it may be wrong by, last minute", -4, 1,
                          {ImGui::GetContentRegionAvail().x, 3.5f * ImGui::GetFontSize()});
 }
 
 void drawSizes(PanelState& state) {
-    ImGui::SliderFloat("patch", &state.patchSize, 0, 1, state.patchSize > 0 ? "%.2f m" : "chosen");
-    ImGui::SliderFloat("element", &state.elementSize, 0, 0.25f,
-                       state.elementSize > 0 ? "%.3f m" : "chosen");
-    if (ImGui::Button("mesh anew")) state.wantsRestart = true;
+    ImGui::SliderFloat("patch size", &state.patchSize, 0, 1,
+                       state.patchSize > 0 ? "%.2f m" : "automatic");
+    explain("Surfaces pass light on in patches of this size.\nSmaller: finer and slower.");
+    ImGui::SliderFloat("element size", &state.elementSize, 0, 0.25f,
+                       state.elementSize > 0 ? "%.3f m" : "automatic");
+    explain("Surfaces show light in elements of this size.\nSmaller: sharper shadows, slower.");
+    if (ImGui::Button("use these sizes")) state.wantsRestart = true;
     ImGui::SameLine();
-    if (ImGui::Button("read the file again (F5)")) state.wantsReload = true;
+    if (ImGui::Button("reload file (F5)")) state.wantsReload = true;
 }
 
 } // namespace
@@ -46,21 +52,25 @@ void drawSizes(PanelState& state) {
 void drawLightPanel(PanelState& state) {
     const RadiosityState& light = state.light;
     int trigger = int(state.trigger);
-    if (ImGui::Combo("update", &trigger, kTriggers, int(std::size(kTriggers))))
+    if (ImGui::Combo("update light", &trigger, kTriggers, int(std::size(kTriggers))))
         state.trigger = Trigger(trigger);
+    explain("When the light follows what you change.");
     int policy = int(state.policy);
-    if (ImGui::Combo("order", &policy, kPolicies, int(std::size(kPolicies))))
+    if (ImGui::Combo("compute first", &policy, kPolicies, int(std::size(kPolicies))))
         state.policy = PolicyKind(policy);
+    explain("The result is the same; what is right first is not.");
     if (light.held > 0) {
-        ImGui::Text("%zu edits held back", light.held);
+        ImGui::Text("%zu changes wait", light.held);
         ImGui::SameLine();
         if (ImGui::SmallButton("update now")) state.wantsUpdate = true;
     }
     if (light.phase == RadiosityState::Phase::solving && !light.task.empty() &&
         light.solution == SolutionState::working && !light.stopped)
         ImGui::ProgressBar(float(light.progress), {-1, 0}, light.task.c_str());
-    ImGui::TextWrapped("open work: %zu blocks, %zu edits; light is %.1f s old", light.dirtyBlocks,
-                       light.queued, light.age);
+    ImGui::TextWrapped("still to compute: %zu pieces, %zu changes", light.dirtyBlocks,
+                       light.queued);
+    explain("A piece is the light of up to 64 points of a surface.");
+    if (light.age > 0) ImGui::Text("the light is %.1f s behind", light.age);
     drawCertificate(state);
     drawSizes(state);
 }

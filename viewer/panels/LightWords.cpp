@@ -1,16 +1,19 @@
 #include "viewer/panels/LightWords.h"
 
+#include <cstdio>
+
 namespace penumbra {
 
 namespace {
 
 std::string solutionWords(const RadiosityState& light) {
-    if (light.stopped) return "light stopped at its limit of work";
+    if (light.stopped) return "stopped: the light gets no better";
     if (light.solution == SolutionState::working)
-        return (light.task.empty() ? "light" : light.task) + " " +
+        return "computing " + (light.task.empty() ? "light" : light.task) + ": " +
                std::to_string(int(100 * light.progress)) + " %";
-    if (light.held > 0) return "waiting for an update (U)";
-    return std::string("light ") + nameOf(light.solution);
+    if (light.held > 0) return "the light waits for you: press U to update it";
+    return light.solution == SolutionState::exact ? "light complete"
+                                                  : "light good, last details to come";
 }
 
 } // namespace
@@ -19,17 +22,27 @@ std::string lightWords(const RadiosityState& light) {
     using Phase = RadiosityState::Phase;
     switch (light.phase) {
     case Phase::off:
-        return "light is off";
+        return "the light is not computed";
     case Phase::connecting:
-        return "starting the light";
+        return "starting to compute light";
     case Phase::meshing:
-        return "cutting surfaces into patches";
+        return "dividing surfaces into small pieces";
     case Phase::solving:
         return solutionWords(light);
     case Phase::failed:
         break;
     }
-    return "the light failed";
+    return "the light could not be computed";
+}
+
+std::string errorWords(const RadiosityState& light) {
+    if (!(light.meanRadiosity > 0)) return {};
+    const double share = light.certificate / light.meanRadiosity;
+    if (share > 1) return "may still be wrong by more than the mean light";
+    char text[80];
+    std::snprintf(text, sizeof text, "may still be wrong by %.2g %% of the mean light",
+                  100 * share);
+    return text;
 }
 
 } // namespace penumbra

@@ -22,7 +22,7 @@ void drawPanels(PanelState& state) {
         if (ImGui::CollapsingHeader("View")) drawViewPanel(state);
         if (state.walk && ImGui::CollapsingHeader("Selection", ImGuiTreeNodeFlags_DefaultOpen))
             drawSelectionPanel(state);
-        if (ImGui::CollapsingHeader("Time")) drawTimePanel(state);
+        if (ImGui::CollapsingHeader("Speed")) drawTimePanel(state);
         ImGui::PopItemWidth();
     }
     ImGui::End();

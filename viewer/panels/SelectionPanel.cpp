@@ -20,7 +20,8 @@ bool editLuminance(const char* name, Rgb& nits) {
     float level = most;
     ImGui::PushID(name);
     bool edited = ImGui::ColorEdit3("colour", colour, ImGuiColorEditFlags_Float);
-    edited |= ImGui::DragFloat("nit", &level, std::max(1.0f, 0.01f * most), 0, 1e6f, "%.0f");
+    edited |=
+        ImGui::DragFloat("brightness", &level, std::max(1.0f, 0.01f * most), 0, 1e6f, "%.0f cd/m2");
     ImGui::PopID();
     const float largest = std::max({colour[0], colour[1], colour[2], 1e-6f});
     if (edited) nits = Rgb(colour[0], colour[1], colour[2]) * (level / largest);
@@ -40,7 +41,7 @@ void editPaint(Walkthrough& walk, const std::shared_ptr<Material>& material) {
     const PaintEdit::Paint before{material->reflectance(), material->emission()};
     PaintEdit::Paint after = before;
     float colour[3] = {before.reflectance.r, before.reflectance.g, before.reflectance.b};
-    ImGui::Text("paint %s", material->name().c_str());
+    ImGui::Text("surface %s", material->name().c_str());
     bool edited = ImGui::ColorEdit3("reflects", colour, ImGuiColorEditFlags_Float);
     if (edited) {
         const auto possible = [](float c) {
@@ -53,7 +54,7 @@ void editPaint(Walkthrough& walk, const std::shared_ptr<Material>& material) {
 }
 
 void explainLight(const Walkthrough& walk, const Selection& selection) {
-    if (!ImGui::TreeNode("why is it as dark here")) return;
+    if (!ImGui::TreeNode("why is it this dark here?")) return;
     constexpr int kMost = 8;
     int lines = 0;
     for (const EmitterAccount& light :
@@ -64,7 +65,7 @@ void explainLight(const Walkthrough& walk, const Selection& selection) {
                     double(luminance(light.unoccluded)));
         for (std::size_t i = 0; i < std::min<std::size_t>(3, light.losses.size()); ++i) {
             const LightLoss& loss = light.losses[i];
-            ImGui::TextDisabled("   %.3g lux to %s", double(luminance(loss.lux)),
+            ImGui::TextDisabled("   %.3g lux taken by %s", double(luminance(loss.lux)),
                                 walk.placed().objects[loss.object.value].path.c_str());
         }
     }
@@ -77,7 +78,7 @@ void explainLight(const Walkthrough& walk, const Selection& selection) {
 void drawSelectionPanel(PanelState& state) {
     Walkthrough& walk = *state.walk;
     if (!walk.selection()) {
-        ImGui::TextDisabled("click on something");
+        ImGui::TextDisabled("click on something in the picture");
         return;
     }
     const Selection selection = *walk.selection(); // edits may change it
@@ -85,10 +86,13 @@ void drawSelectionPanel(PanelState& state) {
     bool movable = selection.movable();
     if (selection.node && ImGui::Checkbox("movable", &movable))
         walk.make({LoosenEdit{selection.node, !movable, movable}});
+    if (selection.node && ImGui::IsItemHovered())
+        ImGui::SetTooltip("Whether it can be dragged; its light is then kept ready to follow");
     editLights(walk, selection);
     if (selection.material) editPaint(walk, selection.material);
     explainLight(walk, selection);
-    ImGui::TextDisabled("undo %zu, redo %zu", walk.history().undoable(), walk.history().redoable());
+    ImGui::TextDisabled("Ctrl+Z undoes %zu changes, Ctrl+Y redoes %zu", walk.history().undoable(),
+                        walk.history().redoable());
 }
 
 } // namespace penumbra

@@ -10,14 +10,13 @@ namespace penumbra {
 
 void drawTimePanel(PanelState& state) {
     const History& frames = state.frameMilliseconds;
-    ImGui::Text("%.1f ms from frame to frame, at most %.1f", double(frames.latest()),
-                double(frames.most()));
+    ImGui::Text("%.1f ms a picture, at most %.1f", double(frames.latest()), double(frames.most()));
     ImGui::PlotLines("##frames", frames.values().data(), int(frames.size()), int(frames.oldest()),
                      nullptr, 0, std::max(33.0f, frames.most()),
                      {ImGui::GetContentRegionAvail().x, 3 * ImGui::GetFontSize()});
-    ImGui::Text("%zu lit, %zu not lit yet, %zu out of view", state.drawn.lit, state.drawn.unlit,
-                state.drawn.culled);
-    ImGui::Text("%llu updates, %llu blocks taken over, %u restarts",
+    ImGui::Text("surfaces: %zu lit, %zu not yet, %zu out of view", state.drawn.lit,
+                state.drawn.unlit, state.drawn.culled);
+    ImGui::Text("light: %llu updates, %llu pieces, %u restarts",
                 static_cast<unsigned long long>(state.light.updates),
                 static_cast<unsigned long long>(state.light.blocksTaken), state.light.restarts);
     ImGui::TextWrapped("%s", state.renderer.c_str());

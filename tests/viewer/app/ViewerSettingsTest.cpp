@@ -30,6 +30,11 @@ TEST(ViewerSettings, ComeBackAsTheyWereWritten) {
     EXPECT_EQ(settingsFrom(textOf({})), ViewerSettings{});
 }
 
+TEST(ViewerSettings, TheFirstWindowFitsASmallScreenWithItsFrameAndATaskBar) {
+    EXPECT_LE(ViewerSettings{}.width, 1280);
+    EXPECT_LE(ViewerSettings{}.height, 720 - 80);
+}
+
 TEST(ViewerSettings, WhatIsGarbledKeepsItsDefault) {
     const ViewerSettings settings =
         settingsFrom("width = lots\nheight = -5\ntone = 77\n= =\ngravity = 0\nnonsense = 3\n\x01\n"

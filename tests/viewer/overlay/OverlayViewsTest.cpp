@@ -109,7 +109,7 @@ TEST(OverlayViews, BlockersAreTintedByTheirShareAndNamedWithTheirLux) {
     EXPECT_EQ(all.picture.blocks.at(objects[1].geometry.get()).at(0), blockColour(viridis(0.2f)));
     ASSERT_EQ(all.legend.kinds.size(), 2u);
     EXPECT_EQ(all.legend.kinds[0].label, "40 lux (20 %) taken by /box");
-    EXPECT_EQ(all.legend.kinds[1].label, "20 lux (10 %) taken by the fixed part");
+    EXPECT_EQ(all.legend.kinds[1].label, "20 lux (10 %) taken by what can't be moved");
     EXPECT_EQ(all.legend.lines.at(0), "40 of 100 lux from /ceiling/lamp");
     EXPECT_EQ(all.legend.lines.at(1), "100 of 100 lux from /desk/lamp");
 

@@ -17,15 +17,25 @@ RadiosityState solving(SolutionState solution) {
 }
 
 TEST(LightWords, SayTheStateOfTheSolutionAndNothingElseIsCalledDone) {
-    EXPECT_EQ(lightWords(solving(SolutionState::working)), "fine shadows 42 %");
-    EXPECT_EQ(lightWords(solving(SolutionState::certified)), "light certified");
-    EXPECT_EQ(lightWords(solving(SolutionState::exact)), "light exact");
+    EXPECT_EQ(lightWords(solving(SolutionState::working)), "computing fine shadows: 42 %");
+    EXPECT_EQ(lightWords(solving(SolutionState::certified)), "light good, last details to come");
+    EXPECT_EQ(lightWords(solving(SolutionState::exact)), "light complete");
     RadiosityState held = solving(SolutionState::exact);
     held.held = 2;
-    EXPECT_EQ(lightWords(held), "waiting for an update (U)");
+    EXPECT_EQ(lightWords(held), "the light waits for you: press U to update it");
     RadiosityState stopped = solving(SolutionState::working);
     stopped.stopped = true;
-    EXPECT_EQ(lightWords(stopped), "light stopped at its limit of work");
+    EXPECT_EQ(lightWords(stopped), "stopped: the light gets no better");
+}
+
+TEST(LightWords, SayWhatTheLightMayBeWrongBy) {
+    RadiosityState light;
+    EXPECT_EQ(errorWords(light), "") << "nothing is lit";
+    light.meanRadiosity = 50;
+    light.certificate = 0.25;
+    EXPECT_EQ(errorWords(light), "may still be wrong by 0.5 % of the mean light");
+    light.certificate = 60;
+    EXPECT_EQ(errorWords(light), "may still be wrong by more than the mean light");
 }
 
 } // namespace
