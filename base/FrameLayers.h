@@ -7,10 +7,14 @@
 #include <glm/glm.hpp>
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <vector>
 
 namespace penumbra {
+
+/// What a display shows of a luminance [nit]: linear Rec. 709, each channel in [0, 1].
+using ToneMap = std::function<Rgb(Rgb)>;
 
 /// A picture and its layers, each width x height, top row first: pixel (x, y) is element
 /// index(x, y). Two kinds of layers, because one may be averaged over a pixel and the other may
@@ -43,6 +47,11 @@ struct FrameLayers {
     std::vector<glm::vec3> normal;  ///< unit, world frame; background 0
     std::vector<float> depth;       ///< distance along the viewing axis [m]; background kNoDepth
     std::vector<ObjectId> objectId; ///< background ObjectId::kNone
+
+    /// For people: the mean of what a ToneMap shows of the pixel's samples, in [0, 1]; empty unless
+    /// it was asked for. Means are taken after the tone curve, for that of luminances would show
+    /// the edge of a lamp as bright as the lamp.
+    std::vector<Rgb> shown;
 
     std::size_t pixelCount() const { return std::size_t(width) * std::size_t(height); }
     std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(width) + x; }

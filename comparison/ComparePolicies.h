@@ -22,7 +22,8 @@ namespace penumbra {
 /// A picture as it is looked at.
 struct Picture {
     int width = 0, height = 0;
-    std::vector<Rgb> colours; ///< top row first [nit]
+    std::vector<Rgb> colours;   ///< top row first [nit]
+    std::vector<float> metered; ///< by which it is exposed, see base/ViewMeter.h [nit]
 };
 
 /// One way of ordering the work.

@@ -88,7 +88,8 @@ void EditPlayer::aim(double turn) {
 }
 
 Picture EditPlayer::picture() const {
-    return {options_.width, options_.height, drawn_->colours(lit_.solver().lighting())};
+    const Lighting light = lit_.solver().lighting();
+    return {options_.width, options_.height, drawn_->colours(light), drawn_->metered(light)};
 }
 
 Viewpoint EditPlayer::viewpoint(const View& view) const {

@@ -124,7 +124,7 @@ void writeCharts(std::string& page, const ComparisonResult& result) {
 
 /// One moment of the film: the picture, and below it what is wrong with it.
 void writeMoment(std::string& page, const std::string& policy, const FilmPicture& film,
-                 const Exposure& exposure) {
+                 const ToneMap& tone) {
     const int width = std::min(film.picture.width, 320);
     const int height = film.picture.height * width / film.picture.width;
     fmt::format_to(std::back_inserter(page),
@@ -132,19 +132,19 @@ void writeMoment(std::string& page, const std::string& policy, const FilmPicture
                    "<img src='{1}' width='{2}' height='{3}' alt='{4}, visible error'>"
                    "<figcaption><b>{5} ms</b>, {6} rays' worth<br>mean {7} JND, 99 % below {8}<br>"
                    "{9:.2f} % of pixels above 1</figcaption></figure>\n",
-                   pictureUri(film.picture, exposure), differenceUri(film.jnd), width, height,
+                   pictureUri(film.picture, tone), differenceUri(film.jnd), width, height,
                    escaped(policy), figure(1e3 * film.seconds), figure(film.work),
                    figure(film.error.mean), figure(film.error.p99), 100 * film.error.visible);
 }
 
-void writeFilm(std::string& page, const PolicyResult& policy, const Exposure& exposure) {
+void writeFilm(std::string& page, const PolicyResult& policy, const ToneMap& tone) {
     page += "<h3>" + escaped(policy.name) + "</h3>\n<div class='strip'>";
-    for (const FilmPicture& film : policy.film) writeMoment(page, policy.name, film, exposure);
+    for (const FilmPicture& film : policy.film) writeMoment(page, policy.name, film, tone);
     page += "</div>\n";
 }
 
 void writeFilms(std::string& page, const ComparisonResult& result, int frame) {
-    const Exposure exposure = exposureFor(result.truth);
+    const ToneMap tone = toneFor(result.truth);
     fmt::format_to(
         std::back_inserter(page),
         "<h2>Frame {}, as the viewer sees it</h2>\n<p class='note'>Above, the picture at "
@@ -155,8 +155,8 @@ void writeFilms(std::string& page, const ComparisonResult& result, int frame) {
         std::back_inserter(page),
         "<figure><img src='{}' width='{}' height='{}' alt='settled'><figcaption>settled: "
         "what is to come out</figcaption></figure></div>\n",
-        pictureUri(result.truth, exposure), result.truth.width, result.truth.height);
-    for (const PolicyResult& policy : result.policies) writeFilm(page, policy, exposure);
+        pictureUri(result.truth, tone), result.truth.width, result.truth.height);
+    for (const PolicyResult& policy : result.policies) writeFilm(page, policy, tone);
 }
 
 void writeFacts(std::string& page, const std::string& heading, const Facts& facts) {

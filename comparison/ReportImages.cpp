@@ -1,6 +1,9 @@
 #include "comparison/ReportImages.h"
 
+#include "io/image/Exposure.h"
 #include "io/image/PngEncoder.h"
+#include "io/image/PngWriter.h"
+#include "io/image/ToneCurve.h"
 
 #include <fmt/format.h>
 
@@ -53,16 +56,14 @@ std::string base64(std::span<const std::byte> bytes) {
     return text;
 }
 
-Exposure exposureFor(const Picture& picture) {
-    FrameLayers frame(picture.width, picture.height);
-    frame.beauty = picture.colours;
-    return chooseExposure(frame);
+ToneMap toneFor(const Picture& picture) {
+    return toneMap(middleGreyOf(picture.metered).value_or(kUnmeasuredGrey), ToneStyle::agx);
 }
 
-std::string pictureUri(const Picture& picture, const Exposure& exposure) {
-    FrameLayers frame(picture.width, picture.height);
-    frame.beauty = picture.colours;
-    return pngUri(picture.width, picture.height, toneMappedBytes(frame, exposure));
+std::string pictureUri(const Picture& picture, const ToneMap& tone) {
+    std::vector<Rgb> shown(picture.colours);
+    for (Rgb& colour : shown) colour = tone(colour);
+    return pngUri(picture.width, picture.height, displayBytes(shown, picture.width));
 }
 
 std::string differenceUri(const Plane& jnd) {

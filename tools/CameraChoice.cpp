@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 namespace penumbra {
 
@@ -27,6 +29,26 @@ View viewOf(const PlacedScene& placed, UpAxis up, const std::string& path, const
     if (const auto* const camera = chooseCamera(placed, path, file))
         return makeView(camera->node->lens(), camera->toWorld, width, height);
     return frameBox(placed.bounds.lower, placed.bounds.upper, int(up), width, height);
+}
+
+std::vector<std::string> namesForFiles(const std::vector<std::string>& cameras) {
+    std::vector<std::string> names;
+    const auto last = [](const std::string& path) { return path.substr(path.rfind('/') + 1); };
+    for (const std::string& path : cameras) {
+        const auto alike = std::ranges::count(cameras, last(path), last);
+        std::string name = alike > 1 ? path.substr(path.find_first_not_of('/')) : last(path);
+        std::ranges::replace(name, '/', '-');
+        names.push_back(std::move(name));
+    }
+    return names;
+}
+
+std::string withCamera(std::string pattern, const std::string& name) {
+    constexpr std::string_view kPlace = "{camera}";
+    for (std::size_t at = pattern.find(kPlace); at != std::string::npos;
+         at = pattern.find(kPlace, at + name.size()))
+        pattern.replace(at, kPlace.size(), name);
+    return pattern;
 }
 
 } // namespace penumbra

@@ -6,6 +6,7 @@
 #include "scenegraph/Scene.h"
 
 #include <string>
+#include <vector>
 
 namespace penumbra {
 
@@ -21,5 +22,12 @@ int heightFor(const PlacedScene& placed, const std::string& path, const std::str
 /// The view of the chosen camera; without any, the whole scene is framed from above.
 View viewOf(const PlacedScene& placed, UpAxis up, const std::string& path, const std::string& file,
             int width, int height);
+
+/// Names of cameras for files: the last part of each path; all parts, joined by '-', where others
+/// among them end in the same.
+std::vector<std::string> namesForFiles(const std::vector<std::string>& cameras);
+
+/// Puts a camera's name in the place of each "{camera}" in the name of a file.
+std::string withCamera(std::string pattern, const std::string& name);
 
 } // namespace penumbra

@@ -1,12 +1,14 @@
-#include "base/Error.h"
 #include "base/Parallel.h"
+#include "io/image/Exposure.h"
 #include "io/image/ExrWriter.h"
 #include "io/image/PngWriter.h"
+#include "radiosity/query/DrawnView.h"
 #include "radiosity/query/LitSurface.h"
 #include "radiosity/query/TracedPicture.h"
 #include "scenegraph/Camera.h"
 #include "tools/CameraChoice.h"
 #include "tools/Commands.h"
+#include "tools/DisplayOptions.h"
 #include "tools/OutputFiles.h"
 #include "tools/SceneSolution.h"
 #include "tools/Statistics.h"
@@ -22,8 +24,11 @@
 #include <filesystem>
 #include <initializer_list>
 #include <memory>
+#include <set>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace penumbra {
 
@@ -31,36 +36,52 @@ namespace {
 
 struct RenderCommand {
     SolveSettings solve;
-    std::string output, png, camera;
+    DisplaySettings display;
+    std::string output, png; ///< patterns, with '#' and "{camera}"; empty: none
+    std::vector<std::string> cameras;
     std::string quality = "drawn";
     std::string pixels = "half";
     int width = 1280;
     int height = 0; ///< 0: the camera's shape
 };
 
-/// \param command its height is set from the camera's film if it was not given
-View chooseView(RenderCommand& command, const SceneSolution& solution) {
-    const PlacedScene& placed = solution.placed();
-    const std::string& file = command.solve.scene;
-    if (command.height == 0)
-        command.height = heightFor(placed, command.camera, file, command.width);
-    if (placed.cameras.empty() && !command.solve.quiet)
-        fmt::print(stderr, "{}: no camera in the file: the whole scene is framed from above\n",
-                   file);
-    return viewOf(placed, solution.scene().upAxis, command.camera, file, command.width,
-                  command.height);
+/// The pictures of one camera: where they go, with '#' for the frame's number.
+struct Shot {
+    std::string camera; ///< its path; empty: the first one
+    std::string output, png;
+};
+
+constexpr std::string_view kCameraPlace = "{camera}";
+
+/// A pattern names one file for each camera.
+void checkNamed(const std::string& pattern, const RenderCommand& command) {
+    const bool named = pattern.find(kCameraPlace) != std::string::npos;
+    if (named && command.cameras.empty())
+        throw CLI::ValidationError(pattern, "{camera} is for those that --camera names");
+    if (!pattern.empty() && !named && command.cameras.size() > 1)
+        throw CLI::ValidationError(
+            pattern, "every camera would overwrite the one before: put {camera} in the name");
 }
 
-/// Says once what the camera can't be taken as it is for, also while frames are played.
-void sayWhatIsAmiss(const RenderCommand& command, const SceneSolution& solution,
-                    std::string& said) {
-    const auto* const camera = chooseCamera(solution.placed(), command.camera, command.solve.scene);
-    if (!camera || command.solve.quiet) return;
+std::vector<Shot> shotsOf(const RenderCommand& command) {
+    for (const std::string& pattern : {command.output, command.png}) checkNamed(pattern, command);
+    if (command.cameras.empty()) return {{"", command.output, command.png}};
+    const std::vector<std::string> names = namesForFiles(command.cameras);
+    std::vector<Shot> shots;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        shots.push_back({command.cameras[i], withCamera(command.output, names[i]),
+                         withCamera(command.png, names[i])});
+    return shots;
+}
+
+/// Says what a camera can't be taken as it is for.
+std::string whatIsAmissWith(const std::string& path, const RenderCommand& command,
+                            const SceneSolution& solution) {
+    const auto* const camera = chooseCamera(solution.placed(), path, command.solve.scene);
+    if (!camera) return {};
     const std::string amiss = whatIsAmiss(camera->node->lens(), camera->toWorld);
-    if (!amiss.empty() && amiss != said)
-        fmt::print(stderr, "{}: warning: camera {}: {}\n", command.solve.scene, camera->path,
-                   amiss);
-    if (!amiss.empty()) said = amiss;
+    if (amiss.empty()) return {};
+    return fmt::format("{}: warning: camera {}: {}", command.solve.scene, camera->path, amiss);
 }
 
 ExrMetadata metadata(const RenderCommand& command, const SceneSolution& solution) {
@@ -76,35 +97,89 @@ ExrMetadata metadata(const RenderCommand& command, const SceneSolution& solution
     return data;
 }
 
-FrameLayers draw(const RenderCommand& command, SceneSolution& solution, const View& view) {
-    if (command.quality == "final") {
+/// Writes the pictures of a solution, one camera after the other, and says what it wrote.
+class FrameWriter {
+public:
+    FrameWriter(const RenderCommand& command, SceneSolution& solution)
+        : command_(command), solution_(solution) {}
+
+    void write(const Shot& shot, int number);
+
+private:
+    View chooseView(const Shot& shot);
+    FrameLayers draw(const View& view, const ToneMap& tone);
+    void writeExrFile(const std::string& path, const FrameLayers& frame, const View& view);
+    float middleGrey(const View& view);
+    void say(const std::string& line) const {
+        if (!command_.solve.quiet) fmt::print(stderr, "{}\n", line);
+    }
+
+    const RenderCommand& command_;
+    SceneSolution& solution_;
+    int height_ = 0;             ///< of the picture [pixels]
+    std::set<std::string> said_; ///< warnings are said once, also while frames are played
+};
+
+View FrameWriter::chooseView(const Shot& shot) {
+    const PlacedScene& placed = solution_.placed();
+    const std::string& file = command_.solve.scene;
+    height_ = command_.height > 0 ? command_.height
+                                  : heightFor(placed, shot.camera, file, command_.width);
+    std::string warning = whatIsAmissWith(shot.camera, command_, solution_);
+    if (placed.cameras.empty())
+        warning = file + ": no camera in the file: the whole scene is framed from above";
+    if (!warning.empty() && said_.insert(warning).second) say(warning);
+    return viewOf(placed, solution_.scene().upAxis, shot.camera, file, command_.width, height_);
+}
+
+float FrameWriter::middleGrey(const View& view) {
+    if (command_.display.exposure) return middleGreyAt(*command_.display.exposure);
+    const std::vector<float> metered = solution_.timed(
+        "meter", [&] { return meterView(solution_.patches(), view, solution_.lighting()); });
+    return middleGreyOf(metered).value_or(kUnmeasuredGrey);
+}
+
+FrameLayers FrameWriter::draw(const View& view, const ToneMap& tone) {
+    if (command_.quality == "final") {
         FinalOptions options;
-        options.progress = [&](double done) { solution.progress().show("tracing", done); };
-        return traceFrame(solution.patches(), solution.rays(), solution.lighting(), view,
-                          command.width, command.height, options);
+        options.tone = tone;
+        options.progress = [&](double done) { solution_.progress().show("tracing", done); };
+        return traceFrame(solution_.patches(), solution_.rays(), solution_.lighting(), view,
+                          command_.width, height_, options);
     }
     OffscreenContext context(std::size_t(command.width) * std::size_t(command.height));
     Renderer renderer;
-    const LitBranch lit(solution.patches(), solution.lighting());
-    return renderFrame(context, renderer, lit, view, command.width, command.height);
+    const LitBranch lit(solution_.patches(), solution_.lighting());
+    return renderFrame(context, renderer, lit, view, command_.width, height_, tone);
 }
 
-void writeFrame(const RenderCommand& from, SceneSolution& solution, int number) {
-    RenderCommand command = from;
-    command.output = numberedPath(from.output, number);
-    command.png = numberedPath(from.png, number);
-    const View view = chooseView(command, solution);
-    const FrameLayers frame = solution.timed("draw", [&] { return draw(command, solution, view); });
-    solution.progress().clear();
+void FrameWriter::writeExrFile(const std::string& path, const FrameLayers& frame,
+                               const View& view) {
     ExrOptions options;
-    options.half = command.pixels == "half";
-    const std::size_t clamped = solution.timed("write", [&] {
-        return writeExr(command.output, frame, view, metadata(command, solution), options);
+    options.half = command_.pixels == "half";
+    const std::size_t clamped = solution_.timed("write", [&] {
+        return writeExr(path, frame, view, metadata(command_, solution_), options);
     });
-    if (clamped > 0 && !command.solve.quiet)
-        fmt::print(stderr, "{}: {} values above 65504 were clamped: --pixels float keeps them\n",
-                   command.output, clamped);
-    if (!command.png.empty()) writePng(command.png, frame);
+    if (clamped > 0)
+        say(fmt::format("{}: {} values above 65504 were clamped: --pixels float keeps them", path,
+                        clamped));
+    say(fmt::format("wrote {}: {} x {} pixels in cd/m^2", path, frame.width, frame.height));
+}
+
+void FrameWriter::write(const Shot& shot, int number) {
+    const View view = chooseView(shot);
+    const std::string output = numberedPath(shot.output, number);
+    const std::string png = numberedPath(shot.png, number);
+    const ToneStyle style = command_.display.tone.value_or(ToneStyle::agx);
+    const float grey = png.empty() ? 1 : middleGrey(view);
+    const FrameLayers frame = solution_.timed(
+        "draw", [&] { return draw(view, png.empty() ? ToneMap() : toneMap(grey, style)); });
+    solution_.progress().clear();
+    if (!output.empty()) writeExrFile(output, frame, view);
+    if (png.empty()) return;
+    solution_.timed("write", [&] { writePng(png, frame); });
+    say(fmt::format("wrote {}: {} x {} pixels, exposure {:.2f} EV, tone {}", png, frame.width,
+                    frame.height, exposureValueOf(grey), kToneStyleNames[std::size_t(style)]));
 }
 
 /// A name that promises another format than what is written.
@@ -117,8 +192,7 @@ void checkFormats(const RenderCommand& command) {
     if (endsIn(command.output, {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".hdr", ".bmp"}))
         throw CLI::ValidationError(
             "--output",
-            fmt::format("'{}' would be OpenEXR: name it .exr; --png writes a PNG as well",
-                        command.output));
+            fmt::format("'{}' would be OpenEXR: name it .exr; --png writes a PNG", command.output));
     for (const std::string& output : {command.output, command.png})
         if (output == "-")
             throw CLI::ValidationError("--output", "pictures are written to files, not to '-'");
@@ -129,22 +203,27 @@ void checkFormats(const RenderCommand& command) {
 
 void run(RenderCommand command) {
     const ThreadLimit limit(command.solve.threads);
+    if (command.output.empty() && command.png.empty())
+        throw CLI::ValidationError("render", "nothing to write: give --output, --png or both");
     checkFormats(command);
     checkNumbered(command.output, command.solve.frames);
     checkNumbered(command.png, command.solve.frames);
+    const std::vector<Shot> shots = shotsOf(command);
     const std::string& frames = command.solve.frames;
     const FrameRange range = frames.empty() ? FrameRange{} : frameRange(frames);
     std::vector<std::string>& outputs = command.solve.outputs;
     outputs = {command.solve.stats};
-    for (const std::string& pattern : {command.output, command.png})
-        for (std::string& name : everyName(pattern, range)) outputs.push_back(std::move(name));
+    for (const Shot& shot : shots)
+        for (const std::string& pattern : {shot.output, shot.png})
+            for (std::string& name : everyName(pattern, range)) outputs.push_back(std::move(name));
     checkOutputs({command.solve.scene}, outputs);
     SceneSolution solution(command.solve);
-    std::string said;
+    for (const Shot& shot : shots) // all names first, and then the pictures
+        chooseCamera(solution.placed(), shot.camera, command.solve.scene);
+    FrameWriter writer(command, solution);
     for (int frame = range.first; frame <= range.last; ++frame) {
         if (frame > range.first) solution.show(frame);
-        sayWhatIsAmiss(command, solution, said);
-        writeFrame(command, solution, frame);
+        for (const Shot& shot : shots) writer.write(shot, frame);
     }
     if (!command.solve.stats.empty()) writeStatistics(command.solve.stats, solution);
 }
@@ -155,12 +234,21 @@ void addRenderCommand(CLI::App& app) {
     auto command = std::make_shared<RenderCommand>();
     CLI::App* const render = app.add_subcommand(
         "render", "A lit frame, without a display.\n"
-                  "Example: penumbra render scenes/office.usda -o office.exr --png office.png");
+                  "Example: penumbra render scenes/office.usda --png office.png");
     addSolveOptions(*render, command->solve);
-    render->add_option("-o,--output", command->output, "OpenEXR file to write, pixels in cd/m^2")
-        ->required();
-    render->add_option("--png", command->png, "Also write a tone-mapped picture for people");
-    render->add_option("--camera", command->camera, "Path of the camera (default: the first one)");
+    render->add_option("-o,--output", command->output,
+                       "OpenEXR file to write: all layers, pixels in cd/m^2");
+    render->add_option("--png", command->png,
+                       "PNG file to write: the picture for people, as the window shows it");
+    render
+        ->add_option("--camera", command->cameras,
+                     "Path of the camera (default: the first one). Given several times, all of\n"
+                     "them are pictured in one run: a {camera} in the name of a picture\n"
+                     "becomes the name of the camera")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->type_name("PATH ...");
+    addDisplayOptions(*render, command->display, "agx");
     render
         ->add_option("--quality", command->quality,
                      "drawn: the patches as OpenGL draws them\n"

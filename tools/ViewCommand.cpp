@@ -1,4 +1,5 @@
 #include "tools/Commands.h"
+#include "tools/DisplayOptions.h"
 #include "tools/OutputFiles.h"
 #include "tools/SceneSolution.h"
 #include "viewer/app/Viewer.h"
@@ -15,6 +16,7 @@ namespace {
 
 struct ViewCommand {
     SolveSettings solve; ///< what of it counts: see addViewCommand()
+    DisplaySettings display;
     ViewerOptions viewer;
 };
 
@@ -26,6 +28,8 @@ void run(ViewCommand& command) {
     options.light.solving = command.solve.solver;
     options.asked = command.solve.asked;
     options.light.threads = command.solve.threads;
+    options.exposure = command.display.exposure;
+    options.tone = command.display.tone;
     options.reported = [&](const std::vector<Diagnostic>& diagnostics) {
         if (!command.solve.quiet) reportDiagnostics(diagnostics, command.solve.verbose);
     };
@@ -48,6 +52,7 @@ void addViewCommand(CLI::App& app) {
         view->remove_option(view->get_option(name));
     view->add_option("--camera", command->viewer.camera,
                      "Path of the camera to begin with (default: the first one)");
+    addDisplayOptions(*view, command->display, "as it was when the window was closed");
     view->add_option("--record", command->viewer.record,
                      "Write the session (camera, edits, times) to this file, as a USD layer over\n"
                      "the scene: view --replay and render --frames play it");

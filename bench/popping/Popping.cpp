@@ -24,6 +24,7 @@
 
 #include "base/Error.h"
 #include "io/image/PngWriter.h"
+#include "io/image/ToneCurve.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -63,13 +64,15 @@ void keepFrames(const DragResult& r, glm::ivec2 size, const std::string& stem, s
             }
         writePngBytes(name, size.x, size.y, displayBytes(pixels, size.x));
     };
-    const double gain = r.toDisplay / 100;
+    const double gain = r.toDisplay / 100; // 0.18 over middle grey
+    const ToneMap tone = toneMap(float(kMiddleGrey / gain), ToneStyle::agx);
+    const auto toned = [&](float nits) { return tone(Rgb(nits)).g; };
     for (std::size_t t = r.grabbed; t < r.frames.size(); t += every) {
         const FramePair& f = r.frames[t];
         if (f.exact.empty()) continue;
         const std::string name = stem + "-" + std::to_string(t);
-        write(name + "-shown.png", [&](std::size_t i) { return gain * f.shown[i]; });
-        write(name + "-exact.png", [&](std::size_t i) { return gain * f.exact[i]; });
+        write(name + "-shown.png", [&](std::size_t i) { return toned(f.shown[i]); });
+        write(name + "-exact.png", [&](std::size_t i) { return toned(f.exact[i]); });
         write(name + "-error.png",
               [&](std::size_t i) { return 0.2 + 2 * gain * (f.shown[i] - f.exact[i]); });
     }

@@ -1,17 +1,14 @@
 #include "io/image/AutoExposure.h"
 
-#include "io/image/PngWriter.h"
-
 #include <algorithm>
 #include <cmath>
 
 namespace penumbra {
 
 void AutoExposure::measure(std::span<const float> luminances) {
-    const bool dark = std::none_of(luminances.begin(), luminances.end(),
-                                   [](float y) { return y > 0 && std::isfinite(y); });
-    if (dark) return;
-    const double measured = std::log2(chooseExposure(luminances).middleGrey);
+    const std::optional<float> grey = middleGreyOf(luminances);
+    if (!grey) return;
+    const double measured = std::log2(double(*grey));
     if (!target_) current_ = measured;
     target_ = measured;
 }

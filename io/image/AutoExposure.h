@@ -1,6 +1,9 @@
 // Exposure that follows what is seen, as eyes do.
 #pragma once
 
+#include "io/image/Exposure.h"
+
+#include <cmath>
 #include <optional>
 #include <span>
 
@@ -18,8 +21,8 @@ public:
     static constexpr double kBrighterSeconds = 0.25; ///< tau when the scene got brighter
     static constexpr double kDarkerSeconds = 0.6;    ///< tau when it got darker
 
-    /// Takes in what is reflected to the eye [nit]; nothing of it positive: no news. The first
-    /// measurement is taken over at once.
+    /// Takes in what is reflected to the eye [nit], by middleGreyOf(); nothing of it positive: no
+    /// news. The first measurement is taken over at once.
     void measure(std::span<const float> luminances);
 
     /// Lets time pass. \param held true: it stays, so as not to move under a fade
@@ -45,8 +48,8 @@ public:
 
 private:
     std::optional<double> target_; ///< log2 of [nit]; none: nothing was measured yet
-    double current_ = 6;           ///< the same; a dim room, until there is a measurement
-    std::optional<float> fixed_;   ///< [nit]
+    double current_ = std::log2(double(kUnmeasuredGrey)); ///< the same
+    std::optional<float> fixed_;                          ///< [nit]
     float compensation_ = 0;
 };
 

@@ -85,4 +85,10 @@ std::vector<float> ToneCurve::table() const {
     return values;
 }
 
+ToneMap toneMap(float middleGrey, ToneStyle style) {
+    return [curve = ToneCurve(style), scale = kMiddleGrey / middleGrey](Rgb colour) {
+        return curve.shown(colour * scale);
+    };
+}
+
 } // namespace penumbra

@@ -1,6 +1,7 @@
 // From luminances to what a display can show.
 #pragma once
 
+#include "base/FrameLayers.h"
 #include "base/Rgb.h"
 
 #include <glm/glm.hpp>
@@ -49,5 +50,8 @@ private:
     ToneStyle style_;
     glm::mat3 inset_{1.0f}, outset_{1.0f};
 };
+
+/// What a display shows when `middleGrey` [nit] is shown as 18 % grey. Not a number is shown black.
+ToneMap toneMap(float middleGrey, ToneStyle style);
 
 } // namespace penumbra

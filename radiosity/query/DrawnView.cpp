@@ -54,6 +54,34 @@ Plane DrawnView::luminances(const Lighting& light) const {
     return plane;
 }
 
+void DrawnView::meterPoint(const Pixel& pixel, const Lighting& light, MeterCell& cell) const {
+    if (pixel.element == Element::kNone) return;
+    const LitMaterial& material = patches_.materials[patches_.elements[pixel.element].material];
+    const bool emits = maxChannel(material.emission) > 0;
+    (emits ? cell.emitted : cell.reflected) += luminance(colour(pixel, light));
+    (emits ? cell.emitting : cell.reflecting) += 1;
+}
+
+std::vector<float> DrawnView::metered(const Lighting& light) const {
+    constexpr int kSide = MeterGrid::kSide;
+    constexpr int kAcross = MeterGrid::kColumns * kSide, kDown = MeterGrid::kRows * kSide;
+    std::vector<MeterCell> cells(std::size_t(MeterGrid::kColumns * MeterGrid::kRows));
+    for (int y = 0; y < kDown; ++y)
+        for (int x = 0; x < kAcross; ++x) {
+            const int column = (2 * x + 1) * width_ / (2 * kAcross);
+            const int row = (2 * y + 1) * height_ / (2 * kDown);
+            meterPoint(pixels_[std::size_t(row * width_ + column)], light,
+                       cells[std::size_t(y / kSide * MeterGrid::kColumns + x / kSide)]);
+        }
+    return meteredLuminances(cells);
+}
+
+std::vector<float> meterView(const PatchSet& patches, const View& view, const Lighting& light) {
+    constexpr int kAcross = MeterGrid::kColumns * MeterGrid::kSide;
+    constexpr int kDown = MeterGrid::kRows * MeterGrid::kSide;
+    return DrawnView(patches, view, kAcross, kDown).metered(light);
+}
+
 std::vector<float> DrawnView::vertexPixels() const {
     std::vector<float> pixels(patches_.vertices.size());
     for (const Pixel& pixel : pixels_)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Rgb.h"
+#include "base/ViewMeter.h"
 #include "importance/Pyramid.h"
 #include "radiosity/mesh/PatchSet.h"
 #include "radiosity/transport/Solver.h"
@@ -28,6 +29,8 @@ public:
     std::vector<Rgb> colours(const Lighting& light) const;
     /// Its luminance [nit].
     Plane luminances(const Lighting& light) const;
+    /// The luminances by which the view is exposed, see base/ViewMeter.h.
+    std::vector<float> metered(const Lighting& light) const;
     /// How many pixels each vertex has a part in, all parts of a pixel being 1.
     std::vector<float> vertexPixels() const;
     /// An item buffer of the blocks of vertices, see importance/SeenItems.h.
@@ -41,9 +44,14 @@ private:
     };
     Rgb colour(const Pixel& pixel, const Lighting& light) const;
 
+    void meterPoint(const Pixel& pixel, const Lighting& light, MeterCell& cell) const;
+
     const PatchSet& patches_;
     int width_, height_;
     std::vector<Pixel> pixels_;
 };
+
+/// Meters a view with one ray for every point of the grid.
+std::vector<float> meterView(const PatchSet& patches, const View& view, const Lighting& light);
 
 } // namespace penumbra

@@ -71,15 +71,18 @@ public:
         return out;
     }
 
-    void tracePixel(int x, int y, int side, FrameLayers& frame) const {
+    void tracePixel(int x, int y, const FinalOptions& options, FrameLayers& frame) const {
         const std::size_t at = frame.index(x, y);
-        const int count = side * side;
+        const int side = options.raysPerSide, count = side * side;
         const int shadows = std::max(16, kShadowSamples / count / 16 * 16);
         float met = 0;
         Rgb emission;
         for (int i = 0; i < count; ++i) {
             const double dx = (i % side + 0.5) / side, dy = (i / side + 0.5) / side;
             const RaySample sample = trace(x + dx, y + dy, i * shadows % kShadowSamples, shadows);
+            if (options.tone)
+                frame.shown[at] += options.tone(sample.emission + sample.direct + sample.indirect) *
+                                   (1.0f / float(count));
             if (!sample.met) continue;
             met += 1;
             emission += sample.emission;
@@ -115,12 +118,12 @@ private:
 FrameLayers traceFrame(const PatchSet& patches, const RayScene& rays, const Lighting& lighting,
                        const View& view, int width, int height, const FinalOptions& options) {
     FrameLayers frame(width, height);
+    if (options.tone) frame.shown.resize(frame.pixelCount());
     const FrameTracer tracer(patches, rays, lighting, view, width, height);
     std::atomic<int> rows{0};
     parallelFor(std::size_t(height), 2, [&](std::size_t first, std::size_t last) {
         for (std::size_t y = first; y < last; ++y)
-            for (int x = 0; x < width; ++x)
-                tracer.tracePixel(x, int(y), options.raysPerSide, frame);
+            for (int x = 0; x < width; ++x) tracer.tracePixel(x, int(y), options, frame);
         rows += int(last - first);
         if (options.progress) options.progress(double(rows) / height);
     });

@@ -13,7 +13,8 @@ namespace penumbra {
 
 struct FinalOptions {
     int raysPerSide = 2; ///< primary rays a pixel = raysPerSide squared, stratified
-    std::function<void(double done)> progress;
+    ToneMap tone{};      ///< if there is one, the layer `shown` is filled by it
+    std::function<void(double done)> progress{};
 };
 
 /// Traces a view of the solved scene: in every pixel direct light by closed form times stratified

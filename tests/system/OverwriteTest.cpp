@@ -39,6 +39,7 @@ protected:
     void expectNoResultMayBe(const std::string& name, const std::string& file) {
         expectRefused({"render", room, "-o", name}, file);
         expectRefused({"render", room, "-o", here.path("a.exr"), "--png", name}, file);
+        expectRefused({"render", room, "--png", name}, file);
         expectRefused({"render", room, "-o", here.path("a.exr"), "--stats", name}, file);
         expectRefused({"solve", room, "--stats", name}, file);
         expectRefused({"solve", room, "--sensors", sensors, "--values", name}, file);
@@ -71,6 +72,13 @@ TEST_F(Overwrite, NoLayerIsReplacedByAFrameOfItsNumber) {
     expectRefused({"render", room, "-o", here.path("f.####.usda"), "--frames", "1:4"}, third);
     expectRefused({"solve", room, "--sensors", sensors, "--values", here.path("f.####.usda"),
                    "--frames", "1:4"},
+                  third);
+}
+
+TEST_F(Overwrite, NoLayerIsReplacedByAPictureOfACamera) {
+    const std::string third = here.write("of-Eye.usda", smallRoom());
+    room = here.write("room.usda", "#usda 1.0\n(\n    subLayers = [@./of-Eye.usda@]\n)\n");
+    expectRefused({"render", room, "--png", here.path("of-{camera}.usda"), "--camera", "/Eye"},
                   third);
 }
 

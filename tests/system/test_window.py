@@ -85,13 +85,17 @@ class View:
             (OUTPUT / f"{name}.ppm").unlink()
         return rows
 
-    def exr(self):
-        """A frame saved by F12: its luminances [nit], row by row."""
+    def save(self):
+        """A frame saved by F12: its EXR file; its PNG file, of the same name, is there before."""
         before = set(OUTPUT.glob("*.exr"))
         self.display.hands("key", "F12")
-        new = xwindow.until(lambda: set(OUTPUT.glob("*.exr")) - before, what="the EXR file")
-        xwindow.until(lambda: new.copy().pop().with_suffix(".png").exists(), what="the PNG file")
-        return luminances(new.pop())
+        new = xwindow.until(lambda: set(OUTPUT.glob("*.exr")) - before, what="the EXR file").pop()
+        check(new.with_suffix(".png").exists(), "F12 saves a PNG with the EXR")
+        return new
+
+    def exr(self):
+        """A frame saved by F12: its luminances [nit], row by row."""
+        return luminances(self.save())
 
     def rest(self):
         """The picture once it has come to rest: for a second, for exposure adapts ever slower."""
@@ -129,6 +133,17 @@ def luminances(exr):
     for offset, size in zip(fields[273], fields[279]):  # strips
         values += struct.unpack_from(f"{order}{size // 4}f", data, offset)
     return values
+
+
+def rows_of(picture):
+    """The rows of a PNG: bytes, three a pixel."""
+    ppm = picture.with_suffix(".saved.ppm")
+    subprocess.run(["oiiotool", picture, "-o", ppm], check=True)
+    data = ppm.read_bytes()
+    ppm.unlink()
+    head = re.match(rb"P6\s+(\d+)\s+(\d+)\s+255\s", data)
+    row, pixels = 3 * int(head.group(1)), data[head.end():]
+    return [pixels[at:at + row] for at in range(0, len(pixels), row)]
 
 
 def differing(a, b, relative):
@@ -179,6 +194,36 @@ def walk_about(display):
     check(view.program.said() == "", "and without a word: " + view.program.said())
     settings = (OUTPUT / "config/penumbra/viewer.conf").read_text()
     check("compensation = 1\n" in settings and "panels = 0" in settings, "it remembers settings")
+
+
+def the_picture_is_the_window_s(display):
+    """F12's PNG is what the window shows, byte for byte, and what render writes with its exposure."""
+    (OUTPUT / "config/penumbra/viewer.conf").unlink()  # as when it is opened the first time
+    view = View(display, SCENES / "cornell.usda", "--patch-size", "0.2", "--quiet",
+                "--exposure", "7.5", "--tone", "aces")
+    display.hands("key", "n")  # the panels off; the status line stays
+    view.lit()
+    display.hands("mousemove", 600, 600)  # below what is compared
+    seen = view.rest()
+    saved = rows_of(view.save().with_suffix(".png"))
+    wide, high = len(saved[0]) // 3, len(saved)
+    check(wide <= 1280 and high <= 640, f"at first the window fits a small screen: {wide} x {high}")
+    at = next((top, left) for top in range(len(seen) - high + 1)
+              for left in range(len(seen[0]) // 3 - wide + 1)
+              if seen[top][3 * left:3 * (left + wide)] == saved[0]
+              and seen[top + high // 2][3 * left:3 * (left + wide)] == saved[high // 2])
+    above = high - 120  # of the status line, its notices and the pointer
+    check(all(seen[at[0] + y][3 * at[1]:3 * (at[1] + wide)] == saved[y] for y in range(above)),
+          "F12's PNG has the very bytes that the window shows")
+    check(view.program.end() == 0, "SIGTERM ends it with exit code 0")
+    kept = (OUTPUT / "config/penumbra/viewer.conf").read_text()
+    check("compensation = 0\n" in kept and "tone = 0\n" in kept,
+          "--exposure and --tone are not remembered")
+    rendered = OUTPUT / "rendered.png"
+    subprocess.run([PENUMBRA, "render", SCENES / "cornell.usda", "--png", rendered, "--patch-size",
+                    "0.2", "--exposure", "7.5", "--tone", "aces", "--width", str(wide), "--height",
+                    str(high), "--quiet"], check=True, timeout=120)
+    check(xwindow.difference(saved, rows_of(rendered)) < 1.5, "render --png shows the same picture")
 
 
 def spread(rows, box):
@@ -255,6 +300,7 @@ def seat_samples(take):
 
 def office_session(display):
     take = OUTPUT / "take.usda"
+    xwindow.remember_size(OUTPUT / "config", 1280, 720)  # as replayed() renders it
     view = View(display, SCENES / "office.usda", "--patch-size", "1", "--element-size", "0.5",
                 "--record", take, "--quiet")
     check(take.exists(), "the recording is there from the start")
@@ -340,6 +386,7 @@ def main():
         take, last = office_session(display)
         replayed(take, last)
         replay_in_the_window(display, take)
+        the_picture_is_the_window_s(display)
 
 
 if __name__ == "__main__":

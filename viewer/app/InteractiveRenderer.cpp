@@ -209,10 +209,34 @@ void InteractiveRenderer::setOverlay(OverlayPicture overlay) {
 
 void InteractiveRenderer::show(unsigned framebuffer, float middleGrey, ToneStyle style) {
     assert(impl_->target);
+    const HdrTarget& target = *impl_->target;
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glViewport(0, 0, impl_->target->width(), impl_->target->height());
-    impl_->tonePass.draw(impl_->target->texture(), middleGrey, style,
-                         impl_->overlayTarget ? impl_->overlayTarget->texture() : 0);
+    glViewport(0, 0, target.width(), target.height());
+    impl_->tonePass.draw({.luminances = target.texture(),
+                          .samples = target.samplesTexture(),
+                          .sampleCount = target.samples(),
+                          .overlay = impl_->overlayTarget ? impl_->overlayTarget->texture() : 0},
+                         middleGrey, style);
+}
+
+DisplayedPicture InteractiveRenderer::displayed(float middleGrey, ToneStyle style) {
+    DisplayedPicture picture{impl_->target->width(), impl_->target->height(), {}};
+    const GlObject framebuffer = makeFramebuffer(), buffer = makeRenderbuffer();
+    glBindRenderbuffer(GL_RENDERBUFFER, buffer.name());
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, picture.width, picture.height);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffer.name());
+    show(framebuffer.name(), middleGrey, style);
+    const std::size_t row = 3 * std::size_t(picture.width);
+    picture.bytes.resize(row * std::size_t(picture.height));
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadBuffer(GL_COLOR_ATTACHMENT0);
+    for (int y = 0; y < picture.height; ++y) // OpenGL has the lowest row first
+        glReadPixels(0, picture.height - 1 - y, picture.width, 1, GL_RGB, GL_UNSIGNED_BYTE,
+                     picture.bytes.data() + std::size_t(y) * row);
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    return picture;
 }
 
 std::optional<std::vector<float>> InteractiveRenderer::luminances(bool wait) {

@@ -11,6 +11,7 @@
 #include "viewer/preview/PreviewLighting.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -20,6 +21,12 @@ namespace penumbra {
 struct InteractiveOptions {
     int samples = 4; ///< a pixel
     HdrTarget::Precision precision = HdrTarget::Precision::half;
+};
+
+/// A picture as the screen shows it.
+struct DisplayedPicture {
+    int width = 0, height = 0;       ///< [pixel]
+    std::vector<std::uint8_t> bytes; ///< 8-bit sRGB, three a pixel, top row first
 };
 
 /// Draws a scene graph many times a second. A frame is
@@ -50,6 +57,9 @@ public:
     /// Shows what was drawn last, and what lies over it, in `framebuffer` (0: the window), whose
     /// lower left corner it fills.
     void show(unsigned framebuffer, float middleGrey, ToneStyle style);
+
+    /// The very bytes that show() shows.
+    DisplayedPicture displayed(float middleGrey, ToneStyle style);
 
     /// Reflected luminances [nit] of a frame drawn not long ago, once; see LuminanceMeter.
     /// \param wait for those of the last frame

@@ -1,27 +1,21 @@
 #include "viewer/app/PictureSaver.h"
 
 #include "io/image/ExrWriter.h"
-#include "io/image/PngWriter.h"
 
 #include <cstdio>
 #include <filesystem>
-#include <vector>
 
 namespace penumbra {
 
-void savePicture(const Picture& picture, Renderer& renderer, const Group& lit, const View& view) {
-    const FrameLayers frame = renderer.render(lit, view, picture.width, picture.height);
+void saveLayers(const std::string& path, const std::string& scene, Renderer& renderer,
+                const Group& lit, const View& view, glm::ivec2 size) {
+    const FrameLayers frame = renderer.render(lit, view, size.x, size.y);
     ExrMetadata metadata;
     metadata.texts["software"] = "Penumbra";
-    metadata.texts["scene"] = picture.scene;
+    metadata.texts["scene"] = scene;
     metadata.texts["units"] = "R, G, B, direct, indirect: cd/m^2; illuminance: lux; Z: m";
     metadata.texts["quality"] = "drawn";
-    writeExr(picture.stem + ".exr", frame, view, metadata);
-    const ToneCurve curve(picture.tone);
-    std::vector<Rgb> shown(frame.beauty);
-    for (Rgb& colour : shown) colour = curve.shown(colour * (kMiddleGrey / picture.middleGrey));
-    writePngBytes(picture.stem + ".png", frame.width, frame.height,
-                  displayBytes(shown, frame.width));
+    writeExr(path, frame, view, metadata);
 }
 
 std::string freeStem(const std::string& name) {

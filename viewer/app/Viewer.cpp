@@ -1,6 +1,8 @@
 #include "viewer/app/Viewer.h"
 
 #include "base/Error.h"
+#include "io/image/Exposure.h"
+#include "io/image/PngWriter.h"
 #include "radiosity/process/ProcessLink.h"
 #include "radiosity/query/LightProbe.h"
 #include "viewer/app/FileWatcher.h"
@@ -22,6 +24,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <thread>
@@ -64,7 +67,7 @@ private:
     void advance(double seconds);
     void draw(double seconds);
     void drawPanelsOver();
-    void save();
+    void save(const View& view);
     void showTitle();
     bool changing() const;
     bool overlayChanging() const;
@@ -109,10 +112,13 @@ Viewer::Viewer(const ViewerOptions& options)
     gui_.emplace(window_);
     state_.sceneName = name_;
     state_.renderer = window_.renderer();
-    state_.tone = settings_.tone;
+    state_.tone = options.tone.value_or(settings_.tone);
     state_.showPanels = settings_.panels;
     state_.trigger = settings_.trigger;
-    state_.exposure.setCompensation(settings_.compensation);
+    if (options.exposure)
+        state_.exposure.fix(middleGreyAt(*options.exposure));
+    else
+        state_.exposure.setCompensation(settings_.compensation);
     state_.patchSize = float(options.asked.patchSize.value_or(0));
     state_.elementSize = float(options.asked.elementSize.value_or(0));
 }
@@ -122,10 +128,10 @@ Viewer::~Viewer() {
         settings_.width = int(float(window_.size().x) / window_.contentScale());
         settings_.height = int(float(window_.size().y) / window_.contentScale());
     }
-    settings_.tone = state_.tone;
+    if (!options_.tone) settings_.tone = state_.tone; // what was asked for once is not remembered
     settings_.panels = state_.showPanels;
     if (state_.trigger != fromFile_.trigger) settings_.trigger = state_.trigger;
-    settings_.compensation = state_.exposure.compensation();
+    if (!options_.exposure) settings_.compensation = state_.exposure.compensation();
     if (walk_) {
         settings_.walkSpeed = walk_->rig().options.speed;
         settings_.eyeHeight = walk_->rig().options.eyeHeight;
@@ -272,7 +278,6 @@ void Viewer::perform(const Command& command) {
 /// What panels and keys asked for.
 void Viewer::doAsAsked() {
     if (std::exchange(state_.wantsUpdate, false) && light_) light_->requestUpdate();
-    if (std::exchange(state_.wantsSave, false)) save();
     if (std::exchange(state_.wantsReload, false)) reload();
     if (std::exchange(state_.wantsRestart, false) && walk_) lightScene();
     if (light_) light_->setTrigger(state_.trigger);
@@ -345,22 +350,22 @@ OverlayView Viewer::blockers() const {
                         one ? "selected, at the pointer" : "at the pointer");
 }
 
-void Viewer::save() {
-    if (!light_ || light_->state().blocksTaken == 0) {
-        state_.notify("There is no light to be saved yet");
-        return;
-    }
-    const Picture picture{freeStem(std::filesystem::path(name_).stem().string()),
-                          name_,
-                          state_.saveWidth,
-                          state_.saveHeight,
-                          state_.exposure.middleGrey(),
-                          state_.tone};
+/// What the window shows, but for the panels, as PNG; with all layers as EXR, once there is light.
+void Viewer::save(const View& view) {
+    const std::string stem = freeStem(std::filesystem::path(name_).stem().string());
+    const float grey = state_.exposure.middleGrey();
     try {
-        savePicture(picture, stills_, light_->lit(),
-                    walk_->rig().view(picture.width, picture.height));
-        const bool whole = light_->state().reached(SolutionState::certified);
-        state_.notify("Saved " + picture.stem + ".exr and .png" +
+        const DisplayedPicture picture = renderer_.displayed(grey, state_.tone);
+        writePngBytes(stem + ".png", picture.width, picture.height, picture.bytes);
+        const bool lit = light_ && light_->state().blocksTaken > 0;
+        if (lit)
+            saveLayers(stem + ".exr", name_, stills_, light_->lit(), view,
+                       {picture.width, picture.height});
+        const bool whole = lit && light_->state().reached(SolutionState::certified);
+        char exposure[64];
+        std::snprintf(exposure, sizeof exposure, " (exposure %.2f EV, %s)", exposureValueOf(grey),
+                      kToneStyleNames[std::size_t(state_.tone)]);
+        state_.notify("Saved " + stem + (lit ? ".png and .exr" : ".png") + exposure +
                       (whole ? "" : ", while the light is being worked on"));
     } catch (const Error& error) {
         state_.notify(error.what(), 15);
@@ -422,6 +427,7 @@ void Viewer::draw(double seconds) {
         state_.exposure.measure(*luminances);
     state_.exposure.advance(seconds, light_ && light_->fading());
     state_.drawn = renderer_.statistics();
+    if (std::exchange(state_.wantsSave, false)) save(view);
     renderer_.show(0, state_.exposure.middleGrey(), state_.tone);
     drawPanelsOver();
     window_.swap();

@@ -1,6 +1,7 @@
 // The walkthrough as a program: a window onto a scene.
 #pragma once
 
+#include "io/image/ToneCurve.h"
 #include "io/usd/layer/UsdDiagnostic.h"
 #include "radiosity/process/RadiosityOptions.h"
 
@@ -13,13 +14,15 @@
 namespace penumbra {
 
 struct ViewerOptions {
-    std::string scene;           ///< USD text
-    std::optional<double> frame; ///< time code to begin with; none: the file's start
-    RadiosityOptions light;      ///< but for what is in `asked`
-    LightRequest asked;          ///< of the light; what is empty: what the file asks for
-    std::string camera;          ///< path of the camera to begin with; empty: the first one
-    std::string record;          ///< layer to record the session in; empty: none
-    bool replay = false;         ///< play the file's animation from the start
+    std::string scene;              ///< USD text
+    std::optional<double> frame;    ///< time code to begin with; none: the file's start
+    RadiosityOptions light;         ///< but for what is in `asked`
+    LightRequest asked;             ///< of the light; what is empty: what the file asks for
+    std::string camera;             ///< path of the camera to begin with; empty: the first one
+    std::string record;             ///< layer to record the session in; empty: none
+    bool replay = false;            ///< play the file's animation from the start
+    std::optional<double> exposure; ///< exposure value at ISO 100; none: metered in the view
+    std::optional<ToneStyle> tone;  ///< none: that of the user's settings
     bool vsync = true;
     int samples = 0; ///< a pixel; 0: 4 with a graphics card, 1 without
     /// Told what the reader has to say about the file, once.

@@ -1,6 +1,7 @@
 #include "viewer/gl/FrameTargets.h"
 
 #include "base/Error.h"
+#include "base/Parallel.h"
 
 #include <epoxy/gl.h>
 
@@ -18,10 +19,20 @@ bool bindIfComplete(const GlObject& framebuffer) {
 }
 
 int supportedSamples(int wanted) {
-    GLint most = 1;
+    GLint most = 1, mostOfTextures = 1;
     glGetIntegerv(GL_MAX_SAMPLES, &most);
-    return std::clamp(wanted, 1, std::max(1, int(most)));
+    glGetIntegerv(GL_MAX_COLOR_TEXTURE_SAMPLES, &mostOfTextures);
+    return std::clamp(wanted, 1, std::max(1, int(std::min(most, mostOfTextures))));
 }
+
+const char* const kOneSampleShader = R"(#version 330 core
+uniform sampler2DMS samples;
+uniform int number;
+out vec4 colour;
+void main() {
+    colour = texelFetch(samples, ivec2(gl_FragCoord.xy), number);
+}
+)";
 
 /// Calls copy(frame index, strip index) for every pixel; OpenGL has the bottom row first.
 template <class Copy>
@@ -31,6 +42,14 @@ void forEachPixel(const FrameLayers& frame, const Strip& strip, Copy copy) {
         const std::size_t from = frame.index(0, strip.height - 1 - y);
         for (std::size_t x = 0; x < std::size_t(frame.width); ++x) copy(to + x, from + x);
     }
+}
+
+/// Calls act(row), rows side by side.
+template <class Act>
+void forEachRow(const Strip& strip, Act act) {
+    parallelFor(std::size_t(strip.height), 8, [&](std::size_t first, std::size_t last) {
+        for (std::size_t y = first; y < last; ++y) act(int(y));
+    });
 }
 
 std::vector<glm::vec4> readColours(int attachment, int width, int height) {
@@ -48,10 +67,10 @@ Rgb toRgb(const glm::vec4& pixel) {
 
 FrameTargets::FrameTargets(int width, int height, int samples)
     : width_(width), height_(height), samples_(supportedSamples(samples)) {
-    light_ = makeTarget({GL_RGBA32F, GL_RGBA32F, GL_RGBA32F}, true, samples_);
+    makeLight();
     while (!bindIfComplete(light_.framebuffer) && samples_ > 1) {
         samples_ /= 2;
-        light_ = makeTarget({GL_RGBA32F, GL_RGBA32F, GL_RGBA32F}, true, samples_);
+        makeLight();
     }
     surface_ = makeTarget({GL_RGBA32F, GL_RGBA32F, GL_RGBA32F, GL_R32UI}, true, 1);
     resolved_ = makeTarget({GL_RGBA32F}, false, 1);
@@ -61,11 +80,24 @@ FrameTargets::FrameTargets(int width, int height, int samples)
                         " x " + std::to_string(height) + " pixels");
 }
 
+void FrameTargets::makeLight() {
+    light_ = makeTarget({GL_RGBA32F, GL_RGBA32F, GL_RGBA32F}, true, samples_);
+}
+
 FrameTargets::Target FrameTargets::makeTarget(const std::vector<unsigned>& colourFormats,
                                               bool depth, int samples) const {
     Target target;
     target.framebuffer = makeFramebuffer();
     glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.name());
+    const auto attachTexture = [&](GLenum attachment, GLenum format) {
+        const GlObject& texture = target.textures.emplace_back(makeTexture());
+        glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, texture.name());
+        glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, format, width_, height_,
+                                GL_TRUE);
+        glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, 0);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D_MULTISAMPLE,
+                               texture.name(), 0);
+    };
     const auto attach = [&](GLenum attachment, GLenum format) {
         const GlObject& buffer = target.buffers.emplace_back(makeRenderbuffer());
         glBindRenderbuffer(GL_RENDERBUFFER, buffer.name());
@@ -76,7 +108,10 @@ FrameTargets::Target FrameTargets::makeTarget(const std::vector<unsigned>& colou
     std::vector<GLenum> outputs;
     for (unsigned format : colourFormats) {
         outputs.push_back(GL_COLOR_ATTACHMENT0 + GLenum(outputs.size()));
-        attach(outputs.back(), format);
+        if (samples > 1 && outputs.size() == 1)
+            attachTexture(outputs.back(), format);
+        else
+            attach(outputs.back(), format);
     }
     if (depth) attach(GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F);
     glDrawBuffers(GLsizei(outputs.size()), outputs.data());
@@ -100,10 +135,38 @@ void FrameTargets::beginSurface(float clearDepth) const {
     glClearBufferfv(GL_DEPTH, 0, &clearDepth);
 }
 
-void FrameTargets::readInto(FrameLayers& frame, const Strip& strip) const {
+void FrameTargets::readInto(FrameLayers& frame, const Strip& strip, const ToneMap& tone) {
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
     readLight(frame, strip);
     readSurface(frame, strip);
+    if (tone) readShown(frame, strip, tone);
+}
+
+void FrameTargets::readShown(FrameLayers& frame, const Strip& strip, const ToneMap& tone) {
+    if (!oneSample_) oneSample_.emplace(kOneSampleShader);
+    const float share = 1.0f / float(samples_);
+    for (int sample = 0; sample < samples_; ++sample) {
+        std::vector<glm::vec4> pixels;
+        if (samples_ > 1) {
+            glBindFramebuffer(GL_FRAMEBUFFER, resolved_.framebuffer.name());
+            glViewport(0, 0, width_, strip.height);
+            glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, light_.textures.front().name());
+            oneSample_->program().use();
+            oneSample_->program().set("samples", 0);
+            oneSample_->program().set("number", sample);
+            oneSample_->draw();
+            glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, 0);
+            pixels = readColours(0, width_, strip.height);
+        }
+        forEachRow(strip, [&](int y) {
+            for (int x = 0; x < frame.width; ++x) {
+                const std::size_t to = frame.index(x, strip.top + y);
+                const std::size_t from = frame.index(x, strip.height - 1 - y);
+                const Rgb colour = pixels.empty() ? frame.beauty[to] : toRgb(pixels[from]);
+                frame.shown[to] += tone(colour) * share;
+            }
+        });
+    }
 }
 
 void FrameTargets::readLight(FrameLayers& frame, const Strip& strip) const {

@@ -3,7 +3,9 @@
 
 #include "base/FrameLayers.h"
 #include "viewer/gl/GlObject.h"
+#include "viewer/gl/ScreenPass.h"
 
+#include <optional>
 #include <vector>
 
 namespace penumbra {
@@ -34,25 +36,31 @@ public:
     void beginSurface(float clearDepth) const;
 
     /// Copies both into `frame`, of which `strip` was drawn at the targets' lower edge. The mean of
-    /// the samples is that of linear luminances, since that is what the pixel measures.
-    void readInto(FrameLayers& frame, const Strip& strip) const;
+    /// the samples is that of linear luminances, since that is what the pixel measures; only the
+    /// layer `shown`, if `tone` is given, is the mean of what is shown of them.
+    void readInto(FrameLayers& frame, const Strip& strip, const ToneMap& tone);
 
 private:
     /// A framebuffer and the renderbuffers behind it.
     struct Target {
         GlObject framebuffer;
-        std::vector<GlObject> buffers;
+        std::vector<GlObject> buffers;  ///< renderbuffers
+        std::vector<GlObject> textures; ///< multisampled: their samples can be read one by one
     };
 
-    /// \param colourFormats OpenGL's internal formats, in the order of the shader's outputs
+    /// \param colourFormats OpenGL's internal formats, in the order of the shader's outputs; with
+    ///        more than one sample the first one is that of a texture
     Target makeTarget(const std::vector<unsigned>& colourFormats, bool depth, int samples) const;
     void readLight(FrameLayers& frame, const Strip& strip) const;
     void readSurface(FrameLayers& frame, const Strip& strip) const;
+    void readShown(FrameLayers& frame, const Strip& strip, const ToneMap& tone);
+    void makeLight();
 
     int width_, height_, samples_;
     Target light_;    ///< beauty with alpha, direct, indirect
     Target surface_;  ///< normal and depth, albedo, illuminance, object id
-    Target resolved_; ///< one of the light layers, averaged
+    Target resolved_; ///< one of the light layers: averaged, or one of its samples
+    std::optional<ScreenPass> oneSample_;
 };
 
 } // namespace penumbra

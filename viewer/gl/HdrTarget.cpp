@@ -34,6 +34,16 @@ GlObject renderbuffer(GLenum attachment, GLenum format, int samples, int width, 
     return buffer;
 }
 
+GlObject sampledTexture(GLenum format, int samples, int width, int height) {
+    GlObject texture = makeTexture();
+    glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, texture.name());
+    glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, format, width, height, GL_TRUE);
+    glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, 0);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE,
+                           texture.name(), 0);
+    return texture;
+}
+
 bool complete() {
     return glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
 }
@@ -47,9 +57,10 @@ HdrTarget::HdrTarget(int width, int height, int samples, Precision precision)
     resolved_ = makeFramebuffer();
     glBindFramebuffer(GL_FRAMEBUFFER, resolved_.name());
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.name(), 0);
-    GLint most = 1;
+    GLint most = 1, mostOfTextures = 1;
     glGetIntegerv(GL_MAX_SAMPLES, &most);
-    samples_ = std::clamp(samples, 1, std::max(1, int(most)));
+    glGetIntegerv(GL_MAX_COLOR_TEXTURE_SAMPLES, &mostOfTextures);
+    samples_ = std::clamp(samples, 1, std::max(1, int(std::min(most, mostOfTextures))));
     while (!makeSamples(format, samples_)) {
         if (samples_ == 1)
             throw Error("OpenGL: can't make a float framebuffer of " + std::to_string(width) +
@@ -62,9 +73,10 @@ bool HdrTarget::makeSamples(unsigned format, int samples) {
     if (samples > 1) {
         drawn_ = makeFramebuffer();
         glBindFramebuffer(GL_FRAMEBUFFER, drawn_.name());
-        sampledColour_ = renderbuffer(GL_COLOR_ATTACHMENT0, format, samples, width_, height_);
+        sampledColour_ = sampledTexture(format, samples, width_, height_);
     } else {
         drawn_ = GlObject();
+        sampledColour_ = GlObject();
         glBindFramebuffer(GL_FRAMEBUFFER, resolved_.name());
     }
     depth_ = renderbuffer(GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F, samples, width_, height_);

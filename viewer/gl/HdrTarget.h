@@ -29,6 +29,8 @@ public:
     void resolve() const;
     /// Name of the texture with the averages: good after resolve().
     unsigned texture() const { return colour_.name(); }
+    /// Name of the multisampled texture with the samples themselves; 0 if there is one a pixel.
+    unsigned samplesTexture() const { return sampledColour_.name(); }
 
     /// Name of the renderbuffer with the depths of the samples.
     unsigned depth() const { return depth_.name(); }

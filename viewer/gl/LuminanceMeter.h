@@ -10,12 +10,10 @@
 
 namespace penumbra {
 
-/// Samples a picture on a grid of kWidth x kHeight cells and brings the values back a frame or two
-/// later, when they have arrived.
+/// Meters a picture on MeterGrid and brings the values back a frame or two later, when they have
+/// arrived.
 class LuminanceMeter {
 public:
-    static constexpr int kWidth = 64, kHeight = 36;
-
     LuminanceMeter();
     ~LuminanceMeter();
     LuminanceMeter(const LuminanceMeter&) = delete;
@@ -25,8 +23,8 @@ public:
     /// \param texture as HdrTarget::texture(): its alpha is what counts
     void measure(unsigned texture);
 
-    /// The latest measurement that has arrived, once: mean luminances of cells [nit], of what
-    /// counts in them; cells in which nothing does are left out. \param wait until there is one
+    /// The latest measurement that has arrived, once: what meteredLuminances() makes of it [nit].
+    /// \param wait until there is one
     std::optional<std::vector<float>> take(bool wait = false);
 
 private:

@@ -27,7 +27,8 @@ struct Renderer::Impl {
 
     std::vector<LitItem> prepare(const Group& root, const View& view);
     void drawPass(const ShaderProgram& program, const std::vector<LitItem>& items);
-    void drawStrip(const std::vector<LitItem>& items, const Strip& strip, FrameLayers& frame);
+    void drawStrip(const std::vector<LitItem>& items, const Strip& strip, const ToneMap& tone,
+                   FrameLayers& frame);
     void requireTargets(int width, int height);
 
     RendererOptions options;
@@ -69,7 +70,7 @@ void Renderer::Impl::drawPass(const ShaderProgram& program, const std::vector<Li
 }
 
 void Renderer::Impl::drawStrip(const std::vector<LitItem>& items, const Strip& strip,
-                               FrameLayers& frame) {
+                               const ToneMap& tone, FrameLayers& frame) {
     const DrawState state(reversed);
     // The whole picture's viewport, moved so that the strip lies at the targets' lower edge.
     glViewport(0, -(frame.height - strip.top - strip.height), frame.width, frame.height);
@@ -77,7 +78,7 @@ void Renderer::Impl::drawStrip(const std::vector<LitItem>& items, const Strip& s
     drawPass(lightProgram, items);
     targets->beginSurface(state.clearDepth());
     drawPass(surfaceProgram, items);
-    targets->readInto(frame, strip);
+    targets->readInto(frame, strip, tone);
 }
 
 void Renderer::Impl::requireTargets(int width, int height) {
@@ -97,15 +98,17 @@ Renderer::Renderer(const RendererOptions& options) : impl_(std::make_unique<Impl
 
 Renderer::~Renderer() = default;
 
-FrameLayers Renderer::render(const Group& root, const View& view, int width, int height) {
+FrameLayers Renderer::render(const Group& root, const View& view, int width, int height,
+                             const ToneMap& tone) {
     assert(width > 0 && height > 0);
     impl_->requireTargets(width, height);
     const std::vector<LitItem> items = impl_->prepare(root, view);
     impl_->statistics.samples = impl_->targets->samples();
     FrameLayers frame(width, height);
+    if (tone) frame.shown.resize(frame.pixelCount());
     const int rows = impl_->targets->height();
     for (int top = 0; top < height; top += rows)
-        impl_->drawStrip(items, {top, std::min(rows, height - top)}, frame);
+        impl_->drawStrip(items, {top, std::min(rows, height - top)}, tone, frame);
     if (glGetError() != GL_NO_ERROR)
         throw Error("OpenGL: drawing failed; the graphics memory may be too small");
     return frame;
@@ -116,9 +119,9 @@ const RenderStatistics& Renderer::statistics() const {
 }
 
 FrameLayers renderFrame(OffscreenContext& context, Renderer& renderer, const Group& root,
-                        const View& view, int width, int height) {
+                        const View& view, int width, int height, const ToneMap& tone) {
     context.makeCurrent();
-    return renderer.render(root, view, width, height);
+    return renderer.render(root, view, width, height, tone);
 }
 
 } // namespace penumbra

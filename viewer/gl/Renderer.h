@@ -50,10 +50,11 @@ public:
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// The picture that `view` has of `root`, all layers.
+    /// The picture that `view` has of `root`, all layers; `shown` if there is a `tone`.
     /// \param width,height [pixel], at least 1
     /// \throws Error if the driver can't make a picture of this size
-    FrameLayers render(const Group& root, const View& view, int width, int height);
+    FrameLayers render(const Group& root, const View& view, int width, int height,
+                       const ToneMap& tone = {});
 
     const RenderStatistics& statistics() const;
 
@@ -64,6 +65,6 @@ private:
 
 /// Renderer::render() with `context` made current first.
 FrameLayers renderFrame(OffscreenContext& context, Renderer& renderer, const Group& root,
-                        const View& view, int width, int height);
+                        const View& view, int width, int height, const ToneMap& tone = {});
 
 } // namespace penumbra

@@ -15,19 +15,28 @@ class TonePass {
 public:
     TonePass();
 
-    /// \param texture    of linear Rec. 709 luminances
+    struct Picture {
+        unsigned luminances = 0; ///< texture [nit], linear Rec. 709
+        /// The multisampled texture that these are the means of, or 0. Each sample goes through the
+        /// tone curve and then they are averaged, so that the edges of lamps are smooth.
+        unsigned samples = 0;
+        int sampleCount = 1;
+        /// Texture of what lies over it: display colours with premultiplied alpha; 0: nothing.
+        unsigned overlay = 0;
+    };
     /// \param middleGrey luminance that is shown as 18 % grey [nit]
-    /// \param overlay    texture of what lies over the picture: display colours with premultiplied
-    ///                   alpha; 0: nothing
-    /// Draws into the framebuffer that is bound, over its viewport.
-    void draw(unsigned texture, float middleGrey, ToneStyle style, unsigned overlay = 0);
+    /// Draws into the framebuffer that is bound, over its viewport, which begins at (0, 0) and has
+    /// the size of the picture.
+    void draw(const Picture& picture, float middleGrey, ToneStyle style);
 
 private:
     void load(ToneStyle style);
+    const ScreenPass& passFor(const Picture& picture);
 
     ScreenPass pass_;
-    GlObject table_;   ///< the curve, one row
-    GlObject nothing_; ///< an overlay of one transparent texel
+    std::optional<ScreenPass> samplesPass_; ///< when it is needed first
+    GlObject table_;                        ///< the curve, one row
+    GlObject nothing_;                      ///< an overlay of one transparent texel
     std::optional<ToneStyle> loaded_;
     ToneCurve curve_{ToneStyle::srgb};
 };

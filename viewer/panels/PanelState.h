@@ -64,7 +64,6 @@ struct PanelState {
     bool recording = false, playing = false, hasAnimation = false;
     double time = 0; ///< since the start [s]
     std::deque<Notice> notices;
-    int saveWidth = 1280, saveHeight = 720; ///< of saved pictures [pixel]
 
     // Asked for by a panel, and done by the main loop.
     bool wantsUpdate = false, wantsSave = false, wantsReload = false, wantsRestart = false;

@@ -4,23 +4,22 @@
 
 #include <imgui.h>
 
-#include <algorithm>
-#include <cmath>
-
 namespace penumbra {
 
 namespace {
 
 void drawExposure(PanelState& state) {
     bool automatic = state.exposure.automatic();
-    if (ImGui::Checkbox("exposure by itself", &automatic))
+    if (ImGui::Checkbox("automatic exposure", &automatic))
         state.exposure.fix(automatic ? std::nullopt
                                      : std::optional(state.exposure.uncompensated()));
     if (!automatic) {
-        // A photographer's exposure value at ISO 100: 8 middleGrey = 2^EV.
-        float value = std::log2(8 * state.exposure.uncompensated());
-        if (ImGui::SliderFloat("exposure value", &value, -6, 20, "%.1f EV"))
-            state.exposure.fix(std::exp2(value) / 8);
+        float value = float(exposureValueOf(state.exposure.uncompensated()));
+        if (ImGui::SliderFloat("exposure value", &value, float(kLowestExposureValue),
+                               float(kHighestExposureValue), "%.1f EV"))
+            state.exposure.fix(middleGreyAt(double(value)));
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("As on a camera at ISO 100: one more halves the brightness");
     }
     float stops = state.exposure.compensation();
     if (ImGui::SliderFloat("brighter by", &stops, -6, 6, "%.1f stops"))
@@ -28,6 +27,8 @@ void drawExposure(PanelState& state) {
     int tone = int(state.tone);
     if (ImGui::Combo("tone curve", &tone, kToneStyleNames.data(), int(kToneStyleNames.size())))
         state.tone = ToneStyle(tone);
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("How very bright light is brought within what a screen can show");
 }
 
 void drawCamera(Walkthrough& walk) {
@@ -46,9 +47,9 @@ void drawCamera(Walkthrough& walk) {
         if (ImGui::SliderFloat(name, &shown, least, most, format, ImGuiSliderFlags_Logarithmic))
             value = double(shown);
     };
-    slider("speed", rig.options.speed, 0.1f, 20, "%.1f m/s");
+    slider("walking speed", rig.options.speed, 0.1f, 20, "%.1f m/s");
     slider("eye height", rig.options.eyeHeight, 0.2f, 5, "%.2f m");
-    slider("mouse", walk.controls().sensitivity, 0.1f, 5, "%.1f");
+    slider("mouse speed", walk.controls().sensitivity, 0.1f, 5, "%.1f");
     int number = 0;
     for (const Bookmark& bookmark : walk.bookmarks()) {
         ImGui::PushID(++number);
@@ -63,17 +64,14 @@ void drawViewPanel(PanelState& state) {
     drawExposure(state);
     if (!state.walk) return;
     int overlay = int(state.overlay);
-    if (ImGui::Combo("overlay", &overlay, kOverlayNames, int(std::size(kOverlayNames))))
+    if (ImGui::Combo("show on top", &overlay, kOverlayNames, int(std::size(kOverlayNames))))
         state.overlay = Overlay(overlay);
     ImGui::Separator();
     drawCamera(*state.walk);
     ImGui::Separator();
-    int size[2] = {state.saveWidth, state.saveHeight};
-    if (ImGui::InputInt2("picture [pixel]", size)) {
-        state.saveWidth = std::clamp(size[0], 1, 16384);
-        state.saveHeight = std::clamp(size[1], 1, 16384);
-    }
-    if (ImGui::Button("save EXR and PNG (F12)")) state.wantsSave = true;
+    if (ImGui::Button("save picture (F12)")) state.wantsSave = true;
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("PNG: as shown here, without panels. EXR: its light in cd/m2, in layers");
 }
 
 } // namespace penumbra

@@ -1,8 +1,6 @@
 // Exposure that adapts.
 #include "io/image/AutoExposure.h"
 
-#include "io/image/PngWriter.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,8 +19,9 @@ TEST(AutoExposure, TakesTheFirstMeasurementAtOnceAndAsAPictureWouldBeExposed) {
     for (int i = 1; i <= 1000; ++i) luminances.push_back(float(i) * 0.3f);
     AutoExposure exposure;
     EXPECT_FALSE(exposure.measured());
+    EXPECT_FLOAT_EQ(exposure.middleGrey(), kUnmeasuredGrey);
     exposure.measure(luminances);
-    EXPECT_FLOAT_EQ(exposure.middleGrey(), chooseExposure(luminances).middleGrey);
+    EXPECT_FLOAT_EQ(exposure.middleGrey(), middleGreyOf(luminances).value());
     EXPECT_TRUE(exposure.settled());
 }
 

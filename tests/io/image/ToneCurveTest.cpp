@@ -68,6 +68,21 @@ TEST(ToneCurve, AgxEndsTenStopsBelowAndSixAndAHalfAboveMiddleGrey) {
     EXPECT_GT(curve.curve(0.18f * std::exp2(-9.0f)), 0);
 }
 
+TEST(ToneMap, ShowsMiddleGreyAs18PercentAndFaultyLuminancesWithinRange) {
+    for (const ToneStyle style : {ToneStyle::agx, ToneStyle::aces, ToneStyle::srgb}) {
+        const ToneMap tone = toneMap(250, style);
+        EXPECT_NEAR(tone(Rgb(250)).g, 0.18, 1e-4);
+        EXPECT_EQ(tone(Rgb(0)), Rgb(0));
+        const float nan = std::numeric_limits<float>::quiet_NaN();
+        const float infinity = std::numeric_limits<float>::infinity();
+        for (const Rgb& faulty : {Rgb(nan, 1, 1), Rgb(infinity), Rgb(-1), Rgb(1, infinity, 0)}) {
+            const Rgb shown = tone(faulty);
+            for (const float channel : {shown.r, shown.g, shown.b})
+                EXPECT_TRUE(channel >= 0 && channel <= 1);
+        }
+    }
+}
+
 } // namespace
 
 } // namespace penumbra

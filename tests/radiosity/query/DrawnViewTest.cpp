@@ -53,6 +53,24 @@ TEST(DrawnView, ShowsWhatRaysFindOnTheDrawnSurface) {
                 1e-4f * luminance(expected));
 }
 
+TEST(DrawnView, IsMeteredAlikeWhateverTheSizeOfThePicture) {
+    // Half of the view is sky, which does not count.
+    const SeenFloor floor;
+    const auto mean = [](const std::vector<float>& values) {
+        double sum = 0;
+        for (const float value : values) sum += double(value) / double(values.size());
+        return sum;
+    };
+    const Lighting& light = floor.solution.lighting;
+    const std::vector<float> fine = meterView(floor.solution.patches(), floor.view, light);
+    const std::vector<float> coarse =
+        DrawnView(floor.solution.patches(), floor.view, 97, 61).metered(light);
+    EXPECT_GT(fine.size(), MeterGrid::kColumns * MeterGrid::kRows / 5u);
+    EXPECT_LT(fine.size(), MeterGrid::kColumns * MeterGrid::kRows / 2u);
+    EXPECT_NEAR(double(coarse.size()) / double(fine.size()), 1, 0.05);
+    EXPECT_NEAR(mean(coarse) / mean(fine), 1, 0.02);
+}
+
 TEST(DrawnView, FollowsTheLightWithoutRays) {
     const SeenFloor floor;
     const DrawnView drawn(floor.solution.patches(), floor.view, 40, 30);

@@ -1,8 +1,12 @@
 // The walkthrough's pictures: InteractiveRenderer with HdrTarget, TonePass and LuminanceMeter.
 #include "tests/viewer/gl/LitScenes.h"
 
+#include "io/image/Exposure.h"
 #include "io/image/PngWriter.h"
+#include "radiosity/query/DrawnView.h"
+#include "radiosity/query/LitSurface.h"
 #include "scenegraph/Mesh.h"
+#include "tests/support/Scenes.h"
 #include "viewer/app/InteractiveRenderer.h"
 
 #include <epoxy/gl.h>
@@ -136,6 +140,76 @@ TEST_F(InteractiveRendererTest, TheScreenShowsWhatTheToneCurveSays) {
         }
         EXPECT_LT(differ, signal.size() / 50) << kToneStyleNames[std::size_t(style)];
     }
+}
+
+TEST_F(InteractiveRendererTest, EdgesOfBrightEmittersAreAveragedAfterTheToneCurve) {
+    // Means of luminances would be far beyond white wherever a sample meets the emitter.
+    root.add(placed(moved(0.013, 0.02, 0), litNode(litSquare({Rgb(0), Rgb(10000)}))));
+    InteractiveRenderer interactive({.samples = 4});
+    draw(interactive, viewFrom(2, kSize, kSize));
+    const DisplayedPicture picture = interactive.displayed(20, ToneStyle::srgb);
+    int between = 0, white = 0;
+    for (const std::uint8_t byte : picture.bytes) {
+        between += byte > 60 && byte < 240;
+        white += byte == 255;
+    }
+    EXPECT_GT(between, 3 * kSize / 2) << "along four edges";
+    EXPECT_GT(white, 3 * kSize * kSize / 10);
+}
+
+TEST_F(InteractiveRendererTest, WhatIsSavedIsWhatIsShown) {
+    root.add(placed(moved(0.2, 0.1, 0), litNode(litSquare({kRho, {3, 2, 1}}))));
+    for (const int samples : {1, 4}) {
+        InteractiveRenderer interactive({.samples = samples});
+        draw(interactive, viewFrom(2, kSize, kSize));
+        const DisplayedPicture picture = interactive.displayed(15, ToneStyle::agx);
+        HdrTarget display(kSize, kSize, 1, HdrTarget::Precision::single); // any framebuffer
+        display.begin(0);
+        GLint framebuffer = 0;
+        glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
+        interactive.show(unsigned(framebuffer), 15, ToneStyle::agx);
+        const std::vector<Rgb> signal = display.read();
+        ASSERT_EQ(picture.bytes.size(), 3 * signal.size());
+        for (int y = 0; y < kSize; ++y)
+            for (int x = 0; x < kSize; ++x) {
+                const Rgb shown = signal[std::size_t((kSize - 1 - y) * kSize + x)];
+                const std::uint8_t* const saved = &picture.bytes[std::size_t(3 * (y * kSize + x))];
+                EXPECT_EQ(saved[0], std::lround(255 * shown.r));
+                EXPECT_EQ(saved[1], std::lround(255 * shown.g));
+                EXPECT_EQ(saved[2], std::lround(255 * shown.b));
+            }
+    }
+}
+
+TEST_F(InteractiveRendererTest, TheWindowIsExposedAsPicturesWithoutOpenGLAre) {
+    // A room with its lamp in view, metered on the graphics card and by rays.
+    Scene scene;
+    scene.root->add(object("room", boxData({-2, -2, 0}, {2, 2, 3}, true)));
+    scene.root->add(ceilingLight({0, 1, 2.9}, 1, 0.5f, Rgb(900, 800, 500)));
+    const Solution solution(std::move(scene), {.patchSize = 0.5f, .elementSize = 0.25f}, {});
+    glm::dmat4 camera(1.0); // looks along +y, its up is z
+    camera[1] = {0, 0, 1, 0}, camera[2] = {0, -1, 0, 0}, camera[3] = {0.3, -1.9, 1.5, 1};
+    Lens lens;
+    lens.focalLength = 1;
+    lens.horizontalAperture = 2;
+    const View view = makeView(lens, camera, 320, 180);
+    const LitBranch lit(solution.patches(), solution.lighting);
+    InteractiveRenderer interactive({.samples = 4});
+    interactive.drawScene(listVisible(lit, Frustum(view.worldToClip())), view, preview, 320, 180);
+    const auto card = interactive.luminances(true);
+    ASSERT_TRUE(card);
+    const auto rays = meterView(solution.patches(), view, solution.lighting);
+    EXPECT_NEAR(exposureValueOf(middleGreyOf(*card).value()),
+                exposureValueOf(middleGreyOf(rays).value()), 0.02);
+}
+
+TEST_F(InteractiveRendererTest, AViewOfLightsAloneIsMeteredByThem) {
+    root.add(litNode(litSquare({Rgb(0), Rgb(5000)})));
+    InteractiveRenderer interactive(kExact);
+    draw(interactive, viewFrom(2, kSize, kSize));
+    const auto luminances = interactive.luminances(true);
+    ASSERT_TRUE(luminances && !luminances->empty());
+    for (const float y : *luminances) EXPECT_NEAR(y, 5000, 1);
 }
 
 TEST_F(InteractiveRendererTest, MultisamplingAveragesLightAtEdges) {

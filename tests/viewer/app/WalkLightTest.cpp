@@ -190,19 +190,21 @@ TEST_F(WalkLightTest, WhoHasMovedAwayFromThePlayedCameraIsLeftAlone) {
     EXPECT_EQ(walk.rig().pose(), aside);
 }
 
-TEST_F(WalkLightTest, ASavedPictureIsTheLitFrameInBothFormats) {
+TEST_F(WalkLightTest, TheLayersOfALitFrameAreSavedUnderAFreeName) {
     Walkthrough walk(load(file()));
     WalkLight light(walk, coarse(), makeThreadLink());
     settle(light, walk);
     const std::string stem = freeStem(file("shot"));
     EXPECT_EQ(stem, file("shot-0001"));
-    Picture picture{stem, "room.usda", kPicture.x, kPicture.y, 10, ToneStyle::agx};
-    savePicture(picture, renderer, light.lit(), viewOf(walk));
+    const View view = viewOf(walk);
+    saveLayers(stem + ".exr", "room.usda", renderer, light.lit(), view, kPicture);
     EXPECT_GT(std::filesystem::file_size(stem + ".exr"), 1000u);
-    EXPECT_GT(std::filesystem::file_size(stem + ".png"), 500u);
     EXPECT_EQ(freeStem(file("shot")), file("shot-0002"));
-    picture.stem = file("no/folder");
-    EXPECT_THROW(savePicture(picture, renderer, light.lit(), viewOf(walk)), Error);
+    std::ofstream(file("shot-0002.png")) << "another one";
+    EXPECT_EQ(freeStem(file("shot")), file("shot-0003"));
+    EXPECT_THROW(
+        saveLayers(file("no/folder.exr"), "room.usda", renderer, light.lit(), view, kPicture),
+        Error);
 }
 
 } // namespace

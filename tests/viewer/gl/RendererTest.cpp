@@ -3,6 +3,7 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace penumbra {
@@ -162,6 +163,49 @@ TEST_F(RendererTest, FarFromTheOriginNothingTrembles) {
     EXPECT_NEAR(frame.depth[frame.index(32, 32)], 1.0f, 1e-6f);
     EXPECT_TRUE(frame.objectId[frame.index(47, 32)].valid());  // x = far + 0.984
     EXPECT_FALSE(frame.objectId[frame.index(48, 32)].valid()); // x = far + 1.016
+}
+
+/// A curve as hard as can be: white from 1 nit on.
+Rgb cutOff(Rgb colour) {
+    return {std::min(colour.r, 1.0f), std::min(colour.g, 1.0f), std::min(colour.b, 1.0f)};
+}
+
+TEST_F(RendererTest, EdgesOfBrightEmittersAreAveragedAfterTheToneCurve) {
+    // 10,000 nit against black: a pixel that a share s of an edge crosses has s * 10,000 nit, far
+    // beyond white, but is shown as s. The mean of the samples is also what alpha is.
+    root.add(placed(moved(0.013, 0.02, 0), litNode(litSquare({Rgb(0), Rgb(10000)}))));
+    const int size = 48;
+    const View view = viewFrom(2, size, size);
+    const FrameLayers frame = renderFrame(*context, renderer, root, view, size, size, cutOff);
+    ASSERT_EQ(frame.shown.size(), frame.pixelCount());
+    int between = 0;
+    for (std::size_t i = 0; i < frame.pixelCount(); ++i) {
+        EXPECT_NEAR(frame.shown[i].g, frame.alpha[i], 1e-5f);
+        between += frame.shown[i].g > 0.2f && frame.shown[i].g < 0.8f;
+    }
+    EXPECT_GT(between, size / 2) << "along four edges";
+    EXPECT_TRUE(render(view, size, size).shown.empty()) << "only if it is asked for";
+}
+
+TEST_F(RendererTest, AskingForWhatIsShownChangesNoOtherLayer) {
+    root.add(placed(moved(0.3, 0.1, 0), litNode(litSquare({kRho, {3, 2, 1}}))));
+    const View view = viewFrom(2, 33, 70);
+    Renderer strips({.samples = 4, .stripPixels = 33 * 16});
+    const FrameLayers plain = renderFrame(*context, renderer, root, view, 33, 70);
+    const FrameLayers toned = renderFrame(*context, strips, root, view, 33, 70, cutOff);
+    EXPECT_EQ(plain.beauty, toned.beauty);
+    EXPECT_EQ(plain.alpha, toned.alpha);
+    EXPECT_EQ(plain.depth, toned.depth);
+    for (std::size_t i = 0; i < toned.pixelCount(); ++i) // inside, where all samples are alike
+        if (toned.alpha[i] == 1) expectNear(toned.shown[i], cutOff(toned.beauty[i]), 1e-5f);
+}
+
+TEST_F(RendererTest, WithOneSampleAPixelIsShownAsItIs) {
+    root.add(litNode(litSquare({Rgb(0), Rgb(0.5f)})));
+    Renderer single({.samples = 1});
+    const FrameLayers frame = renderFrame(*context, single, root, viewFrom(2, 9, 9), 9, 9, cutOff);
+    EXPECT_EQ(frame.shown, frame.beauty);
+    EXPECT_EQ(frame.shown[frame.index(4, 4)], Rgb(0.5f));
 }
 
 } // namespace
