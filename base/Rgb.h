@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <numbers>
 
 namespace penumbra {
 
@@ -38,6 +39,12 @@ constexpr float minChannel(Rgb c) {
 }
 constexpr Rgb absolute(Rgb c) {
     return {c.r < 0 ? -c.r : c.r, c.g < 0 ? -c.g : c.g, c.b < 0 ? -c.b : c.b};
+}
+
+/// What a Lambertian surface of this luminance emits: M = pi L. \param luminance [cd/m^2]
+/// \return exitance [lm/m^2]
+constexpr Rgb lambertianExitance(Rgb luminance) {
+    return std::numbers::pi_v<float> * luminance;
 }
 
 } // namespace penumbra

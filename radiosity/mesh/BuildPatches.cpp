@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 namespace penumbra {
 
@@ -156,7 +155,7 @@ private:
             group = {out_.emitters.size(), 0, {}};
             for (glm::vec3 point : outline) group.bounds.add(point);
             Emitter emitter;
-            emitter.exitance = std::numbers::pi_v<float> * material.emission();
+            emitter.exitance = lambertianExitance(material.emission());
             emitter.object = surface_.object;
             emitter.path = surface_.path;
             out_.emitters.push_back(std::move(emitter));

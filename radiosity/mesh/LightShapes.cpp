@@ -84,7 +84,7 @@ MeshData lightShapeMesh(const Light& light) {
 
 Emitter lightEmitter(const Light& light, const glm::dmat4& toWorld) {
     Emitter emitter;
-    emitter.exitance = std::numbers::pi_v<float> * light.luminance();
+    emitter.exitance = lambertianExitance(light.luminance());
     emitter.centre = glm::vec3(toWorld[3]);
     const auto* disk = std::get_if<DiskShape>(&light.shape());
     const auto* sphere = std::get_if<SphereShape>(&light.shape());

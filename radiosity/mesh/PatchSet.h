@@ -71,7 +71,7 @@ struct Patch {
 struct Emitter {
     enum class Kind { polygons, disk, sphere };
     Kind kind = Kind::polygons;
-    Rgb exitance; ///< E = pi L [lm/m^2]
+    Rgb exitance; ///< [lm/m^2]
     std::vector<std::vector<glm::vec3>>
         polygons;       ///< outlines, counter-clockwise seen from the front
     glm::vec3 centre{}; ///< of a disk or sphere

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numbers>
 #include <tuple>
 
 namespace penumbra {
@@ -33,7 +32,7 @@ std::vector<Emitter> meshEmitters(const Placed<Mesh>& placed) {
                 polygon.push_back(glm::vec3(placed.toWorld * glm::dvec4(point, 1)));
             }
             emitter.area += polygonArea(polygon);
-            emitter.exitance = material.emission() * std::numbers::pi_v<float>;
+            emitter.exitance = lambertianExitance(material.emission());
             emitter.path = placed.path;
         }
         first += count;

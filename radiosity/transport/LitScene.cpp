@@ -7,7 +7,6 @@
 #include "scenegraph/Mesh.h"
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
 namespace penumbra {
@@ -116,7 +115,7 @@ bool LitScene::followColours(SceneChange& change) {
         change.colours = true;
     }
     for (std::uint32_t e = 0; e < set.emitters.size(); ++e) {
-        const Rgb exitance = std::numbers::pi_v<float> * lightOf(built_.emitterSources[e]);
+        const Rgb exitance = lambertianExitance(lightOf(built_.emitterSources[e]));
         if (exitance == set.emitters[e].exitance) continue;
         set.emitters[e].exitance = exitance;
         change.emitters.push_back(e);

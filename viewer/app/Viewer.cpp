@@ -59,6 +59,7 @@ public:
 private:
     void takeEvents();
     void perform(const Command& command);
+    bool performOnPicture(const Command& command);
     void doAsAsked();
     void takeScene();
     void openScene(ReadyScene ready);
@@ -216,38 +217,13 @@ void Viewer::reload() {
 }
 
 void Viewer::perform(const Command& command) {
-    constexpr float kStop = 1.0f / 3;
-    AutoExposure& exposure = state_.exposure;
+    if (performOnPicture(command)) return;
     switch (command.action) {
     case Action::quit:
         quit_ = true;
         break;
-    case Action::help:
-        state_.showHelp = !state_.showHelp;
-        break;
-    case Action::panels:
-        state_.showPanels = !state_.showPanels;
-        break;
     case Action::fullScreen:
         window_.setFullScreen(!window_.fullScreen());
-        break;
-    case Action::brighterView:
-        exposure.setCompensation(exposure.compensation() + kStop);
-        break;
-    case Action::darkerView:
-        exposure.setCompensation(exposure.compensation() - kStop);
-        break;
-    case Action::autoExposure:
-        exposure.fix(exposure.automatic() ? std::optional(exposure.uncompensated()) : std::nullopt);
-        break;
-    case Action::nextTone:
-        state_.tone = ToneStyle((int(state_.tone) + 1) % int(kToneStyleNames.size()));
-        break;
-    case Action::nextOverlay:
-        state_.overlay = after(state_.overlay, 1);
-        break;
-    case Action::previousOverlay:
-        state_.overlay = after(state_.overlay, -1);
         break;
     case Action::update:
         state_.wantsUpdate = true;
@@ -264,14 +240,44 @@ void Viewer::perform(const Command& command) {
         else
             state_.notify("The file has no animation");
         break;
-    case Action::cancel:
-        if (state_.showHelp) {
-            state_.showHelp = false;
-            break;
-        }
-        [[fallthrough]];
     default:
         if (walk_) walk_->perform(command);
+    }
+}
+
+/// Does what is only about how the picture is shown. \return whether the command was that
+bool Viewer::performOnPicture(const Command& command) {
+    constexpr float kStop = 1.0f / 3;
+    AutoExposure& exposure = state_.exposure;
+    switch (command.action) {
+    case Action::help:
+        state_.showHelp = !state_.showHelp;
+        return true;
+    case Action::panels:
+        state_.showPanels = !state_.showPanels;
+        return true;
+    case Action::brighterView:
+        exposure.setCompensation(exposure.compensation() + kStop);
+        return true;
+    case Action::darkerView:
+        exposure.setCompensation(exposure.compensation() - kStop);
+        return true;
+    case Action::autoExposure:
+        exposure.fix(exposure.automatic() ? std::optional(exposure.uncompensated()) : std::nullopt);
+        return true;
+    case Action::nextTone:
+        state_.tone = ToneStyle((int(state_.tone) + 1) % int(kToneStyleNames.size()));
+        return true;
+    case Action::nextOverlay:
+        state_.overlay = after(state_.overlay, 1);
+        return true;
+    case Action::previousOverlay:
+        state_.overlay = after(state_.overlay, -1);
+        return true;
+    case Action::cancel:
+        return std::exchange(state_.showHelp, false);
+    default:
+        return false;
     }
 }
 

@@ -6,7 +6,6 @@
 #include "scenegraph/Mesh.h"
 
 #include <algorithm>
-#include <numbers>
 
 namespace penumbra {
 
@@ -38,13 +37,13 @@ std::vector<Emitter> emittersOf(const RadiosityNode& node, const std::string& so
 }
 
 Rgb exitanceOf(const PlacedScene& placed, const std::string& source) {
-    constexpr float kPi = std::numbers::pi_v<float>;
     if (const Placed<Light>* const light = find(placed.lights, source))
-        return kPi * light->node->luminance();
+        return lambertianExitance(light->node->luminance());
     const Placed<Mesh>* const mesh = find(placed.meshes, source);
     for (std::size_t face = 0; mesh && face < mesh->node->faceCount(); ++face)
         if (const Material& material = *mesh->node->materialOf(face); material.emissive())
-            return kPi * material.emission(); // all that shines of it is alike, see EmissiveMesh
+            return lambertianExitance(
+                material.emission()); // all that shines of it is alike, see EmissiveMesh
     return {};
 }
 
