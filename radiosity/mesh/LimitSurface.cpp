@@ -255,6 +255,22 @@ float FaceSurface::extent() const {
     return extent;
 }
 
+double FaceSurface::area() const {
+    constexpr int kPieces = 4; // a side of a sub-face
+    double area = 0;
+    for (int sub = 0; sub < subFaceCount(); ++sub)
+        for (int j = 0; j < kPieces; ++j)
+            for (int i = 0; i < kPieces; ++i) {
+                const auto corner = [&](int a, int b) {
+                    const glm::vec2 st(float(i + a) / kPieces, float(j + b) / kPieces);
+                    return glm::dvec3(at(fromSubFace(sub, st)).position);
+                };
+                area += 0.5 * glm::length(glm::cross(corner(1, 1) - corner(0, 0),
+                                                     corner(0, 1) - corner(1, 0)));
+            }
+    return area;
+}
+
 DomainPattern FaceSurface::pattern(const std::vector<int>& rates) const {
     Bfr::Tessellation::Options options;
     options.SetFacetSize(4).PreserveQuads(true);

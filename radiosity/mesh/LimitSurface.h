@@ -52,6 +52,7 @@ public:
     float edgeLength(int edge) const; ///< along the limit surface [m], by a few chords
     float edgeBend(int edge) const;   ///< by how much the normal turns along an edge [rad]
     float extent() const;             ///< largest distance between two of its corners [m]
+    double area() const;              ///< [m^2], by a few flat pieces
 
     /// \param rates parts each edge is cut into, then inner rates (see Bfr::Tessellation)
     DomainPattern pattern(const std::vector<int>& rates) const;
@@ -75,8 +76,6 @@ public:
 
     /// False if OpenSubdiv refused the cage; it is then taken as polygons.
     bool understood() const { return understood_; }
-    /// Whether its faces are plain polygons, for that or because no others are asked for.
-    bool isPolygons() const { return !refined_; }
     /// \return null if the face has no limit surface
     std::unique_ptr<FaceSurface> face(std::uint32_t index) const;
     /// The polygon of some points of the mesh, two of which may be the same.

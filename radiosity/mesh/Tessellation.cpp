@@ -1,59 +1,32 @@
 #include "radiosity/mesh/Tessellation.h"
 
+#include "radiosity/mesh/EdgeRates.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <unordered_map>
 
 namespace penumbra {
 
 namespace {
 
-/// How one edge is cut: into `patches` parts, each into elements, `elements` in all.
-struct EdgeRate {
-    int patches = 1;
-    int elements = 1;
-};
-
 class Tessellator {
 public:
-    Tessellator(const SurfaceMesh& mesh, float patchSize, float elementSize)
-        : mesh_(mesh), patchSize_(patchSize), elementSize_(elementSize) {}
+    Tessellator(const SurfaceMesh& mesh, const LimitSurface& surface, float patchSize,
+                float elementSize)
+        : mesh_(mesh), surface_(surface), rates_(mesh, surface, patchSize, elementSize),
+          patchSize_(patchSize) {}
 
-    Tessellation run(const LimitSurface& surface) {
+    Tessellation run() {
         for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f)
-            if (auto face = surface.face(f)) addFace(f, *face);
+            if (auto face = surface_.face(f)) addFace(f, *face);
         return std::move(out_);
     }
 
 private:
-    /// Rates depend on the edge alone, whichever face asks first: that makes it watertight.
-    EdgeRate rateOf(const FaceSurface& face, std::span<const std::uint32_t> corners, int edge) {
-        const std::uint32_t a = corners[std::size_t(edge)];
-        const std::uint32_t b = corners[(std::size_t(edge) + 1) % corners.size()];
-        const std::uint64_t key = std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
-        const auto [found, fresh] = rates_.try_emplace(key);
-        if (fresh)
-            found->second =
-                cut(face.edgeLength(edge), mesh_.subdivided() ? face.edgeBend(edge) : 0);
-        return found->second;
-    }
-    /// By length, and so that the normal turns by no more than kMostBend within an element.
-    EdgeRate cut(float length, float bend) const {
-        constexpr float kMostBend = 0.2f; // [rad]
-        const auto parts = [](float whole, float part) {
-            return std::clamp(int(std::ceil(whole / part - 1e-3f)), 1, 4096);
-        };
-        constexpr int kMost = 32767; // OpenSubdiv's Bfr cuts no edge into more parts
-        const int patches = parts(length, patchSize_);
-        const int elements = std::max(parts(length / float(patches), elementSize_),
-                                      parts(bend / float(patches), kMostBend));
-        return {patches, patches * std::min(elements, kMost / patches)};
-    }
-
     void addFace(std::uint32_t index, const FaceSurface& face);
-    std::vector<int> facetRates(const std::vector<EdgeRate>& edges) const;
-    void addCells(std::uint32_t index, const FaceSurface& face, const std::vector<EdgeRate>& edges);
+    std::vector<int> facetRates(std::uint32_t index) const;
+    void addCells(std::uint32_t index, const FaceSurface& face);
     void leaveOutUnsound(std::size_t first);
     bool hasArea(const Facet& facet) const;
     bool hasSide(const Facet& facet) const;
@@ -62,13 +35,13 @@ private:
                      std::span<const std::uint32_t> vertices) const;
     std::uint32_t boundaryVertex(std::uint64_t key, std::uint32_t along, const SurfacePoint& point);
     std::vector<std::uint32_t> addVertices(std::uint32_t index, const FaceSurface& face,
-                                           const std::vector<EdgeRate>& edges,
                                            const std::vector<glm::vec2>& coords);
 
     const SurfaceMesh& mesh_;
-    float patchSize_, elementSize_;
+    const LimitSurface& surface_;
+    const EdgeRates rates_;
+    float patchSize_;
     Tessellation out_;
-    std::unordered_map<std::uint64_t, EdgeRate> rates_;
     std::map<std::pair<std::uint64_t, std::uint32_t>, std::vector<std::uint32_t>> shared_;
 
     // Cells of the face at hand: `cellsU_` x `cellsV_` a quadrilateral domain (or sub-face).
@@ -77,22 +50,26 @@ private:
     bool whole_ = false;
 };
 
-std::vector<int> Tessellator::facetRates(const std::vector<EdgeRate>& edges) const {
-    std::vector<int> rates;
-    for (const EdgeRate& edge : edges) rates.push_back(edge.elements);
-    if (edges.size() == 4) {
-        rates.push_back(std::max(rates[0], rates[2]));
-        rates.push_back(std::max(rates[1], rates[3]));
+/// The boundary as both faces of each edge cut it, the inside as this face wants it.
+std::vector<int> Tessellator::facetRates(std::uint32_t index) const {
+    const auto corners = mesh_.cornersOf(mesh_.faces[index]);
+    std::vector<int> rates, inner;
+    for (std::size_t e = 0; e < corners.size(); ++e)
+        rates.push_back(rates_.along(corners[e], corners[(e + 1) % corners.size()]));
+    for (const EdgeRate& edge : rates_.ofFace(index)) inner.push_back(edge.elements);
+    if (inner.size() == 4) {
+        rates.push_back(std::max(inner[0], inner[2]));
+        rates.push_back(std::max(inner[1], inner[3]));
     } else {
-        rates.push_back(*std::max_element(rates.begin(), rates.end()));
+        rates.push_back(*std::max_element(inner.begin(), inner.end()));
     }
     return rates;
 }
 
 /// Cuts the face's parameter domain into cells and notes their outlines. A small face that is no
 /// quadrilateral stays whole.
-void Tessellator::addCells(std::uint32_t index, const FaceSurface& face,
-                           const std::vector<EdgeRate>& edges) {
+void Tessellator::addCells(std::uint32_t index, const FaceSurface& face) {
+    const std::span<const EdgeRate> edges = rates_.ofFace(index);
     firstCell_ = std::uint32_t(out_.cells.size());
     int most = 1;
     for (const EdgeRate& edge : edges) most = std::max(most, edge.patches);
@@ -137,7 +114,6 @@ std::uint32_t Tessellator::boundaryVertex(std::uint64_t key, std::uint32_t along
 
 /// Bfr lists boundary points first, along the edges from vertex 0 on.
 std::vector<std::uint32_t> Tessellator::addVertices(std::uint32_t index, const FaceSurface& face,
-                                                    const std::vector<EdgeRate>& edges,
                                                     const std::vector<glm::vec2>& coords) {
     const auto corners = mesh_.cornersOf(mesh_.faces[index]);
     std::vector<std::uint32_t> vertices(coords.size());
@@ -145,7 +121,7 @@ std::vector<std::uint32_t> Tessellator::addVertices(std::uint32_t index, const F
     for (std::size_t e = 0; e < corners.size(); ++e) {
         const std::uint32_t a = corners[e], b = corners[(e + 1) % corners.size()];
         const std::uint64_t edgeKey = std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
-        const auto rate = std::uint32_t(edges[e].elements);
+        const auto rate = std::uint32_t(rates_.along(a, b));
         for (std::uint32_t k = 0; k < rate; ++k, ++next) {
             const bool isCorner = k == 0;
             const std::uint64_t key = isCorner ? std::uint64_t(a) << 32 | a : edgeKey;
@@ -161,13 +137,9 @@ std::vector<std::uint32_t> Tessellator::addVertices(std::uint32_t index, const F
 }
 
 void Tessellator::addFace(std::uint32_t index, const FaceSurface& face) {
-    const auto corners = mesh_.cornersOf(mesh_.faces[index]);
-    std::vector<EdgeRate> edges;
-    for (int e = 0; e < face.size(); ++e) edges.push_back(rateOf(face, corners, e));
-    addCells(index, face, edges);
-
-    const DomainPattern pattern = face.pattern(facetRates(edges));
-    const std::vector<std::uint32_t> vertices = addVertices(index, face, edges, pattern.coords);
+    addCells(index, face);
+    const DomainPattern pattern = face.pattern(facetRates(index));
+    const std::vector<std::uint32_t> vertices = addVertices(index, face, pattern.coords);
     const std::size_t first = out_.facets.size();
     for (const std::array<int, 4>& source : pattern.facets)
         out_.facets.push_back(placeFacet(face, pattern, source, vertices));
@@ -235,7 +207,7 @@ Tessellation tessellate(const SurfaceMesh& mesh, float patchSize, float elementS
                         bool& understood) {
     const LimitSurface surface(mesh);
     understood = surface.understood();
-    return Tessellator(mesh, patchSize, elementSize).run(surface);
+    return Tessellator(mesh, surface, patchSize, elementSize).run();
 }
 
 } // namespace penumbra

@@ -43,6 +43,7 @@ struct Tessellation {
 
 /// \param patchSize    longest cell edge [m]
 /// \param elementSize  longest facet edge [m], about; the real size divides the edge evenly
+/// A face makes no more pieces than its area holds (see EdgeRates): edges of slivers are longer.
 /// Subdivision surfaces are evaluated on the limit surface. A cage that OpenSubdiv refuses is taken
 /// as plain polygons. \return             the tessellation, and whether the subdivision surface was
 /// understood

@@ -1,7 +1,9 @@
 // Surfaces in cells and facets: no cracks, the right area, the right limit.
 #include "radiosity/mesh/Tessellation.h"
+#include "radiosity/mesh/EdgeRates.h"
 #include "tests/support/Scenes.h"
 
+#include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
 #include <map>
@@ -227,6 +229,107 @@ TEST(Tessellation, CutsNoEdgeIntoMorePartsThanBfrCan) {
     EXPECT_LE(t.facets.size(), 32767u);
     EXPECT_GE(t.facets.size(), 32000u);
     EXPECT_NEAR(areaOf(t), 800, 0.1);
+}
+
+/// A polygon of `area` [m^2], 2 m long, turned about an axis askew; it starts at the origin.
+MeshData sliver(const std::vector<glm::vec2>& shape, float area, float angle) {
+    double twice = 0;
+    for (std::size_t i = 0; i < shape.size(); ++i) {
+        const glm::vec2 a = shape[i], b = shape[(i + 1) % shape.size()];
+        twice += double(a.x) * b.y - double(a.y) * b.x;
+    }
+    const auto turn = glm::angleAxis(angle, glm::normalize(glm::vec3(1, 2, 3)));
+    std::vector<glm::vec3> points;
+    for (glm::vec2 p : shape) points.push_back(turn * glm::vec3(p.x, p.y * 2 * area / twice, 0));
+    return polygonData(points);
+}
+
+const std::map<std::string, std::vector<glm::vec2>> kSlivers{
+    {"right triangle", {{0, 0}, {2, 0}, {2, 1}}},
+    {"needle", {{0, 0}, {2, 0.5f}, {0, 1}}},
+    {"flat triangle", {{0, 0}, {2, 0}, {1, 1}}},
+    {"strip", {{0, 0}, {2, 0}, {2, 1}, {0, 1}}},
+    {"sheared strip", {{0, 0}, {1, 0}, {2, 1}, {1, 1}}},
+    {"kite", {{0, 0}, {1.5f, -0.5f}, {2, 0}, {1.5f, 0.5f}}},
+    {"pentagon", {{0, 0}, {1, 0}, {2, 0.5f}, {1, 1}, {0, 1}}},
+    {"octagon",
+     {{0, 0.3f}, {0.3f, 0}, {1.7f, 0}, {2, 0.3f}, {2, 0.7f}, {1.7f, 1}, {0.3f, 1}, {0, 0.7f}}}};
+
+TEST(Tessellation, MakesNoMorePiecesThanTheAreaHoldsHoweverThinTheShape) {
+    // Of any shape as many as of a square of the same area (1024), within some times. The long
+    // edges of a triangle of 2 m by 10 micrometres would be cut into 20,000 elements each.
+    for (const auto& [name, shape] : kSlivers)
+        for (SubdivisionScheme scheme : {SubdivisionScheme::none, SubdivisionScheme::catmullClark})
+            for (float width : {2.0f, 0.1f, 1e-2f, 1e-3f, 1e-5f})
+                for (float angle : {0.0f, 0.4f, 2.0f}) {
+                    const float area = width; // half or all of 2 m by `width`
+                    MeshData data = sliver(shape, area, angle);
+                    data.scheme = scheme;
+                    const float patchSize = std::sqrt(area / 64), elementSize = patchSize / 4;
+                    const Tessellation t = cut(data, patchSize, elementSize);
+                    const double times = 6 * std::max(1.0, double(shape.size()) / 4);
+                    const double some = double(shape.size()) + 64;
+                    const std::string where = name + ", " + std::to_string(width);
+                    EXPECT_GT(t.facets.size(), 0u) << where;
+                    EXPECT_LE(double(t.cells.size()), times * 64 + some) << where;
+                    EXPECT_LE(double(t.facets.size()), times * 1024 + some) << where;
+                    if (scheme == SubdivisionScheme::none && width > 1e-4f) { // floats end there
+                        EXPECT_NEAR(areaOf(t), area, 0.02 * area) << where;
+                    }
+                }
+}
+
+/// A wedge of 2 m by 1 m, `thickness` at its thick end: two of its sides are slivers.
+MeshData wedge(float thickness) {
+    return meshOf(
+        {{0, 0, 0}, {2, 0, 0}, {2, 0, thickness}, {0, 1, 0}, {2, 1, 0}, {2, 1, thickness}},
+        {{0, 3, 4, 1}, {0, 2, 5, 3}, {1, 4, 5, 2}, {0, 1, 2}, {3, 5, 4}});
+}
+
+TEST(Tessellation, CutsAnEdgeBesideASliverAsItsLargeFaceWantsIt) {
+    const MeshData data = wedge(1e-3f);
+    for (SubdivisionScheme scheme : {SubdivisionScheme::none, SubdivisionScheme::bilinear}) {
+        MeshData mesh = data;
+        mesh.scheme = scheme;
+        const Tessellation t = cut(mesh, 0.2f, 0.02f);
+        EXPECT_EQ(cracks(t), 0);
+        std::vector<std::size_t> facets(5);
+        for (const Facet& facet : t.facets) ++facets[t.cells[facet.cell].face];
+        EXPECT_EQ(facets[0], 5000u); // 100 by 50
+        EXPECT_EQ(facets[1], 5000u);
+        EXPECT_LE(facets[3], 400u); // the two edges of 100, and little inside; it was 7,500
+    }
+}
+
+TEST(Tessellation, LeavesOrdinaryShapesAsFineAsTheyAreAskedFor) {
+    // Two to one, three corners to twelve; a bench's side of 1.5 m by 3 cm.
+    const std::vector<MeshData> ordinary{
+        polygonData({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}}),
+        polygonData({{0, 0, 0}, {1, 0, 0}, {0.5f, 0.87f, 0}}),
+        polygonData({{0, 0, 0}, {1.5f, 0, 0}, {1.5f, 0.03f, 0}, {0, 0.03f, 0}}),
+        polygonData({{0, 0.2f, 0},
+                     {0.06f, 0.06f, 0},
+                     {0.2f, 0, 0},
+                     {1.8f, 0, 0},
+                     {1.94f, 0.06f, 0},
+                     {2, 0.2f, 0},
+                     {2, 0.3f, 0},
+                     {1.94f, 0.44f, 0},
+                     {1.8f, 0.5f, 0},
+                     {0.2f, 0.5f, 0},
+                     {0.06f, 0.44f, 0},
+                     {0, 0.3f, 0}})};
+    for (const MeshData& data : ordinary) {
+        const SurfaceMesh mesh = placeSurface(data, glm::dmat4(1.0));
+        const LimitSurface surface(mesh);
+        const EdgeRates rates(mesh, surface, 0.4f, 0.05f);
+        const auto face = surface.face(0);
+        for (int e = 0; e < face->size(); ++e) {
+            const EdgeRate rate = rates.ofFace(0)[std::size_t(e)];
+            EXPECT_LE(face->edgeLength(e), 0.401f * float(rate.patches)) << face->size();
+            EXPECT_LE(face->edgeLength(e), 0.0501f * float(rate.elements)) << face->size();
+        }
+    }
 }
 
 TEST(Tessellation, HasUnitNormalsThatPointOutwards) {
