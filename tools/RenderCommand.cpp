@@ -226,6 +226,7 @@ void run(RenderCommand command) {
         for (const Shot& shot : shots) writer.write(shot, frame);
     }
     if (!command.solve.stats.empty()) writeStatistics(command.solve.stats, solution);
+    solution.warn();
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "base/Clock.h"
 #include "base/Error.h"
 #include "tools/OutputFiles.h"
+#include "tools/Statistics.h"
 #include "viewer/input/LightSettings.h"
 
 #include <CLI/CLI.hpp>
@@ -233,6 +234,12 @@ void SceneSolution::light() {
             "ambient estimate stands for the rest (--residual goes on to the end)\n",
             settings_.scene.c_str(), patches().patches.size(),
             static_cast<unsigned long long>(s.shots));
+}
+
+void SceneSolution::warn() const {
+    const std::string warning = certificateWarning(statistics());
+    if (!settings_.quiet && !warning.empty())
+        fmt::print(stderr, "{}: warning: {}\n", settings_.scene, warning);
 }
 
 SolveStatistics SceneSolution::statistics() const {

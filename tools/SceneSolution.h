@@ -93,6 +93,8 @@ public:
     const Lighting& lighting() const { return lighting_; }
     const std::vector<FrameCost>& frames() const { return frames_; } ///< if frames are played
     ProgressBar& progress() { return progress_; }
+    /// Says on standard error what makes the solution worth little, unless it is to be quiet.
+    void warn() const;
 
     /// Runs `work` and adds its time to the phase of that name.
     template <class Work>

@@ -78,15 +78,15 @@ void run(SolveCommand command) {
         writeValues(numberedPath(command.values, frame), sensors, values);
     }
     if (!command.solve.stats.empty()) writeStatistics(command.solve.stats, solution);
+    solution.warn();
     if (command.solve.quiet || command.values == "-") return;
     const SolveStatistics s = solution.statistics();
     const PatchSet& patches = solution.patches();
     fmt::print(stderr,
-               "{} patches, {} elements, {} emitters; {:.1f} M rays, {} shots in {:.1f} s; relaxed "
-               "to within {:.3g} lm/m2 (mean {:.3g})\n",
+               "{} patches, {} elements, {} emitters; {:.1f} M rays, {} shots in {:.1f} s; {}\n",
                patches.patches.size(), patches.elements.size(), patches.emitters.size(),
                double(s.direct.rays.total() + s.indirect.rays.total()) * 1e-6, s.shots,
-               s.direct.seconds + s.indirect.seconds, s.certificate, s.meanRadiosity);
+               s.direct.seconds + s.indirect.seconds, certificateSummary(s));
 }
 
 } // namespace

@@ -1,13 +1,31 @@
 #include "tools/Statistics.h"
 
 #include "io/image/AtomicFile.h"
+#include "radiosity/transport/LitLevel.h"
 #include "tools/SceneSolution.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <sys/resource.h>
 
 namespace penumbra {
+
+std::string certificateSummary(const SolveStatistics& s) {
+    if (!(s.litIlluminance > 0)) return "nothing is lit";
+    const double share = certificateOfLit(s.certificate, s.litIlluminance);
+    return fmt::format("relaxed to within {:.3g} lux, {:.2g} % of the light on lit surfaces "
+                       "(median {:.3g} lux)",
+                       s.certificate, 100 * share, s.litIlluminance);
+}
+
+std::string certificateWarning(const SolveStatistics& s) {
+    if (certificateOfLit(s.certificate, s.litIlluminance) < 1) return {};
+    return fmt::format(
+        "the certificate, {:.3g} lux, is worth nothing: as large as the light itself, "
+        "{:.3g} lux on lit surfaces (try a smaller --residual)",
+        s.certificate, s.litIlluminance);
+}
 
 std::size_t peakMemory() {
     rusage usage{};
@@ -71,7 +89,12 @@ void writeStatistics(const std::string& path, const SceneSolution& solution) {
                      {"detail_rays", s.detail.rays.total()},
                      {"detail_seconds", s.detail.seconds},
                      {"brightest_exitance", s.brightest},
-                     {"mean_radiosity", s.meanRadiosity}};
+                     {"mean_radiosity", s.meanRadiosity},
+                     {"lit_illuminance", s.litIlluminance}};
+    json["solve"]["certificate_of_lit"] =
+        s.litIlluminance > 0
+            ? nlohmann::ordered_json(certificateOfLit(s.certificate, s.litIlluminance))
+            : nlohmann::ordered_json();
     json["sffl"] = {{"rows", s.rows}, {"entries", s.entries}, {"bytes", s.bytes}};
     json["memory"] = {{"peak_bytes", peakMemory()}};
     json["phases"] = solution.phases();

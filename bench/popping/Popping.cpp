@@ -146,70 +146,80 @@ void reportConsistency(const std::string& scene, PreviewMethod by, float element
                 100 * found.most, 100 * found.beyond);
 }
 
-int run(int argc, char** argv) {
-    std::string only;
+/// What the command line asks for.
+struct Asked {
+    std::string only; ///< scene; empty: all
     PreviewMethod by = PreviewMethod::maps;
     glm::ivec2 size{640, 360};
     float elementSize = 0;
     bool indirect = true, motion = false, consistent = false;
-    std::string keep;
-    int variantWanted = -1;
+    std::string keep; ///< folder for frames; empty: none are kept
+    int variant = -1; ///< -1: all
     std::size_t named = 0;
+};
+
+Asked asked(int argc, char** argv) {
+    Asked asked;
     for (int i = 1; i < argc; ++i) {
         const std::string argument = argv[i];
         if (argument == "--rays")
-            by = PreviewMethod::rays;
+            asked.by = PreviewMethod::rays;
         else if (argument == "--direct-only")
-            indirect = false;
+            asked.indirect = false;
         else if (argument == "--motion")
-            motion = true;
+            asked.motion = true;
         else if (argument == "--consistency")
-            consistent = true;
+            asked.consistent = true;
         else if (argument == "--variant" && i + 1 < argc)
-            variantWanted = std::stoi(argv[++i]);
+            asked.variant = std::stoi(argv[++i]);
         else if (argument == "--name" && i + 1 < argc)
-            named = std::stoul(argv[++i]);
+            asked.named = std::stoul(argv[++i]);
         else if (argument == "--keep" && i + 1 < argc)
-            keep = argv[++i];
+            asked.keep = argv[++i];
         else if (argument == "--hd")
-            size = {1280, 720};
+            asked.size = {1280, 720};
         else if (argument == "--element-size" && i + 1 < argc)
-            elementSize = std::stof(argv[++i]);
+            asked.elementSize = std::stof(argv[++i]);
         else
-            only = argument;
+            asked.only = argument;
     }
-    if (consistent) {
-        for (const DragScript& script : kScripts)
-            if (only.empty() || only == script.scene)
-                reportConsistency(script.scene, by, elementSize, size);
-        return 0;
-    }
-    std::printf("                              |   start     |    motion     |       "
-                "hand-over        | flick |  ready settled real%% | frames\n");
-    for (DragScript script : kScripts) {
-        if (!only.empty() && only != script.scene) continue;
-        if (indirect) script.after = kAfterIndirect;
-        for (const Variant& variant : kVariants) {
-            const auto number = int(&variant - kVariants.data());
-            const char* const name = by == PreviewMethod::rays ? variant.byRays : variant.byMaps;
-            if (!name || (variantWanted >= 0 && variantWanted != number)) continue;
-            DragOptions options;
-            options.motion = motion;
-            options.named = named;
-            options.blend = variant.blend;
-            options.blend.by = by;
-            options.size = size;
-            options.elementSize = elementSize;
-            options.indirect = indirect;
-            const DragResult result = runDrag(script, options);
+    return asked;
+}
 
-            std::printf("%s: %zu elements, %zu lamps drawn live, by %s\n", script.scene.c_str(),
-                        result.elements, result.lights, result.card.c_str());
-            report(script, name, result);
-            if (!keep.empty())
-                keepFrames(result, options.size, keep + "/" + script.scene + std::to_string(number),
-                           4);
-        }
+void play(const DragScript& script, int number, const Asked& asked) {
+    const Variant& variant = kVariants[std::size_t(number)];
+    const char* const name = asked.by == PreviewMethod::rays ? variant.byRays : variant.byMaps;
+    if (!name || (asked.variant >= 0 && asked.variant != number)) return;
+    DragOptions options;
+    options.motion = asked.motion;
+    options.named = asked.named;
+    options.blend = variant.blend;
+    options.blend.by = asked.by;
+    options.size = asked.size;
+    options.elementSize = asked.elementSize;
+    options.indirect = asked.indirect;
+    const DragResult result = runDrag(script, options);
+    std::printf("%s: %zu elements, %zu lights previewed, by %s\n", script.scene.c_str(),
+                result.elements, result.lights, result.card.c_str());
+    report(script, name, result);
+    if (!asked.keep.empty())
+        keepFrames(result, options.size, asked.keep + "/" + script.scene + std::to_string(number),
+                   4);
+}
+
+int run(int argc, char** argv) {
+    const Asked what = asked(argc, argv);
+    if (!what.consistent)
+        std::printf("                              |   start     |    motion     |       "
+                    "hand-over        | flick |  ready settled real%% | frames\n");
+    for (DragScript script : kScripts) {
+        if (!what.only.empty() && what.only != script.scene) continue;
+        if (what.indirect) script.after = kAfterIndirect;
+        if (what.consistent)
+            reportConsistency(script.scene, what.by, what.elementSize, what.size);
+        else
+            for (int number = 0; number < int(kVariants.size()); ++number)
+                play(script, number, what);
     }
     return 0;
 }

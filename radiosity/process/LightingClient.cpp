@@ -321,7 +321,7 @@ RadiosityState LightingClient::state() const {
     state.task = status_.task.text();
     state.progress = std::isfinite(status_.progress) ? std::clamp(status_.progress, 0.0, 1.0) : 0;
     state.certificate = status_.certificate;
-    state.meanRadiosity = status_.meanRadiosity;
+    state.litIlluminance = status_.litIlluminance;
     state.queued = queue_.size() + std::size_t(serial_ - std::min(serial_, status_.taken));
     state.dirtyBlocks = status_.dirtyBlocks;
     state.dirtyMarked = control_ && knowsEdits(status_.marked);

@@ -304,8 +304,10 @@ void LightingWorker::fail(const std::string& why) {
 
 void LightingWorker::report() {
     if (lit_) {
-        status_.certificate = lit_->solver().certificate();
-        status_.meanRadiosity = lit_->solver().meanRadiosity();
+        const double certificate = lit_->solver().certificate();
+        if (certificate != status_.certificate) // or the light is what it was
+            status_.litIlluminance = lit_->solver().litIlluminance();
+        status_.certificate = certificate;
     }
     status_.dirtyBlocks = publisher_ ? std::uint32_t(publisher_->open()) : 0;
     control_.status.write(status_);

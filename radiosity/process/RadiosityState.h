@@ -26,7 +26,7 @@ struct RadiosityState {
     std::string task;            ///< of phase solving, e.g. "direct light"
     double progress = 0;         ///< share of the task that is done, in [0, 1]
     double certificate = 0;      ///< bound of |B_exact - B| for the meshed scene [lm/m^2]
-    double meanRadiosity = 0;    ///< area-weighted, of reflecting surfaces [lm/m^2]
+    double litIlluminance = 0;   ///< half of the lit area has more, see LitLevel [lux]
     std::size_t held = 0;        ///< edits that the trigger holds back
     std::size_t queued = 0;      ///< edits sent, or about to be, that are not taken in yet
     std::size_t dirtyBlocks = 0; ///< blocks with light to be published

@@ -4,6 +4,7 @@
 #include "base/Parallel.h"
 #include "radiosity/mesh/Interpolation.h"
 #include "radiosity/schedule/ViewPriority.h"
+#include "radiosity/transport/LitLevel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -294,6 +295,20 @@ std::vector<Rgb> Solver::radiosity() const {
     return radiosity;
 }
 
+double Solver::litIlluminance() const {
+    const std::vector<glm::dvec3> nodes = nodeIlluminance();
+    LitLevel level;
+    for (std::uint32_t p = 0; p < set_.patches.size(); ++p) {
+        const Patch& patch = set_.patches[p];
+        const bool reflects = maxChannel(set_.materials[patch.material].reflectance) > 0;
+        if (!reflects || !set_.objects[patch.object.value].present) continue;
+        glm::dvec3 h = direct_.patches()[p];
+        if (indirect_) h += interpolateNodes<glm::dvec3>(patch, 0.5f, 0.5f, nodes);
+        level.add(std::max({h.r, h.g, h.b}), patch.area);
+    }
+    return level.median();
+}
+
 WorkDone Solver::done() const {
     WorkDone done;
     done.rays = direct_.updates().rays().total();
@@ -317,6 +332,7 @@ SolveStatistics Solver::statistics() const {
     };
     result.state = state_;
     result.brightest = direct_.brightest();
+    result.litIlluminance = litIlluminance();
     result.direct = count(direct_.updates(), directSeconds_);
     result.dirtyBlocks = direct_.updates().open().count();
     if (indirect_) {

@@ -76,7 +76,8 @@ struct SolveStatistics {
     std::uint64_t dirtyBlocks = 0; ///< of rows that edits concern, not yet worked on
     double dirtyBound = 0; ///< what these may change in what any patch reflects; in the certificate
     double brightest = 0;  ///< largest exitance of an emitter [lm/m^2]
-    double meanRadiosity = 0; ///< area-weighted, of reflecting surfaces [lm/m^2]
+    double meanRadiosity = 0;  ///< area-weighted, of reflecting surfaces [lm/m^2]
+    double litIlluminance = 0; ///< H_lit, see LitLevel [lux]; 0: nothing is lit
     std::size_t rows = 0, entries = 0, bytes = 0; ///< of the SFFL
 };
 
@@ -172,6 +173,8 @@ public:
     bool directOnly() const { return !indirect_; }
     double certificate() const { return indirect_ ? indirect_->certificate() : 0; }
     double meanRadiosity() const { return indirect_ ? indirect_->meanRadiosity() : 0; }
+    /// H_lit, see LitLevel [lux]; 0: nothing is lit. Visits all patches.
+    double litIlluminance() const;
 
     const DirectLight& direct() const { return direct_; }
     const IndirectLight& indirect() const { return *indirect_; }

@@ -144,6 +144,54 @@ TEST_F(Solve, WritesStatisticsWithTheKeysOfTheContract) {
     EXPECT_EQ(json.at("solve").at("state"), "exact");
 }
 
+/// smallRoom() with something in place of its lamp's intensity, and something added.
+std::string roomWith(const std::string& intensity, const std::string& more) {
+    std::string text = smallRoom();
+    const std::string old = "inputs:intensity = 100";
+    text.replace(text.find(old), old.size(), "inputs:intensity = " + intensity);
+    return text + more;
+}
+
+/// A black plate 2 cm below the lamp.
+const std::string kShade = R"(def Cube "Shade"
+{
+    double size = 1
+    color3f[] primvars:displayColor = [(0.01, 0.01, 0.01)]
+    double3 xformOp:translate = (1, 1, 1.965)
+    float3 xformOp:scale = (1.2, 1, 0.01)
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]
+}
+)";
+
+TEST_F(Solve, WarnsWhereTheCertificateIsAsLargeAsTheLight) {
+    const std::string stats = here.path("stats.json");
+    const std::vector<std::string> rough{"--residual", "0.005", "--stats", stats};
+    const auto share = [&] {
+        return nlohmann::json::parse(readFile(stats)).at("solve").at("certificate_of_lit");
+    };
+    Outcome outcome = runPenumbra(solve(here.write("open.usda", smallRoom()), rough));
+    EXPECT_THAT(outcome.err, testing::Not(HasSubstr("warning")));
+    EXPECT_THAT(outcome.err, HasSubstr("% of the light on lit surfaces"));
+    EXPECT_LT(share(), 1);
+    outcome = runPenumbra(solve(here.write("shaded.usda", roomWith("100", kShade)), rough));
+    EXPECT_EQ(outcome.exitCode, 0);
+    EXPECT_THAT(outcome.err, HasSubstr("shaded.usda: warning: the certificate"));
+    EXPECT_THAT(outcome.err, HasSubstr("is worth nothing: as large as the light itself"));
+    EXPECT_GE(share(), 1);
+}
+
+TEST_F(Solve, SaysThatNothingIsLit) {
+    const std::string stats = here.path("stats.json");
+    const Outcome outcome =
+        runPenumbra(solve(here.write("black.usda", roomWith("0", "")), {"--stats", stats}));
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("nothing is lit"));
+    EXPECT_THAT(outcome.err, testing::Not(HasSubstr("worth nothing")));
+    const auto json = nlohmann::json::parse(readFile(stats)).at("solve");
+    EXPECT_EQ(json.at("lit_illuminance"), 0);
+    EXPECT_TRUE(json.at("certificate_of_lit").is_null());
+}
+
 TEST_F(Solve, SaysWhereASensorListIsWrong) {
     const std::vector<std::pair<std::string, std::string>> wrong{
         {"x,y,z,nx,ny\n", "bad.csv:1: error: no column 'nz'"},

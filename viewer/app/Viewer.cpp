@@ -5,6 +5,7 @@
 #include "io/image/PngWriter.h"
 #include "radiosity/process/ProcessLink.h"
 #include "radiosity/query/LightProbe.h"
+#include "radiosity/transport/LitLevel.h"
 #include "viewer/app/FileWatcher.h"
 #include "viewer/app/InteractiveRenderer.h"
 #include "viewer/app/PictureSaver.h"
@@ -453,8 +454,9 @@ void Viewer::run() {
         last = now;
         advance(std::min(kLongestStep, passed));
         sinceCertificate += passed;
-        if (state_.light.meanRadiosity > 0 && sinceCertificate > 0.25) {
-            const double share = state_.light.certificate / state_.light.meanRadiosity;
+        if (state_.light.litIlluminance > 0 && sinceCertificate > 0.25) {
+            const double share =
+                certificateOfLit(state_.light.certificate, state_.light.litIlluminance);
             state_.certificates.add(float(std::log10(std::max(share, 1e-6))));
             sinceCertificate = 0;
         }

@@ -22,12 +22,13 @@ void explain(const char* words) {
 
 void drawCertificate(const PanelState& state) {
     const RadiosityState& light = state.light;
-    if (!(light.meanRadiosity > 0)) return;
+    if (!(light.litIlluminance > 0)) return;
     ImGui::TextWrapped("%s", errorWords(light).c_str());
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("How far the light of any surface may be from its final value: at most\n"
-                          "%.3g lm/m2 (the certificate). It shrinks while light is computed.",
-                          light.certificate);
+                          "%.3g lux (the certificate). It shrinks while light is computed.\n"
+                          "Half of the lit area has more than %.3g lux.",
+                          light.certificate, light.litIlluminance);
     const History& history = state.certificates;
     if (history.size() > 1)
         ImGui::PlotLines("##certificates", history.values().data(), int(history.size()),

@@ -1,5 +1,7 @@
 #include "viewer/panels/LightWords.h"
 
+#include "radiosity/transport/LitLevel.h"
+
 #include <cstdio>
 
 namespace penumbra {
@@ -36,11 +38,11 @@ std::string lightWords(const RadiosityState& light) {
 }
 
 std::string errorWords(const RadiosityState& light) {
-    if (!(light.meanRadiosity > 0)) return {};
-    const double share = light.certificate / light.meanRadiosity;
-    if (share > 1) return "may still be wrong by more than the mean light";
+    if (!(light.litIlluminance > 0)) return {};
+    const double share = certificateOfLit(light.certificate, light.litIlluminance);
+    if (share >= 1) return "may still be wrong by as much as there is light";
     char text[80];
-    std::snprintf(text, sizeof text, "may still be wrong by %.2g %% of the mean light",
+    std::snprintf(text, sizeof text, "may still be wrong by %.2g %% of the light on lit surfaces",
                   100 * share);
     return text;
 }

@@ -56,7 +56,7 @@ struct PanelState {
     RadiosityState light;
     InteractiveStatistics drawn;
     History frameMilliseconds; ///< from frame to frame
-    History certificates;      ///< log10 of the certificate as a share of the mean radiosity
+    History certificates;      ///< log10 of certificateOfLit()
     float patchSize = 0;       ///< that was asked for [m]; 0: chosen for the scene
     float elementSize = 0;
     std::string sceneName, renderer;

@@ -69,7 +69,8 @@ struct WorkerStatus {
     std::uint32_t solution = 0; ///< SolutionState of the light as it is published
     std::uint32_t stopped = 0;  ///< 1: see Solver::stopped()
     double progress = 0;
-    double certificate = 0, meanRadiosity = 0; ///< [lm/m^2]
+    double certificate = 0;    ///< [lm/m^2]
+    double litIlluminance = 0; ///< [lux]
     SharedText<32> task;
     SharedText<232> trouble; ///< of phase failed
 };

@@ -31,11 +31,11 @@ TEST(LightWords, SayTheStateOfTheSolutionAndNothingElseIsCalledDone) {
 TEST(LightWords, SayWhatTheLightMayBeWrongBy) {
     RadiosityState light;
     EXPECT_EQ(errorWords(light), "") << "nothing is lit";
-    light.meanRadiosity = 50;
+    light.litIlluminance = 50;
     light.certificate = 0.25;
-    EXPECT_EQ(errorWords(light), "may still be wrong by 0.5 % of the mean light");
+    EXPECT_EQ(errorWords(light), "may still be wrong by 0.5 % of the light on lit surfaces");
     light.certificate = 60;
-    EXPECT_EQ(errorWords(light), "may still be wrong by more than the mean light");
+    EXPECT_EQ(errorWords(light), "may still be wrong by as much as there is light");
 }
 
 } // namespace
