@@ -12,12 +12,9 @@ namespace penumbra {
 class LitGeometry;
 
 enum class Overlay : std::uint8_t { none, mesh, age, dirtyBlocks, importance, blockers };
-inline constexpr const char* kOverlayNames[] = {"nothing",
-                                                "mesh",
-                                                "age of the light",
-                                                "light still to compute",
-                                                "what is computed first",
-                                                "why it is dark"};
+inline constexpr const char* kOverlayNames[] = {
+    "nothing",       "mesh", "age of the light", "light still to compute", "what is computed first",
+    "why it is dark"};
 
 /// Whether it shows what RadiosityNode::watchDirty() asks for.
 constexpr bool watchesDirty(Overlay overlay) {
