@@ -147,7 +147,7 @@ FrameLayers FrameWriter::draw(const View& view, const ToneMap& tone) {
         return traceFrame(solution_.patches(), solution_.rays(), solution_.lighting(), view,
                           command_.width, height_, options);
     }
-    OffscreenContext context(std::size_t(command.width) * std::size_t(command.height));
+    OffscreenContext context(std::size_t(command_.width) * std::size_t(height_));
     Renderer renderer;
     const LitBranch lit(solution_.patches(), solution_.lighting());
     return renderFrame(context, renderer, lit, view, command_.width, height_, tone);

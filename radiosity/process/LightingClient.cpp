@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <new>
 #include <utility>
 
@@ -16,27 +15,14 @@ namespace penumbra {
 
 namespace {
 
-// Keys of messages that replace each other; those of edits are smaller, see keyOf().
-constexpr std::uint64_t kCameraKey = std::uint64_t(1) << 62, kLightsKey = kCameraKey + 1,
-                        kWorkKey = kCameraKey + 2;
-
-constexpr double kStart = 20;                           ///< a process has so long to begin [s]
-constexpr double kStandstill = 120;                     ///< a step of the work takes less [s]
 constexpr double kFirstDelay = 0.1, kLongestDelay = 10; ///< before another worker is tried [s]
-
-/// The head of a message; flush() puts in its serial number when it goes out.
-ByteWriter messageOf(MessageKind kind) {
-    ByteWriter body;
-    body.put(kind);
-    body.put(std::uint64_t(0));
-    return body;
-}
 
 } // namespace
 
 LightingClient::LightingClient(std::unique_ptr<LightingLink> link, const RadiosityOptions& options,
                                std::function<void(ByteWriter&)> writeTask)
-    : link_(std::move(link)), options_(options), writeTask_(std::move(writeTask)) {}
+    : link_(std::move(link)), options_(options), writeTask_(std::move(writeTask)),
+      watch_(options.timeout) {}
 
 LightingClient::~LightingClient() {
     link_->end();
@@ -55,7 +41,6 @@ void LightingClient::stop() {
     control_.reset();
     ring_.reset();
     queue_.clear();
-    sent_.clear();
     unlitSince_ = 0;
 }
 
@@ -79,17 +64,15 @@ void LightingClient::launch() {
         block.viewer = getpid();
         ring_.emplace(block.ring, block.ringBytes);
         queue_.clear();
-        sent_.clear();
         granted_ = opened_ = 0;
         grantedRegion_.reset();
         status_ = {};
-        serial_ = editSerial_ = 0;
-        beat_ = turns_ = 0;
-        silence_ = standstill_ = ungranted_ = 0;
+        ungranted_ = 0;
+        watch_.begin();
         link_->start(control_, {options_.threads, options_.niceness});
         sendScene();
         if (hasCamera_) setCamera(camera_);
-        if (!lights_.empty()) queue_.push_back({kLightsKey, lights_, nullptr});
+        if (!lights_.empty()) queue_.put(MessageQueue::kLights, lights_);
         if (question_ != 0) watchDirty(question_);
     } catch (const Error& error) {
         failed(error.what());
@@ -121,15 +104,12 @@ void LightingClient::sendScene() {
     if (!control_) return;
     ByteWriter task;
     writeTask_(task);
-    Message message;
-    message.region = link_->regions().create(task.bytes().size());
-    message.region->reserve();
-    std::copy(task.bytes().begin(), task.bytes().end(), message.region->bytes().begin());
-    std::erase_if(queue_, [](const Message& m) { return m.key < kCameraKey || m.region; });
+    RegionPtr region = link_->regions().create(task.bytes().size());
+    region->reserve();
+    std::copy(task.bytes().begin(), task.bytes().end(), region->bytes().begin());
     ByteWriter body = messageOf(MessageKind::scene);
-    body.text(message.region->name());
-    message.body = body.take();
-    queue_.push_back(std::move(message));
+    body.text(region->name());
+    queue_.putScene(body.take(), std::move(region));
     if (unlitSince_ == 0) unlitSince_ = steadySeconds();
 }
 
@@ -140,13 +120,13 @@ void LightingClient::send(const GraphEdit& edit) {
     ByteWriter body = messageOf(MessageKind::edit);
     write(body, edit);
     if (body.bytes().size() > RingSender::longest(kRingBytes)) return sendScene();
-    queue(keyOf(edit), std::move(body));
+    queue_.put(keyOf(edit), body.take());
 }
 
 void LightingClient::invalidate(const Bounds& box) {
     ByteWriter body = messageOf(MessageKind::invalidate);
     body.put(box);
-    if (control_) queue(kNoKey, std::move(body));
+    if (control_) queue_.put(MessageQueue::kNoKey, body.take());
     if (unlitSince_ == 0) unlitSince_ = steadySeconds();
 }
 
@@ -155,7 +135,7 @@ void LightingClient::setCamera(const View& view) {
     hasCamera_ = true;
     ByteWriter body = messageOf(MessageKind::camera);
     body.put(view);
-    if (control_) queue(kCameraKey, std::move(body));
+    if (control_) queue_.put(MessageQueue::kCamera, body.take());
 }
 
 void LightingClient::setPreviewLights(const std::vector<std::string>& paths, std::uint32_t serial) {
@@ -164,58 +144,22 @@ void LightingClient::setPreviewLights(const std::vector<std::string>& paths, std
     body.put(std::uint64_t(paths.size()));
     for (const std::string& path : paths) body.text(path);
     lights_ = body.bytes();
-    if (control_) queue(kLightsKey, std::move(body));
+    if (control_) queue_.put(MessageQueue::kLights, body.take());
 }
 
 void LightingClient::watchDirty(std::uint32_t question) {
     question_ = question;
-    sendValue(kWorkKey, MessageKind::watchDirty, question);
+    sendValue(MessageQueue::kDirty, MessageKind::watchDirty, question);
 }
 
 void LightingClient::send(MessageKind kind, std::uint32_t value) {
-    sendValue(kNoKey, kind, value);
+    sendValue(MessageQueue::kNoKey, kind, value);
 }
 
 void LightingClient::sendValue(std::uint64_t key, MessageKind kind, std::uint32_t value) {
     ByteWriter body = messageOf(kind);
     body.put(value);
-    if (control_) queue(key, std::move(body));
-}
-
-void LightingClient::queue(std::uint64_t key, ByteWriter body) {
-    Message message{key, body.take(), nullptr};
-    if (key != kNoKey) {
-        const auto same = std::find_if(queue_.begin(), queue_.end(),
-                                       [&](const Message& m) { return m.key == key; });
-        if (same != queue_.end()) {
-            *same = std::move(message);
-            return;
-        }
-    }
-    queue_.push_back(std::move(message));
-}
-
-void LightingClient::flush() {
-    bool sent = false;
-    while (!queue_.empty()) {
-        Message& message = queue_.front();
-        const std::uint64_t serial = serial_ + 1;
-        std::memcpy(message.body.data() + sizeof(MessageKind), &serial, sizeof serial);
-        if (!ring_->send(message.body)) break;
-        serial_ = serial;
-        if (message.key != kCameraKey) editSerial_ = serial;
-        sent = true;
-        if (message.region) sent_.emplace_back(serial, std::move(message.region));
-        queue_.pop_front();
-    }
-    if (sent) ring(control().doorbell);
-}
-
-/// Whether a worker that knows of so many messages knows of all edits. Cameras come all the time.
-bool LightingClient::knowsEdits(std::uint64_t serial) const {
-    return serial >= editSerial_ && serial <= serial_ &&
-           std::all_of(queue_.begin(), queue_.end(),
-                       [](const Message& m) { return m.key == kCameraKey; });
+    if (control_) queue_.put(key, body.take());
 }
 
 void LightingClient::turn() {
@@ -225,7 +169,7 @@ void LightingClient::turn() {
     if (!running_ || hopeless_) return;
     if (!control_ && now >= retryAt_) launch();
     if (!control_) return;
-    flush();
+    if (queue_.send(*ring_)) ring(control().doorbell);
     if (!ring_->sound()) return failed("the process wrote nonsense");
     watch(passed);
     if (!control_) return;
@@ -242,18 +186,11 @@ void LightingClient::turn() {
 void LightingClient::watch(double passed) {
     if (const auto why = link_->ended()) return failed(*why);
     ungranted_ = grantedRegion_ ? ungranted_ + passed : 0;
-    if (ungranted_ > kStandstill) return failed("the process takes no memory");
+    if (ungranted_ > WorkerWatch::kStandstill) return failed("the process takes no memory");
     if (!link_->apart()) return;
-    const ControlBlock& block = control();
-    const std::uint64_t beat = block.beat.load(std::memory_order_relaxed);
-    const std::uint64_t turns = block.turns.load(std::memory_order_relaxed);
-    silence_ = std::exchange(beat_, beat) == beat ? silence_ + passed : 0;
-    standstill_ = std::exchange(turns_, turns) == turns ? standstill_ + passed : 0;
-    if (beat == 0 && link_->byHand()) return;
-    if (silence_ > (beat == 0 ? kStart : options_.timeout))
-        return failed("the process does not answer");
-    if (standstill_ > kStandstill && status_.phase != WorkerStatus::meshing)
-        failed("the process is stuck");
+    const std::string why =
+        watch_.listen(control(), passed, link_->byHand(), status_.phase == WorkerStatus::meshing);
+    if (!why.empty()) failed(why);
 }
 
 void LightingClient::readStatus() {
@@ -261,11 +198,11 @@ void LightingClient::readStatus() {
     if (!control().status.read(status) || control().status.version() == 0) return;
     control_->unlink(); // the worker has it
     status_ = status;
-    while (!sent_.empty() && sent_.front().first <= status_.taken) sent_.pop_front();
+    queue_.taken(status_.taken);
     const bool rests =
         status_.solution != std::uint32_t(SolutionState::working) || status_.stopped != 0;
-    const bool lit = status_.phase == WorkerStatus::solving && rests && knowsEdits(status_.lit) &&
-                     opened_ == granted_;
+    const bool lit = status_.phase == WorkerStatus::solving && rests &&
+                     queue_.knowsEdits(status_.lit) && opened_ == granted_;
     if (lit) {
         unlitSince_ = 0;
         reportedFailure_ = false;
@@ -310,8 +247,8 @@ void LightingClient::openStore() {
 /// of whatever kind, that the worker has not worked off.
 SolutionState LightingClient::solution() const {
     if (!control_ || unlitSince_ != 0) return SolutionState::working;
-    const std::uint32_t most =
-        std::uint32_t(knowsEdits(status_.lit) ? SolutionState::exact : SolutionState::certified);
+    const std::uint32_t most = std::uint32_t(
+        queue_.knowsEdits(status_.lit) ? SolutionState::exact : SolutionState::certified);
     return SolutionState(std::min(status_.solution, most));
 }
 
@@ -322,9 +259,9 @@ RadiosityState LightingClient::state() const {
     state.progress = std::isfinite(status_.progress) ? std::clamp(status_.progress, 0.0, 1.0) : 0;
     state.certificate = status_.certificate;
     state.litIlluminance = status_.litIlluminance;
-    state.queued = queue_.size() + std::size_t(serial_ - std::min(serial_, status_.taken));
+    state.queued = queue_.waiting(status_.taken);
     state.dirtyBlocks = status_.dirtyBlocks;
-    state.dirtyMarked = control_ && knowsEdits(status_.marked);
+    state.dirtyMarked = control_ && queue_.knowsEdits(status_.marked);
     state.solution = solution();
     state.stopped = control_ && unlitSince_ == 0 && status_.stopped != 0;
     state.age = unlitSince_ == 0 ? 0 : steadySeconds() - unlitSince_;

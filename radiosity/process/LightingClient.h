@@ -4,29 +4,26 @@
 #include "base/Bounds.h"
 #include "radiosity/process/LightingLink.h"
 #include "radiosity/process/LightingTask.h"
+#include "radiosity/process/MessageQueue.h"
 #include "radiosity/process/RadiosityState.h"
+#include "radiosity/process/WorkerWatch.h"
 #include "radiosity/process/memory/ControlBlock.h"
 #include "radiosity/process/snapshot/SceneSnapshot.h"
 #include "radiosity/process/store/LightStore.h"
 #include "scenegraph/Camera.h"
 
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace penumbra {
 
 /// Keeps a worker running, sends it what is to be sent, and gives out what it publishes. Nothing
-/// here ever waits, except for a worker in a thread to end.
-///
-/// Messages queue up here until there is room for them in the ring; an edit takes the place of an
-/// earlier one of the same thing that is still here. So the queue is bounded by the number of
-/// things in the scene, and nothing but outdated poses is dropped.
+/// here ever waits, except for a worker in a thread to end: what is to be sent is queued
+/// (MessageQueue), and a worker that says nothing any more is ended and started anew (WorkerWatch).
 class LightingClient {
 public:
     /// \param writeTask what a new worker is to be told: the scene with all that was sent so far
@@ -59,25 +56,15 @@ public:
     std::vector<std::string> takeMessages();
 
 private:
-    struct Message {
-        std::uint64_t key = kNoKey; ///< of an edit, see keyOf(); kNoKey: not to be replaced
-        std::vector<std::byte> body;
-        RegionPtr region; ///< that it names
-    };
-    static constexpr std::uint64_t kNoKey = ~std::uint64_t(0);
-
     ControlBlock& control() { return *reinterpret_cast<ControlBlock*>(control_->bytes().data()); }
     void launch();
     void failed(const std::string& why);
     void say(const std::string& text);
     void sendValue(std::uint64_t key, MessageKind kind, std::uint32_t value);
-    void queue(std::uint64_t key, ByteWriter body);
-    void flush();
     void watch(double passed);
     void grantStore();
     void openStore();
     void readStatus();
-    bool knowsEdits(std::uint64_t serial) const;
     SolutionState solution() const;
 
     std::unique_ptr<LightingLink> link_;
@@ -89,12 +76,7 @@ private:
     bool reportedFailure_ = false;
     RegionPtr control_; ///< null: there is no worker
     std::optional<RingSender> ring_;
-    /// Scenes on their way, with the serial numbers of their messages, in order: each stays until
-    /// the worker says that it has taken that message.
-    std::deque<std::pair<std::uint64_t, RegionPtr>> sent_;
-    std::deque<Message> queue_;
-    std::uint64_t serial_ = 0;     ///< of the last message in the ring
-    std::uint64_t editSerial_ = 0; ///< of the last one that is no camera
+    MessageQueue queue_;
     View camera_;
     bool hasCamera_ = false;
     std::vector<std::byte> lights_; ///< the last message about live lamps
@@ -105,10 +87,9 @@ private:
     std::shared_ptr<StoreReader> store_;
 
     WorkerStatus status_;
-    double lastTurn_ = 0;                 ///< steady clock [s]
-    double silence_ = 0, standstill_ = 0; ///< since the last beat, the last turn of the worker [s]
-    double ungranted_ = 0;                ///< since memory was granted that is not in use yet [s]
-    std::uint64_t beat_ = 0, turns_ = 0;
+    WorkerWatch watch_;
+    double lastTurn_ = 0;   ///< steady clock [s]
+    double ungranted_ = 0;  ///< since memory was granted that is not in use yet [s]
     double unlitSince_ = 0; ///< steady clock [s]; 0: all is in the light
     double retryAt_ = 0, retryDelay_ = 0;
     unsigned restarts_ = 0;
