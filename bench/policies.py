@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Compares orders of work by a fixed script of moves and cameras.
+"""Compares scheduling policies by a fixed script of moves and cameras.
 
 Usage: bench/policies.py PROGRAM [--element-size M] [--orders A,B]
                        [--all-light] [--cameras NAMES] [--cut | --pan DEGREES]
-                       [--dirty perfect] [--out FOLDER]
+                       [--dirty perfect] [--out FOLDER] [--json FILE]
 
 For each camera, `penumbra compare` plays three moves of the office's seat or a sculpture of the
 gallery (20 cm, 1.2 m, 3.3 m); figures are means over moves and cameras, of edits that are seen. The
@@ -13,13 +13,15 @@ that changes nothing is not done, and times leave out finding it.
 The settled solution of the same mesh is the truth. Several seeds of a random order (random,random2,
 ...) also make a row of their mean. With --cut the viewer looks through another camera until a tenth
 of the work is done; with --pan they turn by so many degrees while it is done, and the error is that
-in the view of the moment. Writes a report (HTML, JSON) for each camera to FOLDER and a table to standard
-output."""
+in the view of the moment. Writes a report (HTML, JSON) for each camera to FOLDER, the means to FILE,
+and a table of them to standard output."""
 import argparse
 import json
 import math
 import pathlib
 import subprocess
+
+import measured
 
 SCENES = pathlib.Path(__file__).resolve().parent.parent / "scenes"
 
@@ -129,8 +131,13 @@ def mean(values):
     return sum(values) / len(values) if values else math.nan
 
 
+def means(edits):
+    return {key: mean(edit[key] for edit in edits)
+            for key in ("area", "work90", "time90", "against", "total", "work")}
+
+
 def figures(reports):
-    """One row an order: means over all edits that are seen at all."""
+    """One row a policy: means over all edits that are seen at all."""
     names = [o["order"] for o in reports[0]["orders"]]
     rows, edits = {name: [] for name in names}, 0
     for report in reports:
@@ -181,9 +188,10 @@ def main():
     parser.add_argument("--dirty", default="shafts", choices=["shafts", "perfect"])
     parser.add_argument("--looks", default="1.15")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("orders"))
+    parser.add_argument("--json", type=pathlib.Path, help="all means, for scripts/performance_tables")
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
-    reports = []
+    reports, stamp = [], measured.stamp()
     for camera in args.cameras.split(",") if args.cameras else CAMERAS[args.scene]:
         scene = args.out / f"{args.scene}-{camera}.usda"
         scene.write_text(layer(args.scene, camera))
@@ -197,13 +205,14 @@ def main():
         subprocess.run(command, check=True)
         reports.append(json.loads(report.with_suffix(".json").read_text()))
     rows = with_mean_of_seeds(figures(reports))
+    if args.json:
+        measured.write(args.json, [{"name": f"policy/{args.scene}/{name}", **stamp, "edits": len(edits), **means(edits)}
+                                   for name, edits in rows.items()])
     print("| order | area | work to -90 % | time to -90 % of plain's total | of plain's to -90 % |"
           " total time / plain | total work / plain |")
     print("| --- | ---: | ---: | ---: | ---: | ---: | ---: |")
     for name, edits in rows.items():
-        columns = [mean(e[k] for e in edits)
-                   for k in ("area", "work90", "time90", "against", "total", "work")]
-        print(f"| {name} | " + " | ".join(f"{c:.3f}" for c in columns) + " |")
+        print(f"| {name} | " + " | ".join(f"{value:.3f}" for value in means(edits).values()) + " |")
 
 
 if __name__ == "__main__":

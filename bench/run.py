@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
-"""Runs every benchmark in a process of its own, so that peak memory is that of the case alone.
+"""Runs benchmarks, each in a process of its own, so that peak memory is that of the case alone.
 
 Usage: bench/run.py PROGRAM [--out FILE.json] [--filter REGEX]
-PROGRAM is penumbra_bench of a release build. All results go to FILE.json in Google Benchmark's
-format; tables for people go to standard output, as in docs/performance.md."""
+PROGRAM is penumbra_bench of a release build. Without a filter all cases run, for some half an hour;
+`scripts/performance_tables --cases` prints a filter for those of docs/performance.md. Results go to
+FILE.json in Google Benchmark's format, all of them as tables to standard output."""
 import argparse
 import json
 import pathlib
 import subprocess
 import sys
 import tempfile
+
+import measured
 
 DIRECT = ["elements", "lamps", "mesh_s", "direct_s", "direct_cpu_s", "rays", "Mrays_per_s",
           "direct_over_bare", "direct_over_bare_cpu", "direct_over_bare_embree",
@@ -83,6 +86,38 @@ def add_growth(results, prefix):
             row[name + "_over_first"] = row[name] / rows[0][name] if rows[0][name] else 0
 
 
+def run_case(program, name):
+    """What Google Benchmark writes of one case, and the stamp of measured.py."""
+    stamp = measured.stamp()
+    with tempfile.TemporaryDirectory() as folder:
+        out = pathlib.Path(folder) / "one.json"
+        subprocess.run([program, f"--benchmark_filter=^{name}$", f"--benchmark_out={out}"],
+                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        one = json.loads(out.read_text())
+    for result in one["benchmarks"]:
+        result.update(stamp)
+    return one
+
+
+def print_tables(results):
+    table(results, "direct/", DIRECT)
+    table(results, "indirect/", INDIRECT)
+    table(results, "edit/direct/", EDIT)
+    table(results, "edit/total/", TOTAL)
+    table(results, "edit/detail/", DETAIL)
+    table(results, "edit/play/", PLAY)
+    table(results, "edit/steps/", STEPS)
+    table(results, "latency/", LATENCY)
+    table(results, "frames/", FRAMES)
+    table(results, "settle/", SETTLE)
+    table(results, "edit/building/", BUILDING + [name + "_over_first" for name in GROWTH])
+    print()
+    for result in results:
+        if result["name"].startswith(("formFactor/", "occluded/", "order/")):
+            rate = f", {result['Mrays_per_s']:.3g} Mrays/s" if "Mrays_per_s" in result else ""
+            print(f"{result['name']}: {result['real_time']:.3g} {result['time_unit']}{rate}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", type=pathlib.Path)
@@ -92,39 +127,18 @@ def main():
     program = options.program.resolve()
     listed = subprocess.run([program, "--benchmark_list_tests", f"--benchmark_filter={options.filter}"],
                             check=True, capture_output=True, text=True).stdout.split()
-    merged, failed = {"benchmarks": []}, False
-    with tempfile.TemporaryDirectory() as folder:
-        for name in listed:
-            print(name, file=sys.stderr, flush=True)
-            out = pathlib.Path(folder) / "one.json"
-            subprocess.run([program, f"--benchmark_filter=^{name}$", f"--benchmark_out={out}"],
-                           check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            one = json.loads(out.read_text())
-            merged.setdefault("context", one["context"])
-            merged["benchmarks"] += one["benchmarks"]
-            for result in one["benchmarks"]:
-                if result.get("error_occurred"):
-                    print(f"{name}: {result['error_message']}", file=sys.stderr)
-                    failed = True
-    add_growth(merged["benchmarks"], "edit/building/")
-    options.out.write_text(json.dumps(merged, indent=2) + "\n")
-    table(merged["benchmarks"], "direct/", DIRECT)
-    table(merged["benchmarks"], "indirect/", INDIRECT)
-    table(merged["benchmarks"], "edit/direct/", EDIT)
-    table(merged["benchmarks"], "edit/total/", TOTAL)
-    table(merged["benchmarks"], "edit/detail/", DETAIL)
-    table(merged["benchmarks"], "edit/play/", PLAY)
-    table(merged["benchmarks"], "edit/steps/", STEPS)
-    table(merged["benchmarks"], "latency/", LATENCY)
-    table(merged["benchmarks"], "frames/", FRAMES)
-    table(merged["benchmarks"], "settle/", SETTLE)
-    table(merged["benchmarks"], "edit/building/",
-          BUILDING + [name + "_over_first" for name in GROWTH])
-    print()
-    for result in merged["benchmarks"]:
-        if result["name"].startswith(("formFactor/", "occluded/", "order/")):
-            rate = f", {result['Mrays_per_s']:.3g} Mrays/s" if "Mrays_per_s" in result else ""
-            print(f"{result['name']}: {result['real_time']:.3g} {result['time_unit']}{rate}")
+    results, failed = [], False
+    for name in listed:
+        print(name, file=sys.stderr, flush=True)
+        one = run_case(program, name)
+        results += one["benchmarks"]
+        for result in one["benchmarks"]:
+            if result.get("error_occurred"):
+                print(f"{name}: {result['error_message']}", file=sys.stderr)
+                failed = True
+        add_growth(results, "edit/building/")
+        measured.write(options.out, results, context=one["context"])  # each time: it may be stopped
+    print_tables(results)
     return 1 if failed else 0
 
 
