@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 """Checks that the files and names that the documents point to exist. Usage: check_docs.py [PROJECT_ROOT]
 
-Looked up are links to files, `folder/File.cpp` (also with a function: `folder/File.cpp: name`), and `name()`."""
+Looked up are links to files, `folder/File.cpp` (also with a function: `folder/File.cpp: name`), `name()`,
+`Class::name` and `NameTest`; of the changelog, which tells of names that are gone, files alone."""
 import pathlib
 import re
 import sys
 
 LINK = re.compile(r"\]\((?!https?:)([^)#\s]+)")
 FILE = re.compile(r"`([\w./-]+\.(?:h|cpp|py|cmake))(?::\s*([\w:~]+)(?:\(\))?)?`")
+NAME = re.compile(r"`(?=[\w:]*(?:\(\)|Test|::\w+)`)([\w:]+)(?:\(\))?`")
+WORD = re.compile(r"\w+")
 TOP = {"base", "scenegraph", "importance", "radiosity", "io", "comparison", "viewer", "tools", "tests", "bench",
        "scenes", "scripts", "cmake", "docs"}
 
@@ -16,8 +19,15 @@ def sources(root):
     return {path.name: path for top in TOP for path in sorted((root / top).rglob("*.*")) if path.is_file()}
 
 
+def words_of(root):
+    """The words of each source."""
+    return [{path.stem, *WORD.findall(path.read_text(encoding="utf-8"))} for top in TOP
+            for path in (root / top).rglob("*") if path.suffix in {".h", ".cpp", ".py"}]
+
+
 def faults(root):
     known = sources(root)
+    words = words_of(root)
     documents = [*root.glob("*.md"), *root.glob("docs/*.md"), *root.glob("scenes/*.md")]
     for document in sorted(documents):
         name = document.relative_to(root).as_posix()
@@ -29,8 +39,11 @@ def faults(root):
                 found = root / path if path.split("/")[0] in TOP and "/" in path else known.get(path.split("/")[-1])
                 if found is None or not found.exists():
                     yield f"{name}:{number}: there is no {path}"
-                elif word and word.split("::")[-1] not in found.read_text(encoding="utf-8"):
+                elif word and word.split("::")[-1] not in WORD.findall(found.read_text(encoding="utf-8")):
                     yield f"{name}:{number}: {path} does not mention {word}"
+            for symbol in NAME.findall(line) if name != "CHANGELOG.md" else []:
+                if not any(one.issuperset(symbol.split("::")) for one in words):
+                    yield f"{name}:{number}: there is no {symbol}"
 
 
 if __name__ == "__main__":
