@@ -40,7 +40,8 @@ public:
     const LightShares& shares() const { return shares_; }
     /// From now on there are so many lights; nothing is known of them.
     void setLights(std::size_t count);
-    /// As LitGeometry::setBlock(), with the shares.
+    using LitGeometry::setBlock;
+    /// The same, with the shares.
     void setBlock(std::size_t block, const std::function<void(LitMeshData&, LightShares&)>& edit);
     /// As LitGeometry::setTopology(); the shares grow with the vertices.
     void setTopology(const std::function<void(LitMeshData&)>& edit);

@@ -1,9 +1,9 @@
 // Small lit scenes and views for the tests of the renderer.
 #pragma once
 
+#include "radiosity/process/store/PublishedGeometry.h"
 #include "scenegraph/Camera.h"
 #include "scenegraph/Group.h"
-#include "scenegraph/LitGeometry.h"
 #include "scenegraph/Transform.h"
 #include "tests/scenegraph/SceneParts.h"
 #include "viewer/gl/OffscreenContext.h"
@@ -33,8 +33,8 @@ inline LitMeshData litSquare(LitMaterial material = {kRho, {}}) {
     return data;
 }
 
-inline std::shared_ptr<LitGeometry> litNode(LitMeshData data, std::uint32_t object = 7) {
-    return std::make_shared<LitGeometry>("lit", ObjectId{object}, std::move(data));
+inline std::shared_ptr<PublishedGeometry> litNode(LitMeshData data, std::uint32_t object = 7) {
+    return std::make_shared<PublishedGeometry>("lit", ObjectId{object}, std::move(data));
 }
 
 inline std::shared_ptr<Transform> placed(const glm::dmat4& matrix, NodePtr child) {

@@ -164,9 +164,9 @@ TEST(UsdScene, TheReferenceScenesLoadWithoutAWord) {
         // Sun, sky and glass are what these scenes are about; each is named as long as it is left
         // out.
         for (const Diagnostic& diagnostic : diagnostics)
-            EXPECT_TRUE(hasSky && diagnostic.text.find("DistantLight") != std::string::npos ||
-                        hasSky && diagnostic.text.find("DomeLight") != std::string::npos ||
-                        hasSky && diagnostic.text.find("transparency") != std::string::npos)
+            EXPECT_TRUE(hasSky && (diagnostic.text.find("DistantLight") != std::string::npos ||
+                                   diagnostic.text.find("DomeLight") != std::string::npos ||
+                                   diagnostic.text.find("transparency") != std::string::npos))
                 << entry.path() << ": " << summary(diagnostics);
         ++files;
     }
