@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-/// The places of the bits that are set, from the lowest on: for (int i : bitsOf(mask)).
+/// The positions of the bits that are set, from the lowest on: for (int i : bitsOf(mask)).
 template <std::unsigned_integral Mask>
 class BitsOf {
 public:

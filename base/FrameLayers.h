@@ -50,7 +50,7 @@ struct FrameLayers {
 
     /// For people: the mean of what a ToneMap shows of the pixel's samples, in [0, 1]; empty unless
     /// it was asked for. Means are taken after the tone curve, for that of luminances would show
-    /// the edge of a lamp as bright as the lamp.
+    /// the edge of a light as bright as the light.
     std::vector<Rgb> shown;
 
     std::size_t pixelCount() const { return std::size_t(width) * std::size_t(height); }

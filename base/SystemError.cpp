@@ -11,7 +11,7 @@ namespace penumbra {
 
 namespace {
 
-/// Null: what is said depends on the use, or is not known.
+/// Null: the message depends on the use, or is not known.
 const char* commonReason(int errorNumber) {
     switch (errorNumber) {
     case EISDIR:

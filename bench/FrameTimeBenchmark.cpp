@@ -1,5 +1,5 @@
 // What a busy radiosity process costs the renderer: frame times of a walk, idle against busy; and
-// what update() takes while the process stands still.
+// what update() takes while the process is stopped.
 #include "bench/BenchCase.h"
 #include "bench/BenchScene.h"
 #include "bench/MoveRun.h"
@@ -82,7 +82,7 @@ public:
         options.trigger = Trigger::continuous;
         options.threads = 1;
         options.niceness = 0;
-        options.timeout = 600; // it may stand still
+        options.timeout = 600; // it may be stopped
         node_ = std::make_shared<RadiosityNode>(
             "lit", options, makeProcessLink({.program = PENUMBRA_PROGRAM, .byHand = {}}));
         node_->add(scene_.scene().root);

@@ -54,7 +54,7 @@ public:
         first.push_back(watch.wall());
         solver.settle(SolutionState::certified);
         settle.push_back(watch.wall());
-        solver.settle(); // what was put off is not measured
+        solver.settle(); // what was deferred is not measured
         solver.takeSummedBlocks();
     }
 

@@ -20,7 +20,7 @@ namespace penumbra {
 /// - met: samples that were visible and whose segment meets the object's box after it;
 /// - refined: samples that are taken after the move only, since the first ones disagree now.
 ///
-/// Found by looking at all pairs, by none of the means by which the solver finds them. Samples
+/// Found by going through all pairs, by none of the means by which the solver finds them. Samples
 /// whose state turns are among these: nothing else can turn.
 struct LeastRays {
     std::uint64_t own = 0, uncovered = 0, released = 0, met = 0, refined = 0; ///< [rays]

@@ -36,13 +36,13 @@ class MoveRun {
 public:
     using Pose = MovedScene::Pose;
 
-    /// \param meshing a patch size of 0 stands for what the file asks for, or the default
+    /// \param meshing a patch size of 0 means what the file asks for, or the default
     MoveRun(const Move& move, const MeshingOptions& meshing, const SolverOptions& options,
             int copies = 1);
 
     /// Moves and settles. \throws Error if the scene was meshed anew
     MoveCost go(Pose place);
-    /// Solves the scene as it stands anew: same meshes, same rays, empty rows.
+    /// Solves the scene as it is anew: same meshes, same rays, empty rows.
     Seconds fromScratch(std::unique_ptr<Solver>& solver) const;
 
     const LitScene& lit() const { return *lit_; }

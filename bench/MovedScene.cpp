@@ -26,7 +26,7 @@ std::shared_ptr<Transform> findTransform(const Scene& scene, const std::string& 
     return transform;
 }
 
-/// Place of a copy in a building: 2 x 2 on each storey.
+/// Position of a copy in a building: 2 x 2 on each storey.
 glm::dvec3 offsetOf(int copy, const Bounds& one) {
     const glm::dvec3 pitch = glm::dvec3(one.size()) + 0.5;
     return pitch * glm::dvec3(copy % 2, copy / 2 % 2, copy / 4);

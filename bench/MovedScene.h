@@ -33,7 +33,7 @@ inline constexpr Move kMoves[] = {
     {"gallery/ceiling", "gallery", "/World/CeilingLamp1", 1, 1, {0.3, 0.3, 0}},
 };
 
-/// The scene of a Move. Everything else stands as at the move's first time code.
+/// The scene of a Move. Everything else is as at the move's first time code.
 class MovedScene {
 public:
     /// \param copies of the scene, side by side and in up to four storeys, half a metre apart: one

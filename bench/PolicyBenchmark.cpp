@@ -1,5 +1,5 @@
-// What an order of work costs until all is settled: direct light after a move, as the lighting
-// process works it off, turn by turn, under plain order, by bounds, and by importance.
+// What a scheduling policy costs until all is settled: direct light after a move, as the lighting
+// process works it off, turn by turn, with the policies plain, bound, and importance.
 #include "bench/BenchCase.h"
 #include "bench/BenchScene.h"
 #include "bench/MoveRun.h"
@@ -30,7 +30,7 @@ constexpr double kTurn = 8e-3; ///< of the lighting process [s]
 
 enum Policy { plain, bound, importance, kPolicies };
 
-/// Keeps the scene of a Move lit under an order.
+/// Keeps the scene of a Move lit under a policy.
 class Run {
 public:
     Run(const Move& move, float elementSize, Policy policy)

@@ -12,7 +12,7 @@ namespace penumbra {
 namespace {
 
 constexpr int kEdits = 6;
-constexpr std::size_t kFirst = 10; ///< steps after an edit that are looked at by themselves
+constexpr std::size_t kFirst = 10; ///< steps after an edit that are reported by themselves
 
 double largest(const std::vector<double>& values) {
     return values.empty() ? 0 : *std::max_element(values.begin(), values.end());

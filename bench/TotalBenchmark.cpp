@@ -10,7 +10,7 @@ namespace penumbra {
 
 namespace {
 
-/// Working tolerance: the certificate against the brightest lamp's exitance.
+/// Working tolerance: the certificate against the brightest light's exitance.
 constexpr double kTolerance = 1e-4;
 constexpr int kRounds = 3; ///< in each direction
 
@@ -37,7 +37,7 @@ void reportRays(benchmark::State& state, const SolveStatistics& scratch, const M
     counters["blocks_visited"] = double(move.direct.blocksVisited + move.indirect.blocksVisited);
 }
 
-/// What was put off when the certificate was met.
+/// What was deferred when the certificate was met.
 void reportDeferred(benchmark::State& state, const MoveCost& move) {
     const SolveStatistics& then = move.certified;
     const auto blocks = [](const WorkCount& direct, const WorkCount& indirect) {

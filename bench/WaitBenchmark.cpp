@@ -1,4 +1,4 @@
-// How long open work on direct light waits at most while something is dragged without end: what
+// How long dirty blocks of direct light wait at most while something is dragged without end: what
 // nobody sees must have its turn as well (DirtySet::setAging()).
 #include "bench/BenchCase.h"
 #include "bench/BenchScene.h"
@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kDrag = 20;        ///< [s]
 constexpr double kFrame = 1.0 / 60; ///< an edit a frame, as the viewer makes them [s]
-constexpr double kTurn = 8e-3;      ///< of the lighting process, between two looks at the clock [s]
+constexpr double kTurn = 8e-3; ///< of the lighting process, between two readings of the clock [s]
 
 /// From the clock by which work waits, DirtySet::taken(), to the one on the wall.
 class WorkClock {
@@ -46,7 +46,7 @@ private:
     std::deque<Note> notes_;
 };
 
-/// Keeps a scene lit as a LightingWorker does, and watches the oldest open work.
+/// Keeps a scene lit as a LightingWorker does, and watches the oldest dirty block.
 class Drag {
 public:
     /// \param turn of the viewer away from the scene's first camera [degrees]
@@ -73,7 +73,7 @@ public:
     }
 
     double longest = 0, longestRays = 0; ///< [s], [rays]
-    double idle = 0;                     ///< share of the time in which no work was open
+    double idle = 0;                     ///< share of the time in which nothing was dirty
     double raysPerSecond = 0;
     std::size_t edits = 0;
 
@@ -116,7 +116,7 @@ private:
     ViewerAttention viewer_;
     WorkClock clock_;
     EditPace pace_;
-    bool done_ = true; ///< nothing is left to be done but what is put off
+    bool done_ = true; ///< nothing is left to be done but what is deferred
     Stopwatch watch_;
 };
 

@@ -27,7 +27,7 @@ struct Room {
     std::vector<EmitterSender> emitters;
     std::vector<Receiver> vertices;
     IndirectSenders patches;
-    std::vector<MovedObject> moved; ///< a thing that may be moved, where it stands
+    std::vector<MovedObject> moved; ///< a thing that may be moved, where it is
 
     Room(const std::string& scene, float elementSize)
         : set(BenchScene(scene).mesh(elementSize).patches), rays(set.rayMeshes, set.skin),
@@ -69,7 +69,7 @@ double raySeconds(const Room& room) {
     return watch.cpu() / double(std::max<std::size_t>(count, 1));
 }
 
-/// Costs as counters, each beside the constant that stands for it.
+/// Costs as counters, each beside the constant that represents it.
 class Costs {
 public:
     Costs(const Room& room, benchmark::UserCounters& counters)

@@ -1,4 +1,4 @@
-// The order of open work: keying it anew when the camera turns, taking from it, adding to it.
+// The queue of work: keying it anew when the camera turns, taking from it, adding to it.
 #include "importance/Priority.h"
 #include "importance/ReceiverClusters.h"
 #include "importance/WorkQueue.h"
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t kSenders = 8;
 
-/// Blocks on the six sides of a room of 8 x 8 x 4 m, side by side, and open work of some size on
+/// Blocks on the six sides of a room of 8 x 8 x 4 m, side by side, and a task of some size on
 /// each for every sender.
 struct Room {
     ReceiverClusters clusters;

@@ -7,10 +7,10 @@ Usage: bench/policies.py PROGRAM [--element-size M] [--orders A,B]
 
 For each camera, `penumbra compare` plays three moves of the office's seat or a sculpture of the
 gallery (20 cm, 1.2 m, 3.3 m); figures are means over moves and cameras, of edits that are seen. The
-dirty set is that of bounding shafts: blocks whose shaft to the lamp meets the moved object's box,
+dirty set is that of bounding shafts: blocks whose shaft to the light meets the moved object's box,
 those in which it was a blocker, and its own. With --dirty perfect it is what comes out otherwise: work
 that changes nothing is not done, and times leave out finding it.
-The settled solution of the same mesh is the truth. Several seeds of a random order (random,random2,
+The settled solution of the same mesh is the truth. Several seeds of the random policy (random,random2,
 ...) also make a row of their mean. With --cut the viewer looks through another camera until a tenth
 of the work is done; with --pan they turn by so many degrees while it is done, and the error is that
 in the view of the moment. Writes a report (HTML, JSON) for each camera to FOLDER, the means to FILE,
@@ -25,14 +25,14 @@ import measured
 
 SCENES = pathlib.Path(__file__).resolve().parent.parent / "scenes"
 
-# What moves, and where it stands at frames 1 to 4 [m].
+# What moves, and where it is at frames 1 to 4 [m].
 MOVES = {
     "office": ("Seat", [(2.79, 2.21, 0), (2.97, 2.12, 0), (3.9, 1.35, 0), (1.0, 1.9, 0)]),
     "gallery": ("PiercedCube", [(10.2, 15.2, 0.6), (10.38, 15.11, 0.6), (11.31, 14.34, 0.6),
                                 (14.2, 15.93, 0.6)]),
 }
 
-# Cameras: place [m], turns [degrees]. "dark" is the first one with most lamps at 1/1000.
+# Cameras: position [m], turns [degrees]. "dark" is the first one with most lights at 1/1000.
 CAMERAS = {
     "office": {
         "on-screen": ((0.55, 0.42, 1.62), (75, 0, -49.25)),
@@ -47,7 +47,7 @@ CAMERAS = {
         "dark": ((16.4, 8.6, 1.7), (84, 0, 45)),
     },
 }
-# Lamps that are dimmed, by a thousand: lights and their intensities in the files.
+# Lights that are dimmed, by a thousand: lights and their intensities in the files.
 DIMMED = {
     "office": [(f"CeilingLamp{i}/Panel", 2400) for i in (1, 2, 3)],
     "gallery": [("CeilingLamp7/Panel", 1500), ("CeilingLamp8/Panel", 1500), ("Spot2/Bulb", 60000)],

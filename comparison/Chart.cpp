@@ -17,7 +17,7 @@ constexpr std::array kDashes = {"", "9 3", "3 3", "12 3 3 3", "6 2 2 2", "2 2", 
 constexpr double kLeft = 62, kRight = 16, kTop = 34, kBottom = 48; ///< margins [pixels]
 constexpr double kLegendRow = 18, kLegendGap = 14;
 
-/// From quantities to places in the drawing.
+/// From quantities to positions in the drawing.
 struct Axes {
     double firstX, lastX, lastY; ///< the x axis is logarithmic
     double left, top, width, height;
@@ -40,7 +40,7 @@ double niceStep(double last, int count) {
     return 10 * decade;
 }
 
-/// The legend stands beside the curves: it would cover some of them.
+/// The legend is beside the curves: it would cover some of them.
 double legendWidth(const std::vector<ChartSeries>& series) {
     std::size_t longest = 0;
     for (const ChartSeries& one : series) longest = std::max(longest, one.name.size());

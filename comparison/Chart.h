@@ -8,7 +8,7 @@
 
 namespace penumbra {
 
-/// One curve of a chart. Colour and dashes follow from its place in the list.
+/// One curve of a chart. Colour and dashes follow from its index in the list.
 struct ChartSeries {
     std::string name;
     std::vector<CurvePoint> points; ///< drawn as steps: each value holds until the next point

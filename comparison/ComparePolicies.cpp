@@ -24,7 +24,7 @@ struct ViewerMotion {
     double pan = 0, panWork = 1; ///< turn so far in all [degrees], while so much is done [rays]
 };
 
-/// One edit, worked off and looked at every now and then.
+/// One edit, worked off, with pictures of it every now and then.
 class Watch {
 public:
     Watch(EditPlayer& player, const PolicyUnderTest& policy, const Truth& truth,

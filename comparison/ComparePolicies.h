@@ -1,4 +1,4 @@
-// Playing an animation under several orders of work, and watching the picture come right.
+// Playing an animation under several scheduling policies, and watching the picture come right.
 #pragma once
 
 #include "base/Rgb.h"
@@ -19,7 +19,7 @@
 
 namespace penumbra {
 
-/// A picture as it is looked at.
+/// A picture as its viewer sees it.
 struct Picture {
     int width = 0, height = 0;
     std::vector<Rgb> colours;   ///< top row first [nit]
@@ -31,7 +31,7 @@ struct PolicyUnderTest {
     enum class Kind { plain, bound, random, importance, oracle };
     Kind kind = Kind::plain;
     std::string name;
-    std::uint32_t seed = 1;    ///< of a random order
+    std::uint32_t seed = 1;    ///< of the random policy
     PriorityFactors factors{}; ///< of importance: which of them count
 };
 /// The orders that are compared unless others are asked for.
@@ -47,10 +47,10 @@ enum class DirtySetKind : std::uint8_t {
 
 struct ComparisonOptions {
     MeshingOptions meshing;
-    SolverOptions solving;           ///< but for the order
+    SolverOptions solving;           ///< but for the policy
     int width = 480, height = 270;   ///< of the pictures that are compared [pixels]
-    double firstLook = 1000;         ///< work until the picture is looked at first, about [rays]
-    double growth = 1.25;            ///< of the work until the next look; > 1
+    double firstLook = 1000;         ///< work until the first sample of the picture, about [rays]
+    double growth = 1.25;            ///< of the work until the next sample; > 1
     std::vector<double> filmSeconds; ///< the film strip's moments, ascending [s]
     int filmFrame = 0;               ///< which of the edits the film strip shows: index of a frame
     DirtySetKind dirty = DirtySetKind::shafts;
@@ -66,8 +66,8 @@ struct Playback {
     std::function<View(const PlacedScene&)> viewBefore{};
     /// How far the viewer turns to the left while the light is brought up to date, evenly with the
     /// work that this takes unwatched, half of it before and half after the middle of `view`
-    /// [degrees]. The error is measured in the view of the moment, and orders that look at the view
-    /// are told of it.
+    /// [degrees]. The error is measured in the view of the moment, and policies that depend
+    /// on the view know it.
     double pan = 0;
     glm::dvec3 up{0, 0, 1}; ///< unit vector: about which the viewer turns [world]
 };
@@ -80,7 +80,7 @@ struct FilmPicture {
     DifferenceSummary error;
 };
 
-/// How one order did.
+/// How one policy did.
 struct PolicyResult {
     std::string name;
     std::vector<std::vector<ErrorSample>> frames; ///< one an edit; the first sample before any work
@@ -99,11 +99,11 @@ struct ComparisonResult {
     DirtySetKind dirty = DirtySetKind::shafts;
 };
 
-/// Plays under each order. The truth of each frame is the settled solution of the same mesh, found
+/// Plays under each policy. The truth of each frame is the settled solution of the same mesh, found
 /// by a solver that is not watched. Pictures are as drawn.
 ///
-/// One scene plays all of it: for each order it goes back to the frame before, settles, and takes
-/// the edit again, so that each starts from the same light whatever the order.
+/// One scene plays all of it: for each policy it goes back to the frame before, settles, and takes
+/// the edit again, so that each starts from the same light whatever the policy.
 /// \param progress called with a phase and the share done in [0, 1]
 ComparisonResult comparePolicies(const Playback& playback,
                                  const std::vector<PolicyUnderTest>& policies,

@@ -1,4 +1,4 @@
-// A scene that is played under several orders of work.
+// A scene that is played under several scheduling policies.
 #pragma once
 
 #include "comparison/ComparePolicies.h"
@@ -20,10 +20,10 @@ struct Truth {
 };
 
 /// The same by the vertices of a patch set as it is now, after the same edit: which of the private
-/// vertices stands for which corner depends on what was done before (Coverage.h).
+/// vertices represents which corner depends on what was done before (Coverage.h).
 Truth truthBy(const PatchSet& now, const Truth& truth);
 
-/// Keeps a scene lit while its animation is played, and looks at it.
+/// Keeps a scene lit while its animation is played, and takes pictures of it.
 class EditPlayer {
 public:
     /// Settles the first frame. Both must outlive this.
@@ -35,18 +35,18 @@ public:
     void knowWhatChanges(const Truth& truth);
     /// Does what was left out because nothing changes: who blocks an entry may be someone else.
     void catchUp();
-    /// In no order that is watched.
+    /// With no policy that is watched.
     void settle();
-    /// Tells the solver in which order to go about it, as a viewer would at each frame.
-    /// \param truth for the order that knows it
+    /// Sets the solver's policy, as a viewer would at each frame.
+    /// \param truth for the policy that knows it
     /// \param before the cut, if there is one
     void policy(const PolicyUnderTest& policy, const Truth& truth, bool before);
-    /// Looks at the scene as it is. \param turn of the viewer to the left [degrees]
+    /// Takes a picture of the scene as it is. \param turn of the viewer to the left [degrees]
     void aim(double turn = 0);
 
     LitScene& lit() { return lit_; }
     double pixelsPerDegree() const { return viewpoint(view_).pixelsPerDegree(); }
-    /// What was looked at last, as it is lit now.
+    /// What the last picture shows, as it is lit now.
     Picture picture() const;
     /// The same in another light [nit].
     Plane luminances(const Lighting& light) const { return drawn_->luminances(light); }

@@ -13,7 +13,7 @@ namespace penumbra {
 /// The picture at one moment after an edit, against the settled one.
 struct ErrorSample {
     double work = 0;    ///< done since the edit, see WorkDone [rays]
-    double seconds = 0; ///< that this took; looking at the picture is not counted
+    double seconds = 0; ///< that this took; without the pictures
     std::uint64_t rays = 0, shots = 0;
     DifferenceSummary error; ///< [JND]
 };

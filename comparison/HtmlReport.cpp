@@ -73,7 +73,7 @@ std::string orNever(double value, double scale = 1) {
 }
 
 void writeFigures(std::string& page, const ComparisonResult& result) {
-    page += "<div class='wide'><table><thead><tr><th>order</th><th>area under the curve</th>"
+    page += "<div class='wide'><table><thead><tr><th>policy</th><th>area under the curve</th>"
             "<th>work to 10 % [rays]</th><th>work to 1 % [rays]</th><th>work in all "
             "[rays]</th><th>time to 10 % [ms]</th>"
             "<th>time to 1 % [ms]</th><th>time in all [ms]</th><th>settled, off by [JND]</th>"
@@ -148,7 +148,7 @@ void writeFilms(std::string& page, const ComparisonResult& result, int frame) {
     fmt::format_to(
         std::back_inserter(page),
         "<h2>Frame {}, as the viewer sees it</h2>\n<p class='note'>Above, the picture at "
-        "the first look after 0, 1, 2, 4, 8 ... ms of work; below, how visible it is that "
+        "the first sample after 0, 1, 2, 4, 8 ... ms of work; below, how visible it is that "
         "it is not yet the settled one.</p>\n{}<div class='strip'>",
         result.frames[std::size_t(frame)], differenceLegend());
     fmt::format_to(
@@ -167,14 +167,14 @@ void writeFacts(std::string& page, const std::string& heading, const Facts& fact
 }
 
 constexpr const char* kReading = R"(<h2>How to read this</h2>
-<p class='note'>Each frame is an edit. Before it, the light is settled; after it, the orders under
-comparison do the same work in different sequence, and the picture is looked at again and again. The
+<p class='note'>Each frame is an edit. Before it, the light is settled; after it, the scheduling
+policies do the same work in different sequence, and the picture is sampled again and again. The
 visible error of a pixel is in just noticeable differences (JND): at 1, an observer who compares it
 with the settled picture sees the difference half the time. The curves are means over all pixels and
 all edits. The area under the curve is the share of the initial error that is there on average until
-the slowest order is settled (0: right at once, 1: not until the end). Work is what the solver did, in
-rays and what costs as much as a ray; it is the same on every machine. Time includes all of it: finding
-the work, ordering it, rays and sums; looking at the picture is not counted.</p>
+the slowest policy is settled (0: right at once, 1: not until the end). Work is what the solver did,
+in rays and what costs as much as a ray; it is the same on every machine. Time includes all of it:
+finding the work, ordering it, rays and sums; the pictures are not counted.</p>
 )";
 
 } // namespace

@@ -1,4 +1,4 @@
-// The order that someone would choose who knew what comes out.
+// The policy of someone who knows what comes out.
 #pragma once
 
 #include "importance/SchedulingPolicy.h"
@@ -17,13 +17,13 @@ using VertexFactors = std::vector<std::vector<float>>;
 VertexFactors factorsOf(std::span<const Row> rows, std::size_t vertices);
 
 /// Blocks of direct light by how far they truly change what is seen, per cost: greedy, each block
-/// by itself, so that lamps that make up for one another count twice. A yardstick: no order that
-/// has to guess should be expected to be better.
+/// by itself, so that lights that make up for one another count twice. A yardstick: no policy
+/// that has to guess should be expected to be better.
 ///
 ///     gain = sum over receivers of pixels * g(|L_settled - L_now| / threshold)
 class OraclePolicy : public SchedulingPolicy {
 public:
-    /// \param now      rows of the emitters as they stand; must outlive this
+    /// \param now      rows of the emitters as they are; must outlive this
     /// \param settled  the same when all work is done; must outlive this
     /// \param drawn    what is seen, and in how many pixels
     /// \param adaptation of the eye [nit]

@@ -9,7 +9,7 @@ namespace penumbra {
 namespace {
 
 constexpr double kDarkest = 1e-4;    ///< [nit]
-constexpr double kScattered = 0.005; ///< share of the picture's light, at any place
+constexpr double kScattered = 0.005; ///< share of the picture's light, everywhere
 
 } // namespace
 

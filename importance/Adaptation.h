@@ -6,7 +6,7 @@
 namespace penumbra {
 
 /// Luminance that the eye adapts to in a picture as a whole: the geometric mean, which follows what
-/// most of the picture is like and not its few lamps.
+/// most of the picture is like and not its few lights.
 ///
 /// \param luminances of pixels [nit]; those below 1e-4 nit count as that
 /// \return           [nit]; 1e-4 for an empty picture
@@ -16,7 +16,7 @@ double meanAdaptation(std::span<const float> luminances);
 
 /// Luminance that the eye is adapted to where it looks at a surface: the surface's own, for
 /// adaptation reaches less than a degree around [Vangorp2015], and a two-hundredth of the
-/// picture's, for some of that is scattered onto any place within the eye. \param surface, picture
+/// picture's, for some of that is scattered everywhere within the eye. \param surface, picture
 /// [nit]; \return [nit], at least 1e-4
 double localAdaptation(double surface, double picture);
 

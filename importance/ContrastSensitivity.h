@@ -3,7 +3,7 @@
 
 namespace penumbra {
 
-/// Reciprocal of the contrast at which a grating that stands still is just seen, achromatic, within
+/// Reciprocal of the contrast at which a still grating is just seen, achromatic, within
 /// a Gaussian window of 1.5 degrees. Contrast is amplitude over mean luminance.
 ///
 ///     log10 S = log10 S_p - (x < 0 ? 0.200 |x|^1.269 : 0.1203 x^2)     x = log2(frequency / f_p)
@@ -20,7 +20,7 @@ namespace penumbra {
 /// Asano & Chapiro, ACM TOG 43(4), 2024.  [docs/references.md]
 double contrastSensitivity(double frequency, double luminance);
 
-/// The same at the frequency that is seen best, in one term: for orders of work.
+/// The same at the frequency that is seen best, in one term: for scheduling.
 ///
 ///     S = 364.2 (1 + 29.994 / L)^-0.394        2.2 % off for 0.01 to 2000 nit
 double peakContrastSensitivity(double luminance);

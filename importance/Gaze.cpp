@@ -8,7 +8,7 @@ namespace penumbra {
 
 Gaze::Gaze(const Viewpoint& viewpoint, const GazeHints& hints)
     : first_(viewpoint.through(hints.point.value_or(glm::dvec2(0)))), second_(first_) {
-    // Who is told where the eye looks need not guess.
+    // Where an eye tracker reports the gaze, nothing is guessed.
     if (!hints.point && hints.dragged) second_ = viewpoint.towards(*hints.dragged);
 }
 

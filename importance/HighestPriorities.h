@@ -1,4 +1,4 @@
-// Which of the open work comes first.
+// Which pieces of work have the highest priorities.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,9 @@
 
 namespace penumbra {
 
-/// The `count` most valuable pieces of open work, the most valuable first; equals by index, so that
-/// the order is the same wherever it is computed. Work that is worth nothing is left out.
-/// \param worth expected gain of each piece, in any one unit, >= 0
+/// The `count` pieces of work of the highest priority, the highest first; equals by index, so that
+/// the order is the same wherever it is computed. Work of priority 0 is left out.
+/// \param priority expected gain of each piece, in any one unit, >= 0
 std::vector<std::uint32_t> highestPriorities(std::span<const double> priority, std::size_t count);
 
 } // namespace penumbra

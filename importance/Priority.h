@@ -1,4 +1,4 @@
-// What a piece of open work is worth to the viewer.
+// The priority of a piece of work: what the viewer gains from it for its cost.
 #pragma once
 
 #include "base/Bounds.h"
@@ -20,19 +20,19 @@ struct ReceiverCluster {
     float reflectance = 0; ///< photometric, in [0, 1]
 };
 
-/// Which of the factors count: all, but for those who measure what each is worth.
+/// Which of the factors count: all of them, unless somebody measures what each contributes.
 struct PriorityFactors {
-    bool change = true;    ///< how far the light may change; else all changes count alike
-    bool probe = true;     ///< looking at work for what to expect of it; else all that is possible
-    bool contrast = true;  ///< what of it can be seen at all; else luminance counts as it is
-    bool size = true;      ///< how many pixels it covers
-    bool frustum = true;   ///< whether it is in the picture
-    bool occlusion = true; ///< whether something stands in front of it
+    bool change = true;       ///< how far the light may change; else all changes count alike
+    bool probe = true;        ///< a probe says what to expect of work; else all that is possible
+    bool contrast = true;     ///< what of it can be seen at all; else luminance counts as it is
+    bool size = true;         ///< how many pixels it covers
+    bool frustum = true;      ///< whether it is in the picture
+    bool occlusion = true;    ///< whether something stands in front of it
     bool eccentricity = true; ///< how far it is from the centre of gaze
     bool proximity = true;    ///< how near it is to what is being moved
 };
 
-/// All that the value of work depends on besides the work.
+/// All that a priority depends on besides the work itself.
 struct Attention {
     Viewpoint viewpoint;
     Gaze gaze;
@@ -42,7 +42,7 @@ struct Attention {
     bool whole = false; ///< blocks are shown as wholes: none is done in parts
 };
 
-/// What work at one place is worth, as far as that is a matter of the place alone.
+/// The part of a priority that all work of one receiver cluster shares.
 struct ClusterPriority {
     double weight = 0; ///< pixels, those that are hidden or far from the gaze counted for less
     double perThreshold = 1; ///< reciprocal of the luminance step that is just seen here [1/nit]
@@ -50,7 +50,7 @@ struct ClusterPriority {
     bool inPicture = true;   ///< or may be; else all of it is seen only when the viewer turns
 };
 
-/// \param seen what an item buffer says of the place [pixels], see SeenItems.h; without one, what
+/// \param seen what an item buffer says of the cluster [pixels], see SeenItems.h; without one, what
 ///             is in the picture counts as seen
 ClusterPriority clusterPriority(const ReceiverCluster& cluster, const Attention& attention,
                                 std::optional<float> seen = {});
@@ -61,7 +61,7 @@ ClusterPriority clusterPriority(const ReceiverCluster& cluster, const Attention&
 ///
 /// The order that this makes is decision theory's: benefit over cost (Dumont, Pellacini & Ferwerda,
 /// ACM TOG 22(2), 2003). g is linear for what is clearly visible and quadratic for what is too
-/// faint to be seen by itself, so that nothing is ever worth nothing.
+/// faint to be seen by itself, so that no priority is ever 0 for that.
 ///
 /// \param change expected or greatest change of luminance [nit], >= 0
 /// \param cost   expected, in any one unit, > 0

@@ -7,7 +7,7 @@ namespace penumbra {
 
 namespace {
 
-/// Adds a block to the sums of a place. What is a mean later is weighted by area.
+/// Adds a block to the sums of a cluster. What is a mean later is weighted by area.
 void add(ReceiverCluster& sum, const ReceiverCluster& block) {
     sum.box.add(block.box);
     sum.normal += block.area * block.normal;

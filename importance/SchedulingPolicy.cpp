@@ -72,7 +72,7 @@ ClusterPriority ImportancePolicy::value(std::uint32_t cluster) {
     return clusterPriority(known.cluster, *attention_, known.seen);
 }
 
-/// Of a place in the picture, if a quarter of all is.
+/// Of a cluster in the picture, if a quarter of all is.
 ClusterPriority ImportancePolicy::averageValue() const {
     ClusterPriority value;
     const double clusters = std::max(1.0, double(clusterOf_.size()) / 4);

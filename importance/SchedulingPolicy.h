@@ -99,8 +99,8 @@ protected:
     virtual void sampleClosely(std::uint32_t block, std::uint64_t which,
                                std::span<ClusterPriority> values) = 0;
 
-    /// The viewer has moved, looks elsewhere, is adapted to another luminance. Until the first
-    /// time, nobody looks.
+    /// The viewer has moved, looks elsewhere, is adapted to another luminance. Before the first
+    /// call there is no viewer.
     void setAttention(const Attention& attention) {
         attention_ = attention;
         ++view_;

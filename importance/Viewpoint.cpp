@@ -81,7 +81,7 @@ double Viewpoint::pixelsOf(const Bounds& box, glm::vec3 normal, float area) cons
     const glm::dvec3 way = eye_ - centre;
     const double nearest = 0.25 * box.diagonal();
     const double distance2 = std::max(glm::dot(way, way), std::max(nearest * nearest, 1e-12));
-    // A mean normal of length l stands for a part l that is flat, and a rest that faces any way.
+    // A mean normal of length l represents a part l that is flat, and a rest that faces any way.
     const double flat = glm::length(normal);
     const double facing = glm::dot(glm::dvec3(normal), way) / std::sqrt(distance2);
     const double cosine = std::clamp(facing + 0.25 * std::max(0.0, 1 - flat), 0.0, 1.0);

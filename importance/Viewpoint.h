@@ -12,14 +12,14 @@
 namespace penumbra {
 
 /// The viewing conditions of a camera: the viewer's eye is where the camera's is, so the picture
-/// fills as many degrees of the eye's field as of the camera's. An orthographic picture has no such
-/// place and counts as one that is 30 degrees wide.
+/// fills as many degrees of the eye's field as of the camera's. An orthographic picture has no
+/// eye point and counts as one that is 30 degrees wide.
 class Viewpoint {
 public:
     /// \param width, height of the picture [pixels]
     Viewpoint(const View& view, int width, int height);
 
-    /// Where the eye is [m, world]; an orthographic picture has no such place in the scene.
+    /// Where the eye is [m, world]; an orthographic picture has no eye point.
     const std::optional<glm::dvec3>& eye() const { return inScene_; }
     /// Whether both see the same picture.
     bool operator==(const Viewpoint& other) const;

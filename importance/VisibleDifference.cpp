@@ -76,7 +76,7 @@ Plane sharedContrast(const Plane& a, const Plane& b) {
 float masked(float difference, float mask) {
     constexpr float kPower = 2.264f, kMaskPower = 1.303f, kMaskWeight = 0.877f;
     constexpr float kUncertainty = 0.160f; // 10^-0.795: a pattern is a worse mask than itself
-    constexpr float kMost = 366.6f;        // 10^2.564: what is far above threshold looks alike
+    constexpr float kMost = 366.6f;        // 10^2.564: what is far above threshold appears alike
     const float excitation = std::pow(std::abs(difference), kPower);
     const float inhibition = 1 + kMaskWeight * std::pow(kUncertainty * mask, kMaskPower);
     const float response = excitation / inhibition;

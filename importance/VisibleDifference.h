@@ -12,15 +12,15 @@ namespace penumbra {
 /// The logarithms of both are taken apart into bands of spatial frequency (a Laplacian pyramid,
 /// Burt & Adelson 1983). Each band is a picture of local contrast C, compared in units of what the
 /// eye can just see at that frequency and luminance. What both pictures show masks a difference on
-/// top of it, and differences far above threshold look more and more alike:
+/// top of it, and differences far above threshold appear more and more alike:
 ///
 ///     E_b = |(C_test - C_reference) S(f_b, L)|^p / (1 + k (m S(f_b, L))^q)   m = min(|C_t|, |C_r|)
 ///     JND = (sum over bands of D_b^4)^(1/4)       D_b = (E_max E_b / (E_max + E_b))^(1/p)
 ///
 /// with S = contrastSensitivity(). This is the still, achromatic part of ColorVideoVDP (Mantiuk et
-/// al., ACM TOG 43(4), 2024) with its constants, for an eye that looks straight at every place;
+/// al., ACM TOG 43(4), 2024) with its constants, for an eye that looks straight at every point;
 /// light scattered within the eye is left out. Departures: contrast is that of logarithms, so that
-/// lamps in view drown nothing; and the coarsest band counts like the others, so that a whole
+/// lights in view drown nothing; and the coarsest band counts like the others, so that a whole
 /// picture that is too dark is no less a difference than a part of it.
 ///
 /// \param test, reference luminances [nit], >= 0, of the same size; exchanging them changes nothing

@@ -7,8 +7,8 @@
 
 namespace penumbra {
 
-/// Whether place a comes before place b. Of equals, one whose key is only a bound comes first: what
-/// it holds may be older.
+/// Whether cluster a comes before cluster b. Of equals, one whose key is only a bound comes first:
+/// what it holds may be older.
 bool WorkQueue::before(std::uint32_t a, std::uint32_t b) const {
     const Cluster &one = clusters_[a], &other = clusters_[b];
     if (one.key != other.key) return one.key > other.key;
@@ -17,7 +17,7 @@ bool WorkQueue::before(std::uint32_t a, std::uint32_t b) const {
     return a < b;
 }
 
-/// At least the value of any task of a place, also after rounding.
+/// At least the priority of any task of a cluster, also after rounding.
 double WorkQueue::boundOf(const Cluster& at) {
     return at.tasks.empty() ? 0 : (1 + 1e-6) * priorityOf(at.value, at.mostChange, at.leastCost);
 }
@@ -59,7 +59,7 @@ void WorkQueue::rank(Handle handle, const TaskPriority& priority) {
     insert(handle);
 }
 
-/// Puts a task in the list of its place; what stood there for it counts no more.
+/// Puts a task in the list of its cluster; its older entries there count no more.
 void WorkQueue::insert(Handle handle) {
     Slot& slot = slots_[handle];
     const TaskPriority& priority = slot.task.priority;
@@ -77,7 +77,7 @@ void WorkQueue::insert(Handle handle) {
     settle(slot.task.cluster);
 }
 
-/// A place whose value is that of the last rekey().
+/// A cluster whose key is that of the last rekey().
 WorkQueue::Cluster& WorkQueue::clusterAt(std::uint32_t index) {
     if (index >= clusters_.size()) clusters_.resize(index + 1);
     Cluster& at = clusters_[index];
@@ -105,7 +105,7 @@ void WorkQueue::rekey(std::uint32_t index, const ClusterPriority& value) {
     if (at.position != kOut) settle(index);
 }
 
-/// Ranks all tasks of a place, and finds its exact key and bounds.
+/// Ranks all tasks of a cluster, and finds its exact key and bounds.
 void WorkQueue::order(Cluster& at) {
     std::erase_if(at.tasks, [&](const Ranked& ranked) { return stale(ranked); });
     at.mostChange = 0;
@@ -120,7 +120,7 @@ void WorkQueue::order(Cluster& at) {
     at.ordered = true;
 }
 
-/// Tasks that were removed or ranked anew leave their place's list only now.
+/// Tasks that were removed or ranked anew leave their cluster's list only now.
 void WorkQueue::skipStale(Cluster& at) {
     while (!at.tasks.empty() && stale(at.tasks.front())) {
         std::pop_heap(at.tasks.begin(), at.tasks.end());
@@ -128,7 +128,7 @@ void WorkQueue::skipStale(Cluster& at) {
     }
 }
 
-/// Brings a place of the heap to where it belongs, or takes it out if nothing is left in it.
+/// Brings a cluster to where it belongs in the heap, or takes it out if nothing is left in it.
 void WorkQueue::settle(std::uint32_t index) {
     Cluster& at = clusters_[index];
     if (at.ordered) skipStale(at);
@@ -157,7 +157,7 @@ void WorkQueue::remove(Handle handle) {
     --size_;
 }
 
-/// The most valuable task that is in a list, if there is any.
+/// The task of the highest priority that is in a list, if there is any.
 std::optional<WorkQueue::Handle> WorkQueue::best() {
     while (!heap_.empty()) {
         const std::uint32_t index = heap_.front();

@@ -26,8 +26,8 @@ bool isSingular(const glm::dmat4& frame) {
     return !(std::abs(glm::determinant(glm::dmat3(withoutScale(frame)))) > kLeastAxis);
 }
 
-/// Of what a film shows, in units of the focal length, and of where its middle is: as much as can
-/// be told apart in double precision when it is taken back from the picture to the scene.
+/// Of what a film shows, in units of the focal length, and of where its middle is: as much as
+/// double precision can resolve when it is taken back from the picture to the scene.
 constexpr double kNarrowest = 1e-6, kWidest = 1e4;
 constexpr double kDeepest = 1e12; ///< far over near, for the same reason
 constexpr double kFarthest = 1e9; ///< near, and half of a film without perspective [m]

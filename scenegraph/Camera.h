@@ -38,7 +38,7 @@ private:
     Lens lens_;
 };
 
-/// A camera in its place: what a renderer needs.
+/// A camera with its transform: what a renderer needs.
 struct View {
     glm::dmat4 worldToCamera{1.0}; ///< column vectors; camera looks along -Z, +Y up [m]
     glm::dmat4 projection{1.0};    ///< camera to OpenGL clip space

@@ -1,4 +1,4 @@
-// How a surface looks to a radiosity system: Lambertian reflectance and emission.
+// What a surface is to a radiosity system: Lambertian reflectance and emission.
 #pragma once
 
 #include "base/Rgb.h"

@@ -17,7 +17,7 @@ class Light;
 class Camera;
 
 /// A rigid piece of the scene: one Transform with what is below it, until the next Transform that
-/// is movable. What stands beside all of them belongs to the object at the root, path "/".
+/// is movable. What is below none of them belongs to the object at the root, path "/".
 struct Object {
     std::string path;        ///< of the transform that begins it
     glm::dmat4 toWorld{1.0}; ///< its frame
@@ -25,7 +25,7 @@ struct Object {
     bool visible = true; ///< false only of movable objects, see placeScene()
 };
 
-/// A node in its place. The pointers live as long as the scene.
+/// A node at one path, with its transform. The pointers live as long as the scene.
 template <class T>
 struct Placed {
     const T* node = nullptr;

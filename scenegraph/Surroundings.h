@@ -7,7 +7,7 @@
 
 namespace penumbra {
 
-/// What stands in the way of a walker.
+/// What is in the way of a walker.
 class Surroundings {
 public:
     struct Obstacle {
@@ -15,7 +15,7 @@ public:
         glm::dvec3 normal{0.0}; ///< unit, towards where the question came from
     };
     virtual ~Surroundings() = default;
-    /// The nearest surface from a place along a unit direction, up to `reach` [m].
+    /// The nearest surface from a point along a unit direction, up to `reach` [m].
     virtual std::optional<Obstacle> ahead(glm::dvec3 from, glm::dvec3 direction,
                                           double reach) const = 0;
 };

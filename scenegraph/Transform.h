@@ -1,4 +1,4 @@
-// A group with a place of its own.
+// A group with a frame of its own.
 #pragma once
 
 #include "scenegraph/Group.h"

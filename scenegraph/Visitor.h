@@ -18,7 +18,7 @@ class Camera;
 class LitGeometry;
 
 /// Walks a graph depth first, children in order, skipping what a Switch hides. It carries its own
-/// transform stack and path, since nodes know neither their parents nor their place. Override what
+/// transform stack and path, since nodes know neither their parents nor their paths. Override what
 /// you want to see and call traverse() to go on below.
 class Visitor {
 public:

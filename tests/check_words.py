@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Checks that no identifier uses a word that docs/architecture.md replaced. Usage: check_words.py [PROJECT_ROOT]
+"""Checks that nothing uses a word that docs/architecture.md replaced. Usage: check_words.py [PROJECT_ROOT]
 
-Comments, strings and documents are read by people; only identifiers are checked here."""
+Identifiers are checked for all of them. Comments, strings and documents are checked for those that have no other
+meaning in plain English: a thing may stand on a table, and a person may look at it."""
 import pathlib
 import re
 import sys
@@ -28,17 +29,83 @@ REPLACED = [
     (r"\btold\b|otherSide", "reported, notified, worker"),
     (r"ChangeLook|\blooks\b|nextLook|lookClosely", "probe, search, sample"),
 ]
+# What comments, strings and documents may not say, in any case and over the ends of lines.
+PHRASES = [
+    ("open work", "dirty set, dirty blocks"),
+    ("(put|puts|putting) off", "deferred"),
+    ("orders? of work", "scheduling policy"),
+    ("(worth|value) of work", "priority"),
+    ("the other side", "worker, peer"),
+    ("patience", "aging"),
+    ("live (lamps?|lights?)", "previewed lights"),
+    ("drawn live", "previewed"),
+    ("arrangements?", "scene state"),
+    ("(set|sets) out", "begins to fade"),
+    ("(meshes that shine|shining mesh(es)?)", "emissive mesh"),
+    ("graph (image|table|copy)", "scene snapshot, difference, replica"),
+]
+# In C++ alone: documents also speak of desk lamps. Paths of prims and names of files are no words.
+LAMP = (r"(?<![\w/\-\"])lamps?(?![\w/-]|\.\w)", "light (in the scene), emitter (in the solver)")
+ALLOWED = {
+    "viewer/shadowmaps/PreviewShaders.cpp": ["lamp"],  # an index in the shader's text
+}
+NO_DOCUMENTS = {"CHANGELOG.md"}  # says what people noticed, in the words of its time
 NO_CODE = re.compile(r'R"(\w*)\((?:.|\n)*?\)\1"|//[^\n]*|/\*(?:.|\n)*?\*/|#include[^\n]*|"(?:\\.|[^"\\\n])*"|'
                      r"'(?:\\.|[^'\\\n])+'")
 IDENTIFIER = re.compile(r"\b[A-Za-z_]\w*\b")
 
 
+def spoken(pattern):
+    """The pattern with gaps that also match where a comment or a string goes on in the next line."""
+    return re.compile(r"\b" + pattern.replace(" ", r"(?:\s|//+<?|\")+") + r"\b", re.IGNORECASE)
+
+
+PROSE = [(spoken(pattern), instead) for pattern, instead in PHRASES]
+PROSE_OF_CODE = [*PROSE, (re.compile(LAMP[0], re.IGNORECASE), LAMP[1])]
+
+
+def prose_faults(name, text, patterns):
+    for pattern, instead in patterns:
+        for found in pattern.finditer(text):
+            words = " ".join(re.sub(r'//+<?|"', " ", found.group(0)).split())
+            if words.lower() not in ALLOWED.get(name, []):
+                yield f"{name}:{text.count(chr(10), 0, found.start()) + 1}: {words}: write {instead}"
+
+
+def only_prose(text):
+    """Comments and strings of C++ where they were; blanks instead of code and of what is included."""
+    kept, end = [], 0
+    for found in NO_CODE.finditer(text):
+        kept.append(re.sub(r"[^\s]", " ", text[end:found.start()]))
+        part = found.group(0)
+        kept.append(re.sub(r"[^\s]", " ", part) if part.startswith(("#include", "'")) else part)
+        end = found.end()
+    return "".join(kept)
+
+
+def only_sentences(name, text):
+    """A document without the table of terms, which has the replaced words in its last column."""
+    if name != "docs/architecture.md":
+        return text
+    return re.sub(r"\n## Words\n.*?(?=\n## )", lambda found: "\n" * found.group(0).count("\n"), text,
+                  flags=re.DOTALL)
+
+
+def faults_of_documents(root):
+    for path in sorted([*root.glob("*.md"), *root.glob("docs/*.md"), *root.glob("scenes/*.md")]):
+        name = path.relative_to(root).as_posix()
+        if name not in NO_DOCUMENTS:
+            yield from prose_faults(name, only_sentences(name, path.read_text(encoding="utf-8")), PROSE)
+
+
 def faults(root):
+    yield from faults_of_documents(root)
     for folder in FOLDERS:
         for path in sorted((root / folder).rglob("*")):
             if path.suffix not in {".h", ".cpp"}:
                 continue
             text = path.read_text(encoding="utf-8")
+            yield from prose_faults(path.relative_to(root).as_posix(), only_prose(text), PROSE_OF_CODE)
             code = NO_CODE.sub(lambda found: "\n" * found.group(0).count("\n"), text)
             for number, line in enumerate(code.split("\n"), 1):
                 for name in IDENTIFIER.findall(line):
@@ -49,5 +116,5 @@ def faults(root):
 
 if __name__ == "__main__":
     found = list(faults(pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")))
-    print("\n".join(found) or "words: no identifier uses a word that was replaced")
+    print("\n".join(found) or "words: nothing uses a word that was replaced")
     sys.exit(1 if found else 0)

@@ -1,4 +1,4 @@
-// Which camera of a scene is looked through.
+// From which camera of a scene a picture is taken.
 #pragma once
 
 #include "scenegraph/Camera.h"
@@ -11,7 +11,7 @@
 namespace penumbra {
 
 /// The camera that was asked for by its path, or the first one; null if there is none at all.
-/// \param file of the scene, for what is said of an unknown path \throws SceneFileError
+/// \param file of the scene, for the message about an unknown path \throws SceneFileError
 const Placed<Camera>* chooseCamera(const PlacedScene& placed, const std::string& path,
                                    const std::string& file);
 
@@ -27,7 +27,7 @@ View viewOf(const PlacedScene& placed, UpAxis up, const std::string& path, const
 /// among them end in the same.
 std::vector<std::string> namesForFiles(const std::vector<std::string>& cameras);
 
-/// Puts a camera's name in the place of each "{camera}" in the name of a file.
+/// Replaces each "{camera}" in the name of a file by a camera's name.
 std::string withCamera(std::string pattern, const std::string& name);
 
 } // namespace penumbra

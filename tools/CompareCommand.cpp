@@ -97,7 +97,7 @@ std::vector<PolicyUnderTest> chosenPolicies(const std::string& names) {
             std::string all;
             for (const auto& policy : known) all += (all.empty() ? "" : ", ") + policy.name;
             throw CLI::ValidationError("--orders",
-                                       fmt::format("no order '{}' (there are {})", name, all));
+                                       fmt::format("no policy '{}' (there are {})", name, all));
         }
         chosen.push_back(*found);
     }
@@ -106,7 +106,7 @@ std::vector<PolicyUnderTest> chosenPolicies(const std::string& names) {
 
 std::string viewerMotion(const CompareCommand& command) {
     if (!command.cutFrom.empty())
-        return "looks through " + command.cutFrom + " until 10 % of the work is done";
+        return "sees from " + command.cutFrom + " until 10 % of the work is done";
     if (command.pan != 0)
         return fmt::format("turns by {} degrees while the work is done; the error is that in the "
                            "view of the moment",
@@ -122,7 +122,7 @@ ReportOptions reportOptions(const CompareCommand& command, const ComparisonResul
     const SolverOptions& solver = command.solve.solver;
     ReportOptions report;
     const std::string name = std::filesystem::path(command.solve.scene).filename().string();
-    report.title = fmt::format("{}: orders of work compared", name);
+    report.title = fmt::format("{}: scheduling policies compared", name);
     report.settings = {
         {"scene", name},
         {"frames", command.solve.frames},
@@ -136,7 +136,7 @@ ReportOptions reportOptions(const CompareCommand& command, const ComparisonResul
         {"elements",
          fmt::format("{}, {}", result.elements, askedFor(command.solve.asked.elementSize))},
         {"patches", fmt::format("{}, {}", result.patches, askedFor(command.solve.asked.patchSize))},
-        {"lamps", std::to_string(result.lights)},
+        {"lights", std::to_string(result.lights)},
         {"light", solver.directOnly ? "direct only" : "direct and indirect"},
         {"visibility samples", std::to_string(solver.samples)},
         {"residual", command.solve.asked.residual ? fmt::format("{}", *command.solve.asked.residual)
@@ -186,12 +186,12 @@ void run(CompareCommand command) {
                    fmt::format("{:.0f}", f.work));
 }
 
-/// Who looks, from where, at pictures of what size.
+/// The viewer: from where, and the size of the pictures.
 void addViewOptions(CLI::App& compare, CompareCommand& command) {
     compare.add_option("--camera", command.camera, "Path of the camera (default: the first one)");
     compare.add_option("--cut-from", command.cutFrom,
-                       "Camera the viewer looks through first: after a tenth of the work, they\n"
-                       "look through --camera, in which the error is measured all the time");
+                       "Camera that the viewer has first; after a tenth of the work they have\n"
+                       "--camera, in which the error is measured all the time");
     compare
         .add_option("--pan", command.pan,
                     "The viewer turns to the left by so much while the work is done, half of it\n"
@@ -211,7 +211,7 @@ void addViewOptions(CLI::App& compare, CompareCommand& command) {
 void addPolicyOptions(CLI::App& compare, CompareCommand& command) {
     compare.add_option(
         "--orders", command.policies,
-        "Orders to compare, with commas: plain, importance, random (random2 ... random5),\n"
+        "Policies to compare, with commas: plain, importance, random (random2 ... random5),\n"
         "bound, geometry, oracle, or importance without one of its factors: no-change, no-look,\n"
         "no-contrast, no-size, no-frustum, no-occlusion, no-eccentricity, no-proximity\n"
         "(default: plain,importance,random,bound,oracle)");
@@ -229,7 +229,7 @@ void addReportOptions(CLI::App& compare, CompareCommand& command) {
                        "All figures as JSON (default: beside the HTML file)");
     compare
         .add_option("--looks", command.growth,
-                    "The picture is looked at each time the work has grown by this factor")
+                    "The picture is sampled each time the work has grown by this factor")
         ->capture_default_str()
         ->check(CLI::Range(1.01, 10.0));
     compare.add_option("--film", command.filmFrame,
@@ -241,7 +241,7 @@ void addReportOptions(CLI::App& compare, CompareCommand& command) {
 void addCompareCommand(CLI::App& app) {
     const auto command = std::make_shared<CompareCommand>();
     CLI::App* const compare = app.add_subcommand(
-        "compare", "How soon the picture is right under each order of work: an HTML report.\n"
+        "compare", "How soon the picture is right with each scheduling policy: an HTML report.\n"
                    "Example: penumbra compare scenes/office-seat.usda --frames 1:8 -o seat.html");
     addSolveOptions(*compare, command->solve);
     compare->remove_option(compare->get_option("--order")); // several are compared

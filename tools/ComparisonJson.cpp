@@ -20,7 +20,7 @@ Json sampleJson(const ErrorSample& sample) {
             {"visible_share", sample.error.visible}};
 }
 
-/// Null for what never came, or can't be said.
+/// Null for what never came, or is not known.
 Json orNull(double value) {
     return value < 0 ? Json() : Json(value);
 }

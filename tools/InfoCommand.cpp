@@ -46,7 +46,7 @@ std::optional<glm::vec3> pointOf(const std::string& text) {
     return point;
 }
 
-/// One line a lamp, in the units people compare: nits, lumens, and lux one metre in front.
+/// One line a light, in the units people compare: nits, lumens, and lux one metre in front.
 void printLight(const std::string& path, const char* kind, Rgb nits, double area) {
     const double y = luminance(nits);
     fmt::print("  {:<40} {:<6} {:>10.4g} nit {:>10.4g} lm {:>10.4g} lux at 1 m\n", path, kind, y,
@@ -113,7 +113,7 @@ void describeScene(const SolveSettings& command) {
     printFrames(loaded);
     printMeshes(placed);
     printMovables(placed);
-    fmt::print("  {} lamps\n", placed.lights.size());
+    fmt::print("  {} lights\n", placed.lights.size());
     printLights(placed);
     fmt::print("  {} cameras\n", placed.cameras.size());
     for (const auto& camera : placed.cameras) fmt::print("  {}\n", camera.path);
@@ -142,7 +142,7 @@ void printRow(const std::string& name, Rgb unoccluded, Rgb arrives) {
                lost, all > 0 ? 100 * lost / all : 0.0);
 }
 
-/// What single objects take of a lamp. Those below 1 % of it share a line.
+/// What single objects take of a light. Those below 1 % of it share a line.
 void printLosses(const PatchSet& patches, const EmitterAccount& light) {
     const double all = luminance(light.unoccluded);
     const auto print = [&](const std::string& name, double lux) {
@@ -177,7 +177,7 @@ void printAccount(const SceneSolution& solution, const DrawnHit& at, bool direct
     }
     for (const std::string& path : silent)
         fmt::print("  {:<44} {:>10}   off, hidden, turned away or behind the surface\n", path, 0);
-    printRow("direct light, all lamps", unoccluded, arrives);
+    printRow("direct light, all lights", unoccluded, arrives);
     if (directOnly) return;
     for (std::size_t k = 0; k < 3; ++k)
         indirect += at.weights[k] * solution.lighting().indirect[at.vertices[k]];
@@ -227,7 +227,7 @@ void addInfoCommand(CLI::App& app) {
     CLI::Option* const at = info->add_option(
         "--at", command->at,
         "x,y,z (metres, scene frame): light the scene and say for the nearest surface, within\n"
-        "0.1 m or an element, what each lamp would give there, what arrives and which objects\n"
+        "0.1 m or an element, what each light would give there, what arrives and which objects\n"
         "take the rest. Where several stand in line one of them is charged. Indirect light is\n"
         "one figure; without it (--direct-only) the answer comes sooner");
     at->check(CLI::Validator(

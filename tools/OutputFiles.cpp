@@ -41,7 +41,7 @@ public:
 private:
     std::string canonical(const fs::path& place) {
         const auto [known, isNew] = folders_.try_emplace(place.parent_path().string());
-        std::error_code unknown; // what can't be looked at is told by its name
+        std::error_code unknown; // what can't be opened is known by its name
         if (isNew) {
             known->second = fs::weakly_canonical(fs::absolute(place, unknown), unknown);
             known->second.remove_filename();
@@ -54,7 +54,7 @@ private:
     std::map<std::pair<dev_t, ino_t>, std::string> files_;
 };
 
-/// Says what is wrong with a place before anything is computed for it.
+/// Says what is wrong with an output path before anything is computed for it.
 void requireAPlaceFor(const std::string& output) {
     struct stat status {};
     const bool there = ::stat(output.c_str(), &status) == 0;

@@ -1,4 +1,4 @@
-// Where results go: they must not take the place of what is read, nor of one another.
+// Where results go: they must not overwrite what is read, nor one another.
 #pragma once
 
 #include <filesystem>
@@ -9,13 +9,13 @@ namespace penumbra {
 
 struct FrameRange;
 
-/// All names that a pattern stands for when frames are played, see numberedPath(); an empty pattern
-/// stands for none.
+/// All names that a pattern gives when frames are played, see numberedPath(); an empty pattern
+/// gives none.
 std::vector<std::string> everyName(const std::string& pattern, FrameRange frames);
 
 /// Fails before the work when a result could not be written after it (no such folder, no
-/// permission, a folder in its place), and when it would take the place of a file that is read or
-/// of another result: under whatever name, so also through a symbolic link or as a hard link.
+/// permission, a folder in its place), and when it would overwrite a file that is read or
+/// another result: under whatever name, so also through a symbolic link or as a hard link.
 /// \param read    files that are read: the scene's layers, sensor lists; need not exist
 /// \param outputs names of results; empty ones and "-", standard output, are left out
 /// \throws Error, CLI::ValidationError

@@ -7,7 +7,7 @@
 namespace penumbra {
 
 /// A bar on standard error, redrawn at most ten times a second; silent unless standard error is a
-/// terminal or it was asked for. May be told of progress from several threads.
+/// terminal or it was asked for. Several threads may report progress.
 class ProgressBar {
 public:
     enum class When { terminal, always, never };

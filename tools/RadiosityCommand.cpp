@@ -22,7 +22,7 @@ void addRadiosityCommand(CLI::App& app) {
     CLI::App* const radiosity = app.add_subcommand(
         "radiosity", "The radiosity process: lights what a viewer shows.\n"
                      "Viewers start it; to debug it, start it by hand with the name that a viewer\n"
-                     "gives when it is told not to.");
+                     "gives when it is not to start one.");
     radiosity->add_option("NAME", command->name, "Of the memory that the viewer shares")
         ->required();
     radiosity

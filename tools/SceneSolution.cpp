@@ -231,7 +231,7 @@ void SceneSolution::light() {
         std::fprintf(
             stderr,
             "%s: warning: so many patches (%zu) that relaxation was stopped after %llu shots; an "
-            "ambient estimate stands for the rest (--residual goes on to the end)\n",
+            "ambient estimate replaces the rest (--residual goes on to the end)\n",
             settings_.scene.c_str(), patches().patches.size(),
             static_cast<unsigned long long>(s.shots));
 }

@@ -54,7 +54,7 @@ RadiosityOptions resolvedOptions(const SolveSettings& settings, const LoadedScen
 /// Reads "A:B" or "A": at most kMostFrames, none farther from 0 than kFarthestFrame. \throws
 /// CLI::ValidationError
 FrameRange frameRange(const std::string& text);
-/// Puts a frame's number in the place of the last run of '#' in a file name.
+/// Replaces the last run of '#' in a file name by a frame's number.
 std::string numberedPath(const std::string& pattern, int frame);
 /// Refuses a name that would be written again and again. \throws CLI::ValidationError
 void checkNumbered(const std::string& pattern, const std::string& frames);
@@ -65,7 +65,7 @@ void reportDiagnostics(const std::vector<Diagnostic>& diagnostics, bool verbose)
 /// What one frame of an animation cost.
 struct FrameCost {
     double frame = 0;
-    std::size_t edits = 0; ///< objects, lamps and colours that are not as in the frame before
+    std::size_t edits = 0; ///< objects, lights and colours that are not as in the frame before
     bool rebuilt = false;  ///< the scene was meshed anew
     std::uint64_t shots = 0;
     double certificate = 0; ///< [lm/m^2]
@@ -93,7 +93,7 @@ public:
     const Lighting& lighting() const { return lighting_; }
     const std::vector<FrameCost>& frames() const { return frames_; } ///< if frames are played
     ProgressBar& progress() { return progress_; }
-    /// Says on standard error what makes the solution worth little, unless it is to be quiet.
+    /// Says on standard error what makes the solution unreliable, unless it is to be quiet.
     void warn() const;
 
     /// Runs `work` and adds its time to the phase of that name.

@@ -22,7 +22,7 @@ std::string certificateSummary(const SolveStatistics& s) {
 std::string certificateWarning(const SolveStatistics& s) {
     if (certificateOfLit(s.certificate, s.litIlluminance) < 1) return {};
     return fmt::format(
-        "the certificate, {:.3g} lux, is worth nothing: as large as the light itself, "
+        "the certificate, {:.3g} lux, says nothing: it is as large as the light itself, "
         "{:.3g} lux on lit surfaces (try a smaller --residual)",
         s.certificate, s.litIlluminance);
 }

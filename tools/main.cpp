@@ -12,7 +12,7 @@
 #include <system_error>
 
 int main(int argc, char** argv) {
-    // A full disk or a closed pipe is told by the failing write, not by a signal.
+    // A full disk or a closed pipe is reported by the failing write, not by a signal.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
     penumbra::removeUnfinishedFilesOnSignals();
@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         std::fprintf(stderr, "%s\n", penumbra::MemoryError("for the scene").what());
         return 1;
-    } catch (const std::system_error&) { // of std::thread: files are told as Error
+    } catch (const std::system_error&) { // of std::thread: files throw Error
         std::fprintf(stderr, "%s\n", penumbra::MemoryError("for another thread").what());
         return 1;
     } catch (const std::exception& error) {

@@ -27,7 +27,7 @@ namespace penumbra {
 
 namespace {
 
-constexpr float kSeen = 0.99999f; ///< of a lamp: nothing is in the way, up to rounding
+constexpr float kSeen = 0.99999f; ///< of a light: nothing is in the way, up to rounding
 
 class Comparison {
 public:
@@ -43,7 +43,7 @@ public:
     }
 
     Consistency compare() {
-        settle(); // meshes that shine are known when they are lit
+        settle(); // emissive meshes are known when they are lit
         for (const PreviewLight& source : previewableLights(*node_, by_))
             lights_.push_back(source.path);
         const std::size_t atOnce = previewLimits(by_).most;
@@ -110,8 +110,8 @@ private:
         return renderer_.readLuminances();
     }
     Rgb exitance(std::size_t source) const { return exitanceOf(node_->placed(), group_[source]); }
-    /// Nothing is in the way of any of the lamps, as far as it shines there at all.
-    using Senders = std::vector<std::vector<EmitterSender>>; ///< by lamp
+    /// Nothing is in the way of any of the lights that reach this point at all.
+    using Senders = std::vector<std::vector<EmitterSender>>; ///< by light
     bool sees(const PreviewScene& stage, const Senders& senders, std::uint32_t object,
               std::size_t vertex) const {
         if (vertex >= stage.vertices(object)) return false; // something touches it
@@ -124,7 +124,7 @@ private:
         }
         return true;
     }
-    /// As if the lamps had been dark before, so that all of their light is drawn live.
+    /// As if the lights had been dark before, so that all of their light is previewed.
     PreviewLighting preview(const SceneStatePtr& now) const {
         PreviewLighting preview;
         for (const LitObject& object : node_->objects())
@@ -161,8 +161,7 @@ private:
         });
         const std::vector<Rgb> shadows = draw({});
         for (std::size_t i = 0; i < exact.size(); ++i)
-            if (luminance(shadows[i]) == 0 &&
-                luminance(exact[i]) > 0) // what shines is left out too
+            if (luminance(shadows[i]) == 0 && luminance(exact[i]) > 0) // what emits is left out too
                 differences_.push_back(std::abs(luminance(fast[i]) - luminance(exact[i])) /
                                        luminance(exact[i]));
     }

@@ -1,4 +1,4 @@
-// How equal light drawn live and radiosity are where no shadow falls.
+// How equal preview lighting and radiosity are where no shadow falls.
 #pragma once
 
 #include "viewer/preview/LightBlend.h"
@@ -10,10 +10,10 @@
 
 namespace penumbra {
 
-/// |live - radiosity| / radiosity of the direct light of pixels at whose triangles' corners nothing
-/// is in the way of the lamps, scene at rest, in float.
+/// |preview - radiosity| / radiosity of the direct light of pixels at whose triangles' corners
+/// nothing is in the way of the lights, scene at rest, in float.
 struct Consistency {
-    std::size_t lights = 0; ///< that were compared, as many at a time as are drawn live at most
+    std::size_t lights = 0; ///< that were compared, as many at a time as are previewed at most
     std::size_t pixels = 0; ///< of all these times, in no shadow
     double mean = 0, median = 0, p99 = 0, most = 0;
     double beyond = 0; ///< share of pixels above 1 %

@@ -99,7 +99,7 @@ private:
         const RadiosityState& state = light_->state();
         return state.reached(wanted) && state.queued == 0 && state.held == 0;
     }
-    /// Until nothing is put off any more either: yardsticks are exact.
+    /// Until nothing is deferred any more either: yardsticks are exact.
     void settle() {
         for (int still = 0; still < 5;) {
             walk_.advance(kFrame);

@@ -31,7 +31,7 @@ struct DragOptions {
     BlendOptions blend;
     float elementSize = 0; ///< [m]; 0: the scene's
     bool indirect = true;  ///< else direct light alone, in black surroundings
-    std::size_t named = 0; ///< worst pixels to be looked at, see DragResult::worst
+    std::size_t named = 0; ///< worst pixels to be reported, see DragResult::worst
     bool motion = false;   ///< what should be seen while it moves is worked out as well
     glm::ivec2 size{640, 360};
 };
@@ -72,16 +72,16 @@ struct DragResult {
     double settledSeconds = 0; ///< until all light is settled, shown, and at rest
     std::string card;          ///< what drew, as OpenGL calls it
     std::size_t elements = 0;
-    std::size_t lights = 0;           ///< drawn live
+    std::size_t lights = 0;           ///< previewed
     FrameTimes idle, turning, motion; ///< when nothing moves, when the camera turns, in motion
-    /// Bytes of light that are copied to the graphics card: a frame in motion, and all told from
+    /// Bytes of light that are copied to the graphics card: a frame in motion, and in total from
     /// the release on.
     double dragBytes = 0, bytesAfter = 0;
     /// The worst of the first frames in motion, of all of them if that is known, and of the release
     /// and what comes after.
     std::vector<NamedStep> worstAtStart, worstInMotion, worstAtHandOver;
-    /// The last picture, at rest, against that of a solution from scratch of how things stand: the
-    /// largest difference as displayed, in steps of 8 bits, and the share of pixels beyond one.
+    /// The last picture, at rest, against that of a solution from scratch of the scene as it is:
+    /// the largest difference as displayed, in steps of 8 bits, and the share of pixels beyond one.
     int fromScratchMost = 0;
     double fromScratchBeyond = 0;
 };

@@ -45,8 +45,8 @@ struct PixelStep {
 std::vector<PixelStep> worstSteps(std::span<const FramePair> frames, double toDisplay,
                                   std::size_t most);
 
-/// The p-th percentile (in [0, 1]) of |e| in units of the contrast that is just seen of what stands
-/// still, at the frequency that is seen best.
+/// The p-th percentile (in [0, 1]) of |e| in units of the contrast that is just seen of what does
+/// not move, at the frequency that is seen best.
 double visibleError(const FramePair& frame, double toDisplay, double p);
 
 } // namespace penumbra

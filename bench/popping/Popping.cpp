@@ -4,11 +4,12 @@
 //   --element-size M  of the mesh; else the scene's
 //   --direct-only     no indirect light: shadows are black, steps in them count for more
 //   --motion          what should be seen in the middle of the drag is worked out, too
-//   --variant N       0: a fade of 0.25 s and maps from 16 points of a lamp, 1: from one point (not
+//   --variant N       0: a fade of 0.25 s and maps from 16 points of a light, 1: from one point
+//   (not
 //                     with --rays), 2: no fade; else all
 //   --name N          names what the N worst pixels of the first frames and of the hand-over show
 //   --hd              1280 x 720 pixels; else 640 x 360
-//   --consistency     instead: how equal live light and radiosity are where no shadow falls
+//   --consistency     instead: how equal preview lighting and radiosity are where no shadow falls
 //   --keep FOLDER     writes what was shown, what should have been, and the error, as PNG
 //
 // Columns: largest steps from grabbing, and of the first frames in motion; in motion, and from the
@@ -138,7 +139,7 @@ void report(const DragScript& script, const char* variant, const DragResult& r) 
 void reportConsistency(const std::string& scene, PreviewMethod by, float elementSize,
                        glm::ivec2 size) {
     const Consistency found = consistency(scene, by, elementSize, size);
-    std::printf("%-8s %s: %zu lamps, %zu pixels in no shadow: mean %.3f %%, median %.3f %%, 99 %% "
+    std::printf("%-8s %s: %zu lights, %zu pixels in no shadow: mean %.3f %%, median %.3f %%, 99 %% "
                 "of them %.3f %%, "
                 "most %.2f %%, above 1 %%: %.2f %%\n",
                 scene.c_str(), by == PreviewMethod::rays ? "rays" : "maps", found.lights,

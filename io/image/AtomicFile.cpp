@@ -41,7 +41,7 @@ void writeStraight(const std::string& path, std::span<const std::byte> bytes) {
 } // namespace
 
 fs::path writtenPlace(const fs::path& path) {
-    std::error_code ignored; // of what can't be looked at; opening it will say why
+    std::error_code ignored; // of what can't be read; opening it will say why
     fs::path target = path;
     for (int links = 0; links < kMostLinks && fs::is_symlink(target, ignored); ++links)
         target = target.parent_path() / fs::read_symlink(target, ignored);

@@ -10,7 +10,7 @@
 namespace penumbra {
 
 /// Writes a file such that nobody ever meets half of it: the bytes go to a temporary name in the
-/// same folder, which then takes the place of `path` in one step. When that fails, a file that was
+/// same folder, which then replaces `path` in one step. When that fails, a file that was
 /// there before is untouched and the temporary one is gone; so it is when a signal ends the
 /// process, see UnfinishedFile.h. A symbolic link is followed; into a device or a pipe (/dev/null,
 /// /dev/stdout) the bytes are written straight. \throws Error `path: error: can't write: reason

@@ -14,7 +14,7 @@ namespace penumbra {
 ///
 ///     g(t + dt) = target + (g(t) - target) e^(-dt / tau),   g = log2(middle grey)
 ///
-/// with tau shorter towards the bright than towards the dark, as people adapt. Or it stands where a
+/// with tau shorter towards the bright than towards the dark, as people adapt. Or it stays where a
 /// person has set it.
 class AutoExposure {
 public:

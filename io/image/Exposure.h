@@ -9,7 +9,7 @@ namespace penumbra {
 /// Middle grey where nothing is lit and so nothing can be measured [nit]: that of a dim room.
 inline constexpr float kUnmeasuredGrey = 64;
 
-/// The exposure values that may be set, at ISO 100: from starlight to the surface of a lamp.
+/// The exposure values that may be set, at ISO 100: from starlight to the surface of a light.
 inline constexpr double kLowestExposureValue = -10, kHighestExposureValue = 25;
 
 /// Middle grey [nit] for the metered luminances of a view [nit], see base/ViewMeter.h. It follows

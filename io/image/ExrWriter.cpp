@@ -110,7 +110,7 @@ Imf::Header makeHeader(const FrameLayers& frame, const View& view, const ExrMeta
     return header;
 }
 
-/// Converts a channel; not-a-number stays, so that whoever looks for it can still find it.
+/// Converts a channel; not-a-number stays, so that a search for it can still find it.
 std::vector<Imath::half> toHalf(const Channel& channel, std::size_t count, std::size_t& clamped) {
     std::vector<Imath::half> result(count);
     for (std::size_t i = 0; i < count; ++i) {

@@ -18,7 +18,8 @@ constexpr float kInset = 0.2f; // share of grey that is mixed in
 ///     h = slope (x - x0) / s,   y = y0 + s h / (1 + h^p)^(1/p),
 ///     s = ((slope run)^-p ((slope run / rise)^p - 1))^(-1/p)
 ///
-/// with p = kBend how soft the bend is. Given for x >= x0; the other side is the same turned round.
+/// with p = kBend how soft the bend is. Given for x >= x0; the curve below x0 is the same turned
+/// round.
 double bent(double distance, double run, double rise) {
     const double straight = kSlope * run;
     const double s =

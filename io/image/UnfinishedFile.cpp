@@ -91,8 +91,8 @@ void removeAndEnd(int signal) {
     errno = error;
 }
 
-/// Where a signal has come: nothing more is written, nor told as an error. Its handler, on another
-/// thread, ends the process.
+/// Where a signal has come: nothing more is written, nor reported as an error. Its handler, on
+/// another thread, ends the process.
 void awaitTheEnd() {
     while (ending) pause();
 }

@@ -1,4 +1,4 @@
-// Files that go when the process is told to end before they are whole.
+// Files that are removed when a signal ends the process before they are whole.
 #pragma once
 
 #include <string>

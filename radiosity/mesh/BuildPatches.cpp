@@ -76,7 +76,7 @@ bool emits(const Surface& surface, const SurfaceFace& face) {
     return surface.light || surface.mesh.materialOf(face).emissive();
 }
 
-/// Decides which sides there are. Lamps count even when they are dark.
+/// Decides which sides there are. Lights count even when they are dark.
 void chooseAllSides(std::vector<Surface>& surfaces, BuiltPatches& built) {
     const PatchSet& set = built.patches;
     std::vector<glm::vec3> lights; // a point a hair in front of every emitting face [world]

@@ -44,13 +44,13 @@ struct BuiltPatches {
 };
 
 /// Meshes `scene`: surfaces are cut into patches and elements, corners of the fixed part that lie
-/// under or inside of another piece of it are told from those that lie free, lamps become emitters.
-/// Movable objects are meshed as if nothing touched them; a Coverage sees to what they touch.
-/// \throws Error if the scene is too wide to trace rays in, or would make too many elements
+/// under or inside of another piece of it are told from those that lie free, lights become
+/// emitters. Movable objects are meshed as if nothing touched them; a Coverage sees to what they
+/// touch. \throws Error if the scene is too wide to trace rays in, or would make too many elements
 BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& options = {});
 
 /// The same sizes, with those that follow the scene filled in: what buildPatches() would choose.
-/// They are to be resolved once, for the scene as it stands at its start, or a thing that grows
+/// They are to be resolved once, for the scene as it is at its start, or a thing that grows
 /// later would change how all others are meshed.
 MeshingOptions resolvedSizes(const PlacedScene& scene, MeshingOptions sizes);
 

@@ -11,15 +11,15 @@
 
 namespace penumbra {
 
-/// A corner that is covered by another object (the floor under a cabinet, the wall behind a shelf)
-/// or that lies beyond one (the floor on the other side of a partition) must lend neither its
-/// darkness nor its light to the element's free part. Such an element gets a corner of its own
-/// instead: drawn at the same place, lit where the way from the element's free middle ends.
+/// A corner may be covered by another object (the floor under a cabinet, the wall behind a shelf)
+/// or lie beyond one (the floor behind a partition). Its light must not be interpolated over the
+/// element's free part. So the element gets a corner of its own: it is drawn at the same point, and
+/// its light is computed where the free way from the element's middle to the corner ends.
 ///
 /// Changes `elements` to use such private vertices, which are appended to `vertices`, and moves
 /// every receiver clear of the edges of its surface.
 /// \param skin    how far receivers hover over the surface, see hoverAt() [m]
-/// \param fixed   1: elements to look at; others are taken to be free
+/// \param fixed   1: elements to check; others are taken to be free
 /// \return        for each element whether any of it is free
 std::vector<std::uint8_t> resolveContacts(const RayScene& rays, std::span<const RayMesh> meshes,
                                           float skin, std::span<const std::uint8_t> fixed,
@@ -41,7 +41,7 @@ Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point
 /// \param hover how far receivers hover there, see hoverAt() [m]
 float coverDistance(float elementSize, float hover);
 
-/// Looks at single elements.
+/// Checks single elements.
 class ContactResolver {
 public:
     ContactResolver(const RayScene& rays, std::span<const RayMesh> meshes, float skin,

@@ -38,7 +38,7 @@ Coverage::Coverage(PatchSet& set, const RayScene& rays)
 }
 
 void Coverage::orderElements() {
-    // Patches lie along a curve; elements that no patch owns keep their place behind the others.
+    // Patches lie along a curve; elements that no patch owns stay behind the others.
     for (std::uint32_t o = 0; o < set_.objects.size(); ++o) {
         const ObjectPart& part = set_.objects[o];
         const std::size_t first = order_.size();
@@ -233,7 +233,8 @@ std::uint32_t Coverage::takeVertex(ObjectId object) {
     return vertex;
 }
 
-/// Where a node takes its light: if it is covered, at the nearest place of its patches that is not.
+/// Where light is computed for a node: if it is covered, at the nearest point of its patches that
+/// is not.
 Receiver Coverage::placeOfNode(std::uint32_t node) const {
     const ObjectPart& part = set_.objects[set_.nodeBlockObject[node / PatchSet::kBlock].value];
     Receiver wanted = set_.uncoveredNodes[node];

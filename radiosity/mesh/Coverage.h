@@ -14,10 +14,9 @@
 
 namespace penumbra {
 
-/// Keeps the corners of elements that movable objects touch, cover or part (see Contact.h), and the
-/// nodes that they cover, true to where the objects stand. What it makes of a PatchSet depends on
-/// where things are now and not on how they came there, apart from which private vertices stand
-/// for which corners.
+/// Follows movable objects: keeps up to date which corners of elements they touch, cover or part
+/// (see Contact.h), and which nodes they cover. The result depends on the poses of things and not
+/// on how they came there, apart from which private vertices replace which corners.
 class Coverage {
 public:
     /// Brings `set` up to date. Both must outlive this; `rays` shows the objects of `set`.
@@ -29,7 +28,7 @@ public:
         std::vector<std::uint32_t> nodes;
         std::vector<std::uint32_t> patches; ///< whose elements are lit by other vertices
     };
-    /// Objects were placed anew, hidden or shown, in `set` and in `rays`.
+    /// Objects were posed anew, hidden or shown, in `set` and in `rays`.
     /// \param before their boxes before, empty for those that were hidden [m, world]
     Change update(std::span<const ObjectId> moved, std::span<const Bounds> before);
 

@@ -29,7 +29,7 @@ public:
     /// \param which all that is there now, or the part that never moves
     explicit DrawnSurface(const PatchSet& patches, Which which = Which::all);
 
-    /// Takes in that objects were placed anew, hidden or shown in the patch set.
+    /// Takes in that objects were posed anew, hidden or shown in the patch set.
     void follow(std::span<const ObjectId> objects);
 
     /// What is met first. Of surfaces that lie on each other it is the same one however the scene

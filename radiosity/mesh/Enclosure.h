@@ -1,4 +1,4 @@
-// Which closed surfaces have a lamp inside.
+// Which closed surfaces have a light inside.
 #pragma once
 
 #include "radiosity/mesh/PatchSet.h"
@@ -10,8 +10,8 @@
 
 namespace penumbra {
 
-/// A surface with a lamp inside is lit from within and meshed on both sides, another is solid (see
-/// chooseSides()). Lamps and boxes move: this tells when that has to be decided anew.
+/// A surface with a light inside is lit from within and meshed on both sides, another is solid (see
+/// chooseSides()). Lights and boxes move: this tells when that has to be decided anew.
 class Enclosures {
 public:
     /// \param mesh in its object's stretched frame
@@ -21,11 +21,11 @@ public:
     /// \param point a hair in front of an emitting face [m, stretched frame of its object]
     void addLight(glm::vec3 point, ObjectId object);
 
-    /// For each closed surface whether it has a lamp inside, as the objects stand now. Lamps that
+    /// For each closed surface whether it has a light inside, as the objects stand now. Lights that
     /// are dark or hidden count as well, those that were removed do not.
     std::vector<bool> lit(const PatchSet& set) const;
     /// Whether that is no longer so, now that some objects were moved or removed. Only what may
-    /// stand in or around these is looked at.
+    /// stand in or around these is checked.
     /// \param lit of lit(), before
     bool changed(const PatchSet& set, std::span<const ObjectId> objects,
                  const std::vector<bool>& lit) const;

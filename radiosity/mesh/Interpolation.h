@@ -7,7 +7,7 @@
 
 namespace penumbra {
 
-/// Value at a place in a patch from the values at its nodes: bilinear between the corners, plus a
+/// Value at a point of a patch from the values at its nodes: bilinear between the corners, plus a
 /// bubble that lifts the middle to what is known there and leaves the edges, which neighbours
 /// share, alone. A patch without corner nodes has the value of its middle all over.
 /// \param valueAt value at a node of the PatchSet, by index

@@ -1,4 +1,4 @@
-// The surface that a mesh stands for, face by face: OpenSubdiv's limit surface, or the polygons.
+// The surface that a mesh describes, face by face: OpenSubdiv's limit surface, or the polygons.
 #pragma once
 
 #include "radiosity/mesh/SurfaceMesh.h"

@@ -30,7 +30,7 @@ void padBlock(std::vector<T>& items, const T& padding) {
     while (items.size() % PatchSet::kBlock != 0) items.push_back(padding);
 }
 
-/// Place on a space-filling curve of a point of the unit cube, 30 bits (Morton 1966).
+/// Position on a space-filling curve of a point of the unit cube, 30 bits (Morton 1966).
 std::uint32_t mortonCode(glm::vec3 p) {
     std::uint32_t code = 0;
     const glm::uvec3 cell(glm::clamp(p, 0.0f, 1.0f) * 1023.0f);
@@ -318,7 +318,7 @@ void PatchAssembly::mergeOverlapping(std::vector<Group>& groups) {
             into.part.add(from.part.low);
             into.part.add(from.part.high);
             groups.erase(groups.begin() + std::ptrdiff_t(std::max(i, j)));
-            i = std::size_t(-1); // it has grown: look again
+            i = std::size_t(-1); // it has grown: search again
             break;
         }
 }

@@ -82,7 +82,7 @@ struct Emitter {
     std::string path; ///< of the light or mesh in the scene
 };
 
-/// A mesh that shines, and all that shines of it, of one brightness.
+/// An emissive mesh of which all emitting faces have one luminance, and its emitters.
 struct EmissiveMesh {
     std::string path;
     /// As they send direct light: see PatchSet::emitters. Their exitances are the scene's affair.
@@ -134,7 +134,7 @@ struct Wall {
 };
 
 /// A scene, meshed: hot loops see these arrays and nothing else. The fixed part never changes;
-/// movable objects are brought to where they stand by placeObject(), and what they cover of
+/// movable objects are brought to their poses by placeObject(), and what they cover of
 /// each other and of the fixed part is kept up to date by Coverage.
 ///
 /// Vertices and nodes come in blocks of kBlock consecutive ones that belong to one object and lie
@@ -169,8 +169,8 @@ struct PatchSet {
     std::size_t polygons = 0;             ///< faces of the scene that were meshed
     float patchSize = 0, elementSize = 0; ///< as used [m]
     float skin = 0; ///< how far receivers hover over their surface, at least: see hoverAt() [m]
-    /// Largest coordinate that anything has had so far [m]. Says how far to look around what moves,
-    /// never what is found there.
+    /// Largest coordinate that anything has had so far [m]. Says how far to search around what
+    /// moves, never what is found there.
     float farthest = 0;
 
     /// Whether any of an element is lit and seen.

@@ -1,4 +1,4 @@
-// Where a rigid object stands, told apart from how its frame is scaled.
+// Where a rigid object is, separate from how its frame is scaled.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,4 +1,5 @@
-// The patches of a scene where its movable objects stand, for rays and with their contacts.
+// The patches of a scene, posed: with its movable objects where they are, for rays and with
+// their contacts.
 #pragma once
 
 #include "radiosity/mesh/Coverage.h"
@@ -10,27 +11,27 @@
 
 namespace penumbra {
 
-/// Rays through what is there of a set, as it stands.
+/// Rays through what is there of a set, in its poses.
 RayScene raysThrough(const PatchSet& set);
 
 /// Keeps a PatchSet, the rays through it and what its objects cover of each other true to where
-/// they stand. All three depend on that alone and not on how things came there, apart from which
-/// private vertices stand for which corners.
+/// they stand. All three depend on the poses alone and not on how things came there, apart from
+/// which private vertices replace which corners.
 class PosedPatches {
 public:
-    /// Everything stands as the set says. \param set must outlive this
+    /// Everything has the pose that the set says. \param set must outlive this
     explicit PosedPatches(PatchSet& set);
     PosedPatches(const PosedPatches&) = delete;
     PosedPatches& operator=(const PosedPatches&) = delete;
 
-    /// Where a movable object is to stand.
+    /// The pose that a movable object is to have.
     struct ObjectPose {
         ObjectId object;
         Pose pose;
         bool present = true;
     };
     struct Change {
-        std::vector<ObjectId> objects; ///< that did not stand so before
+        std::vector<ObjectId> objects; ///< of which the pose changed
         Coverage::Change covered;
     };
     /// Puts objects elsewhere, hides or shows them; costs what changes.

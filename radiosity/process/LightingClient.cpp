@@ -52,7 +52,7 @@ std::vector<std::string> LightingClient::takeMessages() {
     return std::exchange(toSay_, {});
 }
 
-/// A worker that knows nothing yet, and all that it has to be told.
+/// A worker that knows nothing yet, and all that is sent to it first.
 void LightingClient::launch() {
     try {
         control_ = link_->regions().create(sizeof(ControlBlock));
@@ -116,7 +116,7 @@ void LightingClient::sendScene() {
 void LightingClient::send(const GraphEdit& edit) {
     hopeless_ = false;
     if (unlitSince_ == 0) unlitSince_ = steadySeconds();
-    if (!control_) return; // the next worker is told with the scene
+    if (!control_) return; // the next worker gets it with the scene
     ByteWriter body = messageOf(MessageKind::edit);
     write(body, edit);
     if (body.bytes().size() > RingSender::longest(kRingBytes)) return sendScene();
@@ -164,7 +164,7 @@ void LightingClient::sendValue(std::uint64_t key, MessageKind kind, std::uint32_
 
 void LightingClient::turn() {
     const double now = steadySeconds();
-    const double passed = std::min(now - lastTurn_, 0.1); // not when this side itself stood still
+    const double passed = std::min(now - lastTurn_, 0.1); // not while this program was stopped
     lastTurn_ = now;
     if (!running_ || hopeless_) return;
     if (!control_ && now >= retryAt_) launch();

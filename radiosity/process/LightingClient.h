@@ -26,7 +26,7 @@ namespace penumbra {
 /// (MessageQueue), and a worker that says nothing any more is ended and started anew (WorkerWatch).
 class LightingClient {
 public:
-    /// \param writeTask what a new worker is to be told: the scene with all that was sent so far
+    /// \param writeTask what a new worker is sent first: the scene with all edits so far
     LightingClient(std::unique_ptr<LightingLink> link, const RadiosityOptions& options,
                    std::function<void(ByteWriter&)> writeTask);
     ~LightingClient();
@@ -34,17 +34,17 @@ public:
     void start();
     void stop();
 
-    /// The scene is another one: what was sent before counts no more.
+    /// There is a new scene: what was sent before counts no more.
     void sendScene();
     void send(const GraphEdit& edit);
     void invalidate(const Bounds& box);
     void setCamera(const View& view);
     void send(MessageKind kind, std::uint32_t value);
     void setPreviewLights(const std::vector<std::string>& paths, std::uint32_t serial);
-    /// Has open work published as an answer to a question of that number; 0: none any more.
+    /// Has the dirty set published as an answer to a question of that number; 0: none any more.
     void watchDirty(std::uint32_t question);
 
-    /// To be called now and then: sends, looks after the worker, and at what it has to say.
+    /// To be called now and then: sends, checks that the worker is alive, and reads its reports.
     void turn();
 
     /// The newest store, once it is there; the same one until there is another.
@@ -79,8 +79,8 @@ private:
     MessageQueue queue_;
     View camera_;
     bool hasCamera_ = false;
-    std::vector<std::byte> lights_; ///< the last message about live lamps
-    std::uint32_t question_ = 0;    ///< the last one for open work
+    std::vector<std::byte> lights_; ///< the last message about previewed lights
+    std::uint32_t question_ = 0;    ///< the last one for the dirty set
 
     std::uint64_t granted_ = 0, opened_ = 0;
     RegionPtr grantedRegion_;

@@ -14,7 +14,7 @@ struct LightingTask {
     SceneSnapshot scene;
 };
 
-/// \param scene in place of the task's own
+/// \param scene instead of the task's own
 void write(ByteWriter& out, const LightingTask& task, const SceneSnapshot& scene);
 /// \return none: it is not one, or asks for what can't be
 std::optional<LightingTask> readLightingTask(ByteReader& in);

@@ -17,7 +17,7 @@ namespace {
 constexpr double kTurn = 0.008;            ///< [s]
 constexpr double kPromptTurn = 0.001;      ///< until something of an edit is published [s]
 constexpr double kBetweenScans = 0.1;      ///< at the indirect light while it is relaxed [s]
-constexpr double kBetweenWork = 0.03;      ///< that open work is published [s]
+constexpr double kBetweenWork = 0.03;      ///< that the dirty set is published [s]
 constexpr std::size_t kMostBlocks = 1024;  ///< published in one turn
 constexpr std::size_t kMostSums = 1 << 16; ///< of direct light in one turn [rays]
 
@@ -109,7 +109,7 @@ void LightingWorker::take(MessageKind kind, ByteReader& message) {
         break;
     case MessageKind::policy: {
         const auto policy = message.get<std::uint32_t>();
-        if (policy > std::uint32_t(PolicyKind::random)) senseless("an order of work");
+        if (policy > std::uint32_t(PolicyKind::random)) senseless("a scheduling policy");
         viewer_.setPolicy(PolicyKind(policy));
         break;
     }
@@ -191,7 +191,7 @@ void LightingWorker::followScene() {
     if (publisher_->outgrown()) requestStore();
 }
 
-/// Meshes the scene, if that was not done, and asks for a place to publish it.
+/// Meshes the scene, if that was not done, and asks for a store to publish it in.
 void LightingWorker::build() {
     status_.phase = WorkerStatus::meshing;
     status_.task.set("meshing");
@@ -253,7 +253,7 @@ bool LightingWorker::work(double budget) {
     return worked;
 }
 
-/// What is said of the light as it is published. \pre all of it is
+/// Reports on the light as it is published. \pre all of it is
 void LightingWorker::stateSolution() {
     const Solver& solver = lit_->solver();
     status_.solution = std::uint32_t(solver.state());
@@ -261,14 +261,14 @@ void LightingWorker::stateSolution() {
     if (solver.state() != SolutionState::working || status_.stopped != 0) status_.lit = followed();
 }
 
-/// For those who watch: what is open now.
+/// For those who watch: what is dirty now.
 void LightingWorker::showWork() {
     if (steadySeconds() < nextWork_ || !publisher_->hasStore() || !mesh_.empty()) return;
     publisher_->publishDirty(question_);
     nextWork_ = steadySeconds() + kBetweenWork;
 }
 
-/// Until the light is certified; then goes on with what was put off.
+/// Until the light is certified; then goes on with what was deferred.
 void LightingWorker::solve(double budget) {
     const auto progress = [&](const char* phase, double done) {
         status_.task.set(phase);

@@ -1,4 +1,4 @@
-// The other side of a RadiosityNode: takes scenes and edits, gives light.
+// The worker of a RadiosityNode: takes scenes and edits, gives light.
 #pragma once
 
 #include "radiosity/process/EditPace.h"
@@ -27,7 +27,7 @@ public:
     LightingWorker(Regions& regions, RegionPtr control);
     ~LightingWorker();
 
-    /// Works until it is told to stop. \throws Error if what it reads makes no sense
+    /// Works until a message says stop. \throws Error if what it reads makes no sense
     void run();
 
     enum class Turn { worked, idle, stopped };
@@ -62,7 +62,7 @@ private:
     ControlBlock& control_;
     RingReceiver messages_;
     std::vector<std::byte> message_;
-    std::uint32_t heard_ = 0; ///< what the doorbell said before the messages were looked at
+    std::uint32_t heard_ = 0; ///< the doorbell's count before the messages were read
 
     std::unique_ptr<SceneReplica> graph_;
     std::optional<LightingTask> task_; ///< its scene is in graph_
@@ -71,11 +71,11 @@ private:
     std::vector<glm::dmat4> objectFrames_; ///< when it was meshed
     std::vector<Bounds> invalid_;
     ViewerAttention viewer_;
-    std::uint32_t question_ = 0; ///< for open work; 0: nobody asks
+    std::uint32_t question_ = 0; ///< for the dirty set; 0: nobody asks
     double nextWork_ = 0;        ///< when it is published again, steady clock [s]
     std::uint32_t previewSet_ = 0;
     std::vector<std::string> lights_;
-    bool marked_ = false; ///< stale blocks of live lamps are known, if not yet published
+    bool marked_ = false; ///< stale blocks of previewed lights are known, if not yet published
     bool shown_ = false;  ///< something was published since the last edit
     bool edited_ = false, stopped_ = false;
     EditPace pace_;

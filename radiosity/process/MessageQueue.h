@@ -16,9 +16,10 @@ namespace penumbra {
 /// The head of a message; MessageQueue::send() puts in its serial number when it goes out.
 ByteWriter messageOf(MessageKind kind);
 
-/// Messages wait here until there is room for them in the ring; one that replaces another takes its
-/// place. So the queue is bounded by the number of things in the scene, and nothing but what is
-/// outdated is dropped. A region that a message names lives until the worker has taken the message.
+/// Messages wait here until there is room for them in the ring; a later one replaces an earlier one
+/// of the same thing. So the queue is bounded by the number of things in the scene, and nothing but
+/// what is outdated is dropped. A region that a message names lives until the worker has taken the
+/// message.
 class MessageQueue {
 public:
     /// Keys of messages that replace each other; those of edits are smaller, see keyOf().

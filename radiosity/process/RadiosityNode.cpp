@@ -59,14 +59,14 @@ struct RadiosityNode::Impl {
 
     std::vector<std::string> previewLights;
     std::uint32_t previewSet = 0;
-    std::uint32_t question = 0, questions = 0; ///< for open work: the present one; so far
+    std::uint32_t question = 0, questions = 0; ///< for the dirty set: the present one; so far
     RadiosityState state;
     bool marksTaken = false, lightTaken = false; ///< all that was published before is read
     std::uint64_t updates = 0, blocksBefore = 0;
 };
 
-/// The scene as it was told. Sizes that followed from it at first are kept, so that it is meshed
-/// alike wherever things stand now.
+/// The scene as it was sent. Sizes that followed from it at first are kept, so that it is meshed
+/// alike wherever things are now.
 void RadiosityNode::Impl::writeTask(ByteWriter& out) const {
     LightingTask task{options.meshing, options.solving, {}};
     if (shown) {
@@ -205,7 +205,7 @@ void RadiosityNode::accept(Visitor& visitor) const {
 
 void RadiosityNode::update() {
     impl_->diff();
-    impl_->client.turn(); // the worker begins while things are placed here
+    impl_->client.turn(); // the worker begins while objects are posed here
     const bool moved = std::exchange(impl_->toPlace, false);
     if (moved) impl_->place(*this);
     impl_->takeLight();
@@ -219,7 +219,7 @@ void RadiosityNode::update() {
     impl_->takeIn(allTaken);
 }
 
-/// What the other side says of the light it has published is true here when that has been read.
+/// What the worker reports of the light it has published holds here when that has been read.
 void RadiosityNode::Impl::takeIn(bool allTaken) {
     marksTaken = state.dirtyMarked && (marksTaken || allTaken);
     state.dirtyMarked = marksTaken;
@@ -244,7 +244,7 @@ void RadiosityNode::setTrigger(Trigger trigger) {
 }
 
 void RadiosityNode::setPolicy(PolicyKind policy) {
-    impl_->options.solving.policy = policy; // what another process is told
+    impl_->options.solving.policy = policy; // for a worker that is started later
     impl_->client.send(MessageKind::policy, std::uint32_t(policy));
 }
 

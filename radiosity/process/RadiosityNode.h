@@ -40,7 +40,7 @@ struct LitObject {
 /// A group of which everything below is lit by radiosity, in a thread or a process of its own.
 ///
 ///     auto lit = std::make_shared<RadiosityNode>("lit", options, makeThreadLink());
-///     lit->add(room);                  // in place of root->add(room)
+///     lit->add(room);                  // instead of root->add(room)
 ///     root->add(lit);
 ///     for (;;) {                       // the render loop
 ///         chair->setMatrix(...);       // edits are made to the graph, and nowhere else
@@ -51,14 +51,14 @@ struct LitObject {
 /// update() finds what was edited below by the nodes' revisions: Transform matrices, Switch
 /// visibility, lights, materials, children that come and go. It sends this when the trigger says
 /// so, and takes in what has been computed since: only the blocks that changed are copied. An
-/// object that has light is drawn by its LitGeometry, at the place where it is now; what has none
+/// object that has light is drawn by its LitGeometry, where the object is now; what has none
 /// yet is listed in unlit() for the renderer to shade as it can.
 ///
-/// The other side may die, hang or write nonsense: the node says so once (takeMessages()), goes on
-/// with the light it has, starts another one and hands it the scene with all edits so far.
+/// The worker may die, hang or write nonsense: the node says so once (takeMessages()), goes on
+/// with the light it has, starts another worker and hands it the scene with all edits so far.
 ///
 /// All calls belong to one thread, the renderer's. Frames and paths are those of this node: what
-/// stands above it is not looked at.
+/// is above it does not count.
 class RadiosityNode : public Group {
 public:
     RadiosityNode(std::string name, const RadiosityOptions& options,
@@ -68,16 +68,16 @@ public:
     /// The children, and then lit().
     void accept(Visitor& visitor) const override;
 
-    /// To be called once a frame. Takes at most a few milliseconds, whatever the other side does.
+    /// To be called once a frame. Takes at most a few milliseconds, whatever the worker does.
     void update();
-    /// Takes the light away from the other side and ends it; the light that there is stays.
+    /// Ends the worker; the light that there is stays.
     /// update() does nothing until start(). A new node has started.
     void stop();
     void start();
 
     /// When edits are sent. All may be switched at any time, also in the middle of a drag.
     void setTrigger(Trigger trigger);
-    /// For edits of one node (Transform, Switch, Light), in place of the trigger of all; none: back
+    /// For edits of one node (Transform, Switch, Light), instead of the trigger of all; none: back
     /// to that.
     void setTrigger(const Node& node, std::optional<Trigger> trigger);
     /// A person has taken hold of a node, or lets go of it again.
@@ -88,17 +88,17 @@ public:
 
     /// Has what lies in a box, or is crossed by light through it, evaluated anew [m, this frame].
     void invalidate(const Bounds& box);
-    /// Which of the open work comes first, from now on. The light that comes out is the same.
+    /// Which dirty blocks come first, from now on. The light that comes out is the same.
     void setPolicy(PolicyKind policy);
-    /// From where the scene is seen: in the order of importance, what is in view comes first.
+    /// From where the scene is seen: with the policy `importance`, what is in view comes first.
     void setCamera(const View& view);
-    /// Lamps of which each one's own light is wanted as well, by their paths as Placed<Light> and
-    /// Emitter have them, at most kMostPreviewLights: LitMeshData::lamps has one entry each, in
+    /// Lights of which each one's own part is wanted as well, by their paths as Placed<Light> and
+    /// Emitter have them, at most kMostPreviewLights. Their light comes as one LightShare each, in
     /// this order.
     void setPreviewLights(std::vector<std::string> paths);
     const std::vector<std::string>& previewLights() const;
 
-    /// Has the other side say what work is open, some thirty times a second. It costs nothing when
+    /// Has the worker report its dirty set, some thirty times a second. It costs nothing when
     /// nobody watches.
     void watchDirty(bool watch);
     /// By object, one a block of its geometry; empty: nobody watches, or it is not known yet.

@@ -15,7 +15,7 @@ struct RadiosityOptions {
     Trigger trigger = Trigger::implicit;
     unsigned threads = 0; ///< 0: one a core, but one is left to the renderer
     int niceness = 5;     ///< of a process, see nice(1)
-    /// Nothing heard from the other side for so long: it hangs [s].
+    /// Nothing heard from the worker for so long: it hangs [s].
     double timeout = 2;
     std::size_t mostMemory = std::size_t(4) << 30; ///< shared at most [bytes]
 };

@@ -37,7 +37,7 @@ public:
 
 private:
     void work(const RegionPtr& control, unsigned threads) {
-        std::string why = "it was told to stop";
+        std::string why = "it was asked to stop";
         try {
             const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
             const ThreadLimit limit(threads > 0 ? threads : std::max(1u, cores - 1));

@@ -14,7 +14,8 @@
 namespace penumbra {
 
 /// Holds edits back until the trigger lets them through. Of several edits of the same thing only
-/// the last one is kept, in the place of the first. Which children a node has is never held back.
+/// the last one is kept, where the first was in the queue. Which children a node has is never held
+/// back.
 class TriggerGate {
 public:
     explicit TriggerGate(Trigger trigger) : trigger_(trigger) {}

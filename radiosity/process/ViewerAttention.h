@@ -1,4 +1,4 @@
-// What a worker knows of the viewer, and tells its solver.
+// What a worker knows of the viewer, and passes on to its solver.
 #pragma once
 
 #include "base/Bounds.h"
@@ -10,7 +10,7 @@
 
 namespace penumbra {
 
-/// The viewer's camera, the things that were moved last, and the order of work that is wanted.
+/// The viewer's camera, the things that were moved last, and the scheduling policy that is wanted.
 /// News are passed on at most every 30 ms: a camera that turns all the time costs little, and still
 /// nothing is ever done in an order that is older than two pictures.
 class ViewerAttention {
@@ -19,9 +19,9 @@ public:
     void setCamera(const View& view);
     /// Things were moved. \param box around them [m, world]; none: nothing was, but other edits
     void setMoved(const std::optional<Bounds>& box);
-    /// Whether light is shown by whole blocks only, as it is while lamps are live.
+    /// Whether light is shown by whole blocks only, as it is while lights are previewed.
     void setWhole(bool whole);
-    /// The solver is another one: it knows nothing.
+    /// There is a new solver: it knows nothing of the viewer.
     void solverIsNew() { policyStale_ = stale_ = true; }
 
     /// \param now steady clock [s]
@@ -38,7 +38,7 @@ private:
     double reported_ = 0; ///< when [s]
 };
 
-/// How a picture of this view is looked at: the eye in the middle of it, or on what is moved.
+/// Where the eye is in a picture of this view: in the middle of it, or on what is moved.
 /// \param moved box around the things in someone's hand, or moved last [m, world]
 /// \param height of the picture [pixels]; its width follows the view
 Attention attentionFor(const View& view, const std::optional<Bounds>& moved, int height = 720);

@@ -8,8 +8,8 @@
 
 namespace penumbra {
 
-/// Listens to a worker's beat and counts its turns, by a clock that stands still while this side
-/// does.
+/// Listens to a worker's beat and counts its turns, by a clock that stops while this program is
+/// stopped.
 class WorkerWatch {
 public:
     /// \param timeout nothing heard for so long: it hangs [s]

@@ -16,7 +16,7 @@ namespace {
 constexpr int kSamples = 64;
 constexpr double kSkin = 1e-4; // how far the point is lifted off its surface [m]
 
-/// The faces of a mesh that shine in one colour, as one emitter each colour.
+/// The emitting faces of a mesh, as one emitter for each colour.
 std::vector<Emitter> meshEmitters(const Placed<Mesh>& placed) {
     const MeshData& data = placed.node->data();
     std::map<const Material*, Emitter> byMaterial;

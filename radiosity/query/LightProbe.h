@@ -11,11 +11,11 @@
 
 namespace penumbra {
 
-/// The direct light of a point of a surface, lamp by lamp, evaluated there: closed-form form
-/// factors times 64 shadow rays a lamp. What blocks a ray is charged with its share. Who loses most
-/// comes first, then who gives most. Object ids are those of `scene`.
+/// The direct light of a point of a surface, light by light, evaluated there: closed-form form
+/// factors times 64 shadow rays a light. What blocks a ray is charged with its share. Who loses
+/// most comes first, then who gives most. Object ids are those of `scene`.
 ///
-/// As accountForLight(), which reads the same off a solution, but of the scene as it stands: good
+/// As accountForLight(), which reads the same off a solution, but of the scene as it is: good
 /// before anything is solved, and while things are dragged.
 ///
 /// \param position,normal [m, world]; unit, towards the lit side

@@ -1,4 +1,4 @@
-// The solution as it is drawn: looked up at points, and as a branch of the scene graph.
+// The solution as it is drawn: read at points, and as a branch of the scene graph.
 #pragma once
 
 #include "radiosity/mesh/DrawnSurface.h"

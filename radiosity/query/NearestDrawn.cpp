@@ -15,7 +15,7 @@ glm::vec3 mix(const Corners& corners, const Weights& w) {
     return w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2];
 }
 
-/// Barycentric weights of the place of a triangle that is nearest to a point.
+/// Barycentric weights of the point of a triangle that is nearest to another point.
 Weights nearestWeights(const Corners& corners, glm::vec3 point) {
     const glm::vec3 normal =
         glm::cross(corners[1] - corners[0], corners[2] - corners[0]); // twice the area long
@@ -58,7 +58,7 @@ DrawnHit nearestDrawn(const PatchSet& patches, glm::vec3 point, float reach) {
         if (!(distance <= reach)) return;
         const bool behind =
             glm::dot(away, glm::cross(corners[1] - corners[0], corners[2] - corners[0])) < 0;
-        // A hair decides between surfaces in the same place.
+        // Rounding decides between surfaces that coincide.
         const float rank = distance + (behind ? hover : 0) + (patches.receives(e) ? 0 : 2 * hover);
         if (rank >= least) return;
         least = rank;

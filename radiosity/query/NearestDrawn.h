@@ -8,13 +8,14 @@
 
 namespace penumbra {
 
-/// The place of the drawn surface, as it stands now, that lies nearest to a point. Of surfaces that
-/// lie back to back or on each other it is the one that is lit and shows its front to the point.
+/// The point of the drawn surface, as it is now, that lies nearest to another point. Of surfaces
+/// that lie back to back or on each other it is the one that is lit and shows its front to the
+/// point.
 ///
-/// Looks at every element: meant for single questions.
+/// Goes through every element: meant for single questions.
 ///
 /// \param point [m, world]
-/// \param reach how far the place may be [m]
+/// \param reach how far away it may be [m]
 /// \return      its `distance` is in metres; not met() if nothing is within reach
 DrawnHit nearestDrawn(const PatchSet& patches, glm::vec3 point, float reach);
 

@@ -16,7 +16,7 @@ namespace penumbra {
 
 class Material;
 
-/// A place on a surface.
+/// A point on a surface.
 struct Touch {
     ObjectId object;
     const Mesh* mesh = nullptr;         ///< one of
@@ -35,7 +35,7 @@ public:
     /// The scene's nodes must outlive this.
     explicit SceneRays(const PlacedScene& scene);
 
-    /// Takes in how the scene stands now: moved, hidden and shown objects cost what they are,
+    /// Takes in the scene as it is now: moved, hidden and shown objects cost what they are,
     /// anything else builds the index anew.
     void follow(const PlacedScene& scene);
 
@@ -48,7 +48,7 @@ public:
 
     const RayScene& rays() const { return *rays_; } ///< its objects are the scene's
 
-    /// Box around an object as it stands [m, world].
+    /// Box around an object in its present pose [m, world].
     Bounds bounds(ObjectId object) const;
 
 private:

@@ -22,12 +22,12 @@ inline float magnitude(const Bounds& box) {
     return box.empty() ? 0.0f : std::max(magnitude(box.lower), magnitude(box.upper));
 }
 
-/// How far apart two computed places may lie that should be one [m].
+/// How far apart two computed points may lie that should be one [m].
 ///
 ///     16 u m,    u = 2^-24
 ///
 /// Rounding a coordinate of at most m moves it by u m at most, a point by sqrt(3) u m. A receiver
-/// is rounded some four times (corner, place between corners, pull inwards, lift), the triangle
+/// is rounded some four times (corner, point between corners, pull inwards, lift), the triangle
 /// under it once more: less than 10 u m in all. A micrometre at 1 m, a millimetre at 1 km.
 inline float roundingAt(float magnitude) {
     return 0x1p-20f * magnitude;
@@ -42,7 +42,7 @@ inline float skinOf(float patchSize) {
     return 2.5e-4f * patchSize;
 }
 
-/// How far a receiver hovers at a place [m]. \param skin see skinOf() \param magnitude of the place
+/// How far a receiver hovers at a point [m]. \param skin see skinOf() \param magnitude of the point
 inline float hoverAt(float skin, float magnitude) {
     return std::max(skin, roundingAt(magnitude));
 }
@@ -50,14 +50,14 @@ inline float hoverAt(float skin, glm::vec3 place) {
     return hoverAt(skin, magnitude(place));
 }
 
-/// How far before a place on a surface a segment has to end, at least, so as not to run into that
+/// How far before a point on a surface a segment has to end, at least, so as not to run into that
 /// surface [m]: both its sides, as far as a receiver may be off it.
 /// \param magnitude of the segment's ends
 inline float clearanceAt(float skin, float magnitude) {
     return 2 * hoverAt(skin, magnitude);
 }
 
-/// How far beside a triangle a ray may pass and yet be said to meet it [m]: RayScene asks up to
+/// How far beside a triangle a ray may pass and yet count as meeting it [m]: RayScene asks up to
 /// three hairs of roundingAt() aside, with rays another hair around. \param magnitude of all that
 /// the ray may begin at or meet
 inline float strayAt(float magnitude) {

@@ -56,7 +56,7 @@ public:
     float searchEnd() const;
     /// Whether the ray passes by a triangle that was offered, with nothing close behind it.
     bool inDoubt() const;
-    /// What rounding may make of a place as far away as that triangle [m]. \pre inDoubt()
+    /// What rounding may make of a point as far away as that triangle [m]. \pre inDoubt()
     float hair() const { return hairAt(doubt_.distance); }
     const RayHit& doubt() const { return doubt_; } ///< the triangle that was offered
     /// How far beside this ray, on all its sides, the i-th of kAround rays of the same direction

@@ -74,7 +74,7 @@ void requireThatTheyCanBeTraced(std::span<const glm::vec3> vertices) {
                     "(look for a transform or points out of range)");
 }
 
-/// Whether Embree's i-th ray passes through the triangle that it is said to hit. By rounding it may
+/// Whether Embree's i-th ray passes through the triangle that it reports. By rounding it may
 /// pass beside it, and whether it is tried at all then depends on the hierarchy.
 bool reallyPasses(const RTCFilterFunctionNArguments* args, unsigned i) {
     constexpr float kSure = 1e-3f; // farther from every edge than rounding gets

@@ -50,7 +50,7 @@ class RayScene {
 public:
     /// A segment is tested up to a hair before its end, for the target's own surface is no
     /// obstacle: 1e-4 of its length, or clearanceAt() of its ends if that is more.
-    /// \param skin how far a place may be off the triangles that stand for its surface, see
+    /// \param skin how far a point may be off the triangles that represent its surface, see
     ///             skinOf() [m]
     explicit RayScene(std::span<const RayMesh> objects, float skin = 0);
     ~RayScene();

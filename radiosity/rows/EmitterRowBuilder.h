@@ -16,7 +16,7 @@
 namespace penumbra {
 
 /// Updates one block of an emitter's row at a time; one builder a thread, for it owns scratch
-/// space. What holds of an updated block is said at RowBuilder.
+/// space. RowBuilder says what holds of an updated block.
 class EmitterRowBuilder {
 public:
     explicit EmitterRowBuilder(const RayScene& rays) : rays_(rays), drafts_(RowBlock::kSize) {}

@@ -29,7 +29,7 @@ public:
 
     /// What the whole emitter gives to a receiver when nothing stands between them: the closed
     /// forms of FormFactor.h, summed over polygons. Exact for convex emitters; polygons that shade
-    /// each other are told by the visibility samples.
+    /// each other are found by the visibility samples.
     float formFactor(const Receiver& receiver) const;
 
     /// Samples first ... first + 15 for a receiver. A sphere is sampled on the part that faces it.

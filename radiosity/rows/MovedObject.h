@@ -22,7 +22,7 @@ bool isAmong(std::span<const MovedObject> moved, std::uint32_t object);
 bool mayStandBefore(std::span<const MovedObject> moved, const Receiver& receiver,
                     const Bounds& box);
 
-/// Whether an entry may be another one now: it is visible in part and something may stand before
+/// Whether an entry may have changed: it is visible in part and something may stand before
 /// it, or what blocked it has moved. \param box of the sender [m, world]
 bool mayDiffer(const RowBlock::Draft& draft, std::span<const MovedObject> moved,
                const Receiver& receiver, const Bounds& box);

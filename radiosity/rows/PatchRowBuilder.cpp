@@ -29,7 +29,7 @@ float kernel(const Receiver& receiver, glm::vec3 at, glm::vec3 normal) {
            (std::numbers::pi_v<float> * d2 * d2);
 }
 
-/// Unoccluded form factors of a cluster's parts, in order; each quarter of them stands for a
+/// Unoccluded form factors of a cluster's parts, in order; each quarter of them represents a
 /// quarter of the cluster.
 struct PartKernels {
     PartKernels(const PatchSender& sender, const Receiver& receiver)
@@ -139,7 +139,7 @@ void PatchRowBuilder::listSamples(const PatchSender& sender, const ReceiverBlock
         const PartKernels kernels(sender, receiver);
         const std::uint32_t count = sampleCount(factor, kernels.count);
         for (std::uint32_t k = 0; k < count; ++k) {
-            // Any of the group's parts that faces the receiver stands for all of them.
+            // Any of the group's parts that faces the receiver represents all of them.
             const std::uint32_t first = kernels.begin(k, count), last = kernels.begin(k + 1, count);
             std::uint32_t sample = first + (hash >> 2 * k) % (last - first);
             for (std::uint32_t i = first; i < last && !(kernels.part[sample] > 0); ++i)

@@ -34,7 +34,7 @@ struct PatchSender {
 };
 
 /// Builds and updates one block of a patch's or cluster's row at a time; one builder a thread, for
-/// it owns scratch space. What holds of an updated block is said at RowBuilder.
+/// it owns scratch space. RowBuilder says what holds of an updated block.
 class PatchRowBuilder {
 public:
     explicit PatchRowBuilder(const RayScene& rays) : rays_(rays), drafts_(RowBlock::kSize) {}

@@ -16,7 +16,7 @@ constexpr std::uint64_t kAll = ~std::uint64_t(0);
 /// Codes that mean a mixed entry: the largest ones.
 constexpr std::size_t kMixedCodes = 16;
 
-/// Size of a code, and of a place in the list of objects.
+/// Size of a code, and of an index into the list of objects.
 std::size_t codeSize(std::size_t objects) {
     return objects <= 256 - kMixedCodes ? 1 : 2;
 }
@@ -242,7 +242,7 @@ private:
 
     const RowBlock& block_;
     std::uint64_t left_, visible_ = 0, seen_ = 0;
-    std::size_t factor_ = 0, share_ = 0, split_ = 0, record_ = 0; ///< places in the bytes
+    std::size_t factor_ = 0, share_ = 0, split_ = 0, record_ = 0; ///< offsets in the bytes
     std::size_t objects_ = 0, objectSize_ = 0, codeSize_ = 0;
     std::array<Blocker, kSize> scratch_;
 };

@@ -33,15 +33,15 @@ struct Blocker {
 ///     objects            2 each, with kWideObjects 4: all that block anything in this block
 ///     records                   of the entries that are not wholly visible, in order
 ///
-/// What is summed in a shot comes first and lies at fixed places. A record is as short as its
+/// What is summed in a shot comes first and lies at fixed offsets. A record is as short as its
 /// entry is simple. It begins with a code of one byte, two if there are more objects than that can
 /// name. The 16 largest codes mean a mixed entry, smaller ones an object that blocks every sample:
 ///
-///     code = place in the list                           wholly blocked by this one
+///     code = index in the list                           wholly blocked by this one
 ///     code = largest - 15 + wide + 2 implied + 4 (min(blockers, 4) - 1)
 ///            number of blockers (1 byte), if 4 or more
 ///            mask of the visible samples, if any is
-///            for each blocker its place in the list, and the mask of its samples
+///            for each blocker its index in the list, and the mask of its samples
 ///
 /// Masks take 2 bytes if only the samples 0 ... 15 were taken, else 8 (wide). The last blocker's
 /// mask is left out (implied) if it is just what the others and the visible samples leave over.
@@ -59,7 +59,7 @@ public:
         float visibility = 1;  ///< weighted share of the samples that are visible
         std::uint64_t visible; ///< mask of the visible samples
         int blockerCount = 0;  ///< 0: all samples are visible
-        bool parted = false;   ///< the sender's quarters are told apart, if any entry's are
+        bool parted = false;   ///< the sender's quarters are kept apart, if any entry's are
         Split split{};
         std::array<Blocker, kSize> blockers;
 
@@ -214,7 +214,7 @@ public:
     std::vector<RowBlock>::iterator end() { return entries_.end(); }
     std::vector<RowBlock>::const_iterator begin() const { return entries_.begin(); }
     std::vector<RowBlock>::const_iterator end() const { return entries_.end(); }
-    /// Index of the block in place `i`.
+    /// Index of the block in slot `i`.
     std::uint32_t blockAt(std::size_t i) const {
         return indices_.empty() ? std::uint32_t(i) : indices_[i];
     }

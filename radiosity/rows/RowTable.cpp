@@ -73,7 +73,7 @@ std::vector<BlockMask> RowTable::concerned(std::size_t row, const Bounds& sender
 /// Adds those of some blocks whose shafts meet a box.
 void RowTable::crossed(const Row& row, Blocks blocks, const Bounds& sender, const Bounds& box,
                        std::uint64_t receivers, std::vector<BlockMask>& masks) const {
-    constexpr std::size_t kFew = 32; // are looked at one by one
+    constexpr std::size_t kFew = 32; // are tested one by one
     const auto meets = [&](const Bounds& block) { return shaftMeets(sender, block, box); };
     if (row.size() <= kFew) {
         for (std::size_t i = 0; i < row.size(); ++i) {

@@ -32,7 +32,7 @@ struct PendingChange {
 
 /// All emitters onto the vertices, or all patches onto the nodes.
 ///
-/// What an edit changes in a row is found without looking at its entries: old shadows by a list of
+/// What an edit changes in a row is found without reading its entries: old shadows by a list of
 /// the blocks in which each movable object is a recorded blocker, new ones by the shafts between
 /// the sender and a hierarchy of the blocks.
 class RowTable {

@@ -9,8 +9,8 @@
 namespace penumbra {
 
 /// The large faces of the fixed part: walls, floors, partitions. Where one of them stands between a
-/// lamp and a block of receivers no ray is needed to know that all of them are in its shadow, and
-/// the light of a building's other rooms costs nothing here.
+/// emitter and a block of receivers no ray is needed to know that all of them are in its shadow,
+/// and the light of a building's other rooms costs nothing here.
 class Walls {
 public:
     /// Points p with normal . p = offset.

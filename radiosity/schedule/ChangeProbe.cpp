@@ -38,7 +38,7 @@ std::uint64_t groupOf(std::size_t receiver) {
     return kAll << receiver / kAnewGroup * kAnewGroup;
 }
 
-/// Samples that point at where moved objects stand now.
+/// Samples that point at where moved objects are now.
 std::uint32_t lanesTowards(const SampleGroup& group, std::span<const MovedObject> moved) {
     std::uint32_t met = 0;
     for (const MovedObject& m : moved)

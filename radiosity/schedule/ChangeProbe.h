@@ -1,4 +1,5 @@
-// What to expect of open work on direct light, before it is done: a ray where it takes many.
+// What to expect of a dirty block of direct light, before it is updated: one ray where an update
+// takes many.
 #pragma once
 
 #include "radiosity/rays/RayScene.h"
@@ -19,21 +20,21 @@ namespace penumbra {
 /// Says of each entry of a block how far F V may be expected to change, from what is stored of it
 /// and a ray or two:
 ///
-/// - of the samples that were visible, those that point at a moved object's box where it stands now
+/// - of the samples that were visible, those that point at a moved object's box where it is now
 ///   are hidden if one of them is found to meet the object;
 /// - the samples that a moved object hid are visible if one of them is found to meet none of them:
-///   what else may hide it is not looked for;
+///   what else may hide it is not searched for;
 /// - the samples that something else hides stay hidden;
 /// - an entry that is to be evaluated anew has its form factor. A sample that was visible, one that
 ///   was not, and one of an entry that was not there, each of one receiver in eight, are traced
-///   against the whole scene, and tell how many stay so. So what goes dark counts as much as what
-///   becomes light, and what stays as it was is known to.
+///   against the whole scene, and tell how many stay so. So the probe finds what goes dark, what
+///   becomes light, and what does not change.
 ///
 /// A single ray says yes or no. What is expected goes by its neighbours as well, see
 /// KernelEstimate: half-shadows are as wide as a few receivers.
 ///
 /// An entry of which nothing points at a moved object, and no sample was hidden by one, stays what
-/// it is: there is nothing to be done. What is found decides about an order only. One probe a
+/// it is: there is nothing to be done. What is found decides about priorities only. One probe a
 /// thread, for it owns scratch space.
 ///
 /// It is the estimate from stored blockers of [MuellerSchoeffel1994]'s list, with rays against the

@@ -1,4 +1,4 @@
-// Open work on groups of receivers.
+// Dirty groups of receivers.
 #pragma once
 
 #include "base/BoundsTree.h"
@@ -13,7 +13,7 @@
 
 namespace penumbra {
 
-/// Which groups of kSize consecutive receivers have to look at what they see again, because of
+/// Which groups of kSize consecutive receivers have to find again what they see, and because of
 /// what. Found by the boxes around all that their rays cross, and worked on in the order in which
 /// they were found.
 class DirtyGroups {
@@ -27,7 +27,7 @@ public:
         bool judge = false;               ///< even if all of them see what they saw
     };
 
-    /// New groups are open altogether.
+    /// New groups are wholly dirty.
     void resize(std::size_t receivers) {
         for (std::size_t g = open_.size(); g < receivers / kSize; ++g) {
             open_.emplace_back();

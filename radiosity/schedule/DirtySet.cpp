@@ -11,7 +11,7 @@ namespace penumbra {
 
 namespace {
 
-/// See setAging(): until it is told how fast work is done.
+/// See setAging(): until the speed of work is known.
 constexpr WorkQueue::Fairness kFairness{.aging = 4e6, .reserve = 0.25};
 
 } // namespace
@@ -92,19 +92,18 @@ WorkQueue::Task DirtySet::task(std::uint32_t row, const Entry& entry) const {
     const double bound =
         double(r.reflectance) * double(entry.factor) * (rows_[row].power + double(r.light));
     const DirtyBlock block{row, entry.block, entry.anew, entry.since, entry.factor};
-    // A look may find that all the change is in a few receivers.
+    // A probe may find that all the change is in a few receivers.
     const double expense = policy_->probes() ? double(cost::kProbedVisit) : double(cost(block));
     WorkQueue::Task task = policy_->rank({row, entry.block, bound, expense});
     task.since = taken_;
     return task;
 }
 
-/// Of a block that was looked at: which of the receivers that are left come next, and what that is
-/// worth.
+/// Of a probed block: which of the remaining receivers come next, and with what priority.
 WorkQueue::TaskPriority DirtySet::choosePart(std::uint32_t row, Entry& entry) {
     if (!entry.partial->isRanked(policy_->view())) rankReceivers(row, entry);
     const std::uint32_t cluster = task(row, entry).cluster;
-    // Where nobody looks, visits are dearer than what comes a little sooner is worth.
+    // Without a viewer, another visit costs more than an early part gains.
     const PartialUpdate::Part part = entry.partial->bestPart(whole_ || !queue_.inPicture(cluster));
     entry.part = part.receivers;
     return queue_.priorityFor(cluster, part.gain, part.cost);
@@ -146,7 +145,7 @@ void DirtySet::deferred(Entry& entry) {
         queue_.remove(handle);
 }
 
-/// There is more to it now. What is not put off keeps its age.
+/// There is more to it now. What is not deferred keeps its age.
 void DirtySet::openAnew(std::uint32_t row, Entry& entry) {
     entry.left = ~std::uint64_t(0);
     forget(entry);
@@ -161,7 +160,7 @@ void DirtySet::setUnsorted(std::uint32_t row) {
 /// Puts into the queue what belongs there; false: no step is left for it.
 bool DirtySet::sort(double enough, std::size_t& steps) {
     for (; !unsorted_.empty() && steps > 0; unsorted_.pop_front()) {
-        constexpr std::size_t kAtOnce = 8; // looked at in the time of a step
+        constexpr std::size_t kAtOnce = 8; // probed in the time of a step
         RowList& list = rows_[unsorted_.front()];
         list.unsorted = false;
         std::size_t queued = 0;
@@ -252,7 +251,7 @@ DirtySet::Entry* DirtySet::find(std::uint32_t row, std::uint32_t block) {
 
 std::optional<DirtyBlock> DirtySet::next(double enough, std::size_t& steps) {
     for (; steps > 0 && pending(enough); --steps) {
-        if (queue_.empty() && unsorted_.empty()) // nothing is put off any more
+        if (queue_.empty() && unsorted_.empty()) // nothing is deferred any more
             for (std::uint32_t row = 0; row < rows_.size(); ++row) setUnsorted(row);
         if (!sort(enough, steps)) return {};
         const std::optional<WorkQueue::Choice> choice = queue_.choose(taken_);
@@ -309,7 +308,7 @@ void DirtySet::finish(std::uint32_t row, Entry& entry) {
     if (--list.open == 0) list.entries.clear();
 }
 
-/// Whether any of it is still open.
+/// Whether any of it is still dirty.
 bool DirtySet::narrow(std::uint32_t row, Entry& entry, std::uint64_t receivers) {
     entry.left &= receivers;
     if (entry.left != 0) return true;

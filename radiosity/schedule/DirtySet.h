@@ -22,22 +22,23 @@ struct DirtyBlock {
     float factor = 0;                            ///< F V of no entry changes by more
     std::uint64_t receivers = ~std::uint64_t(0); ///< bits: of which entries are to be worked on
     double cost = 1;                             ///< from next(): about [rays]
-    bool probe = false;                          ///< from next(): look first, see expect()
+    bool probe = false;                          ///< from next(): probe first, see expect()
     bool overdue = false;                        ///< from next(): comes for its age
-    std::uint32_t entry = 0;                     ///< from next(): where it stands among the open
+    std::uint32_t entry = 0;                     ///< from next(): its index in the dirty set
 };
 
-/// Open work, with a bound of what it may change found before any ray is traced. An entry of a
-/// receiver r and a sender s, whose F V changes by f at most, changes what r reflects by
+/// The dirty blocks of rows, each with a bound of what it may change, found before any ray is
+/// traced. An entry of a receiver r and a sender s, whose F V changes by f at most, changes what
+/// r reflects by
 ///
 ///     rho_r f (|S_s| + H_r)
 ///
 /// where |S_s| is what s has sent [lm/m^2], and H_r the light at r [lux], for r's row sum, by which
 /// its light is divided (docs/radiosity.md, section 6), changes by f as well. Bounds are summed up
 /// for each block of receivers, over all senders. Where the sum is small enough already, the rest
-/// of the work is put off: it stays open, and its bound is part of what is reported.
+/// is deferred: it stays dirty, and its bound is part of what is reported.
 ///
-/// An order that looks at blocks has them done in parts, see Prospect.
+/// A policy that probes blocks has them done in parts, see PartialUpdate.
 class DirtySet {
 public:
     /// What working on a block takes, about [rays].
@@ -46,13 +47,13 @@ public:
         std::size_t entry; ///< more, for each entry that is
     };
 
-    /// In the order of bound / cost, until another is set.
+    /// With the policy bound / cost, until another is set.
     DirtySet(std::size_t rows, const Costs& costs);
-    /// Another order for all that is open, and for what comes.
+    /// Another policy for all that is dirty, and for what comes.
     void setPolicy(std::shared_ptr<SchedulingPolicy> policy);
-    /// The viewer has moved: what work is worth is asked for again.
+    /// The viewer has moved: priorities are asked for again.
     void rekey();
-    /// What waits for longer than this gets a share of the work, whatever else is worth more
+    /// What waits for longer than this gets a share of the work, whatever has a higher priority
     /// [rays].
     void setAging(double rays);
     /// Whether blocks are never done in parts, as where they are shown as wholes only.
@@ -69,24 +70,24 @@ public:
     /// What a sender has sent [lm/m^2].
     void setPower(std::uint32_t row, double power);
 
-    /// Opens blocks of one row, in order. Those that are open already are so for both reasons then.
+    /// Marks blocks of one row as dirty, in order. Those that are so already are so for both
+    /// reasons then.
     void open(std::uint32_t row, std::span<const DirtyBlock> blocks);
     /// Closes all of a row.
     void drop(std::uint32_t row);
-    /// The next block. It stays open: it is to be closed and worked on now, or ranked again by
+    /// The next block. It stays dirty: it is to be closed and worked on now, or ranked again by
     /// expect() or putBack().
-    /// \param enough what may stay open on each block of receivers [lm/m^2]; 0: nothing
+    /// \param enough what may stay dirty on each block of receivers [lm/m^2]; 0: nothing
     /// \param steps blocks to go through at most, about; those that were are taken off
     /// \return nothing: none is left, or no step
     std::optional<DirtyBlock> next(double enough, std::size_t& steps);
-    /// Is worked on, and not open any more but for receivers that are not among its own.
+    /// Is worked on, and not dirty any more but for receivers that are not among its own.
     /// \param block from next()
     void close(const DirtyBlock& block);
-    /// What is expected of an open block, which is closed if nothing is; one that is not open is
-    /// left alone.
+    /// What is expected of a dirty block, which is closed if nothing is; a clean one is left alone.
     void expect(std::uint32_t row, std::uint32_t block, const ExpectedFactors& expected);
-    /// Of an open block only these receivers (bits) are still to be worked on; if none is, it is
-    /// closed. One that is not open is left alone.
+    /// Of a dirty block only these receivers (bits) are still to be worked on; if none is, it is
+    /// closed. A clean one is left alone.
     void narrow(std::uint32_t row, std::uint32_t block, std::uint64_t receivers);
     void putBack(const DirtyBlock& block); ///< from next(): not now
     /// next() and close().
@@ -96,23 +97,24 @@ public:
     bool pending(double enough) const {
         return count_ > 0 && (enough <= 0 || !queue_.empty() || !unsorted_.empty());
     }
-    std::size_t count() const { return count_; } ///< blocks that are open
+    std::size_t count() const { return count_; } ///< dirty blocks
     /// Cost of all work so far: the clock by which work waits [rays].
     double taken() const { return taken_; }
-    /// When, by that clock, the open block was queued that has waited longest; nothing: none waits.
+    /// When, by that clock, the dirty block was queued that has waited longest; nothing: none
+    /// waits.
     std::optional<double> oldest() const {
         return queue_.empty() ? std::nullopt : std::optional(queue_.oldest(taken_));
     }
-    /// Blocks of a row that are open and of receivers for which more than `enough` is, in order.
+    /// Dirty blocks of a row, of receivers of which more than `enough` is dirty, in order.
     std::vector<std::uint32_t> urgent(std::uint32_t row, double enough) const;
-    /// What is open of one block of receivers, over all rows.
+    /// What is dirty of one block of receivers, over all rows.
     struct AtBlock {
         std::uint32_t rows = 0, small = 0; ///< more than `enough`; of blocks for which it is not
         double priority = 0;               ///< the largest by which any of it is ranked
     };
-    /// Of every block; takes as long as there is open work.
+    /// Of every block; takes time in proportion to the dirty set.
     std::vector<AtBlock> atBlocks(double enough) const;
-    /// Sums over the open blocks of all senders: of factor * power [lux], and of factor.
+    /// Sums over the dirty blocks of all senders: of factor * power [lux], and of factor.
     double light(std::size_t block) const { return sums_[block].light; }
     double factor(std::size_t block) const { return sums_[block].factor; }
     std::size_t blocks() const { return sums_.size(); }
@@ -131,7 +133,7 @@ private:
         WorkQueue::Handle handle = kDeferred; ///< in the queue
         bool open = false;
         std::uint64_t left = ~std::uint64_t(0), part = ~std::uint64_t(0); ///< bits: receivers
-        std::unique_ptr<PartialUpdate> partial{};                         ///< if it was looked at
+        std::unique_ptr<PartialUpdate> partial{};                         ///< if it was probed
     };
     struct RowList {
         std::vector<Entry> entries; ///< by block
@@ -169,7 +171,7 @@ private:
     std::shared_ptr<SchedulingPolicy> policy_;
     bool whole_ = false;
     double aging_ = 4e6;                 ///< [rays]
-    WorkQueue queue_;                    ///< of all that is not put off
+    WorkQueue queue_;                    ///< of all that is not deferred
     std::deque<std::uint32_t> unsorted_; ///< rows of which some may belong in the queue that is not
     std::size_t count_ = 0;
     double taken_ = 0; ///< cost of all work so far: the queue's clock

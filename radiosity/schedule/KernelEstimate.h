@@ -1,4 +1,4 @@
-// What a few rays said of single receivers, as it is likely to be around each of them.
+// What a few rays found at single receivers, as it is likely to be around each of them.
 #pragma once
 
 #include "radiosity/mesh/PatchSet.h"

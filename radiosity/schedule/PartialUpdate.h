@@ -1,4 +1,4 @@
-// What a look at a block of open work said, and which of its receivers come first because of it.
+// What a probe found in a dirty block, and which of its receivers come first because of it.
 #pragma once
 
 #include "radiosity/schedule/WorkCosts.h"
@@ -19,12 +19,12 @@ struct ExpectedFactors {
     std::array<float, kSize> rays{};   ///< that it takes to find out
 };
 
-/// A block that was looked at is done in parts: of the receivers that are left, in the order of
+/// A probed block is done in parts: of the receivers that are left, in the order of
 /// what is gained at each per ray, as many as make the most of a visit,
 ///
 ///     max over n of (gain_1 + ... + gain_n) / (visit + rays_1 + ... + rays_n)
 ///
-/// come first, and the rest is worth what the next such part is.
+/// come first, and the rest has the priority of the next such part.
 class PartialUpdate {
 public:
     explicit PartialUpdate(const ExpectedFactors& expected) : expected_(expected) {}

@@ -104,7 +104,7 @@ float RowUpdates::factorBound(const DirtyBlock& item, const RowFacts& facts) con
     return could < kTiny ? could : std::min(could, block.largestFormFactor());
 }
 
-/// The next run of blocks to be looked for; false: all have been told.
+/// The next run of blocks to be searched; false: all rows know of all edits.
 bool RowUpdates::nextSearch(Search& search, const Facts& facts) {
     constexpr std::uint32_t kRun = 512;
     for (; row_ < table_.size(); ++row_) {
@@ -163,7 +163,7 @@ void RowUpdates::find(Search& search) const {
 void RowUpdates::find(std::size_t effort, const Facts& facts) {
     bool more = true;
     for (std::size_t cost = 0; more && cost < effort;) {
-        // What is found can't be told before: no more looks at a time than may be paid for.
+        // What is found can't be known before: no more probes at a time than may be paid for.
         std::vector<Search> searches;
         Search search;
         for (std::size_t most = 0; most < effort && (more = nextSearch(search, facts));) {
@@ -189,7 +189,7 @@ void RowUpdates::allFound() {
     toDo_ = open_.count();
 }
 
-/// Looks at all that is to be looked at. \return what it cost, about [rays]
+/// Probes all that is to be probed. \return what it cost, about [rays]
 std::size_t RowUpdates::probe(const Expect& expect) {
     constexpr std::size_t kGrain = 8;
     while (probes_.size() < kMostProbes / kGrain) probes_.emplace_back(rayScene_);
@@ -227,8 +227,8 @@ void RowUpdates::uniteParts() {
     items_.resize(count);
 }
 
-/// Takes what is to be worked on next. Blocks that might come first are looked at before that: only
-/// when no other could be worth more, by what is known of it, is one of them taken.
+/// Takes what is to be worked on next. Blocks that might come first are probed before that: only
+/// when no other could have a higher priority, by what is known of it, is one of them taken.
 void RowUpdates::choose(std::size_t effort, double enough, const Expect& expect) {
     items_.clear();
     std::size_t steps = effort / cost::kTake + 1;

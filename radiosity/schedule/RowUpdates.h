@@ -16,28 +16,27 @@
 
 namespace penumbra {
 
-/// The open work of a RowTable. A row is told of all edits since it was last looked at, at once: of
-/// several poses of one object only the one where it stands now counts. What an edit concerns is
-/// found for all rows before any of it is worked on, the most promising first; what matters too
-/// little is put off (DirtySet). A block is worked on in the scene as it is then, so that edits may
-/// come at any time.
+/// The dirty blocks of a RowTable. A row takes in all edits since its last update at once: of
+/// several poses of one object only the last counts. What an edit concerns is found for all rows
+/// before any of it is worked on, the most promising first; what matters too little is deferred
+/// (DirtySet). A block is updated in the scene as it is then, so edits may come at any time.
 class RowUpdates {
 public:
-    /// Nothing is open at first. All must outlive this.
+    /// Nothing is dirty at first. All must outlive this.
     /// \param blockObjects whose receivers are in each block of the table
-    /// \param costs a visit's is that of looking at a block and retesting some of it
+    /// \param costs a visit's is that of probing a block and retesting some of it
     RowUpdates(const PatchSet& set, const RayScene& rays, RowTable& table,
                const std::vector<ObjectId>& blockObjects, const DirtySet::Costs& costs);
     RowUpdates(const RowUpdates&) = delete;
     RowUpdates& operator=(const RowUpdates&) = delete;
 
-    /// Objects were placed anew, hidden or shown; receivers lie elsewhere. Their own receivers are
+    /// Objects were posed anew, hidden or shown; receivers lie elsewhere. Their own receivers are
     /// to be among these. What crosses one of the regions is to be evaluated anew [m, world].
     void add(std::vector<ObjectId> objects, std::vector<BlockMask> receivers,
              std::vector<Bounds> regions = {});
     /// A row that is built in the scene as it is now has nothing to catch up with.
     void setCurrent(std::size_t row) { table_.edits(row) = edits_; }
-    /// A row is not kept: what was open in it is not any more.
+    /// A row is not kept: its dirty blocks are forgotten.
     void drop(std::uint32_t row) { open_.drop(row); }
 
     /// What has to be known of a row to find what concerns it.
@@ -47,7 +46,7 @@ public:
         ObjectId object;
         float area = 0;               ///< of the sender [m^2]
         glm::vec3 centre{}, normal{}; ///< of a planar sender; else the normal is zero
-        /// Whether it can never reach anything within a box [m, world], if that can be told.
+        /// Whether it can never reach anything within a box [m, world], if that is known.
         std::function<bool(const Bounds& box)> hidden = {};
     };
     using Facts = std::function<RowFacts(std::uint32_t row)>;
@@ -55,11 +54,11 @@ public:
     /// changed for it.
     using Update = std::function<int(RowBuilder& builder, const DirtyBlock& item,
                                      std::span<const MovedObject> moved, std::size_t index)>;
-    /// Says what to expect of a block, if the order asks for it; called on several threads.
+    /// Says what to expect of a block, if the policy probes; called on several threads.
     using Expect = std::function<ExpectedFactors(ChangeProbe& search, const DirtyBlock& item,
                                                  std::span<const MovedObject> moved)>;
     /// Does a piece of about `effort` rays' worth: finds what edits concern, or works on it.
-    /// \param enough what may stay open, see DirtySet::take()
+    /// \param enough what may stay dirty, see DirtySet::next()
     /// \param update called for each item on several threads; `index` counts from 0
     /// \return the items that were worked on, valid until the next call
     std::span<const DirtyBlock> work(std::size_t effort, double enough, const Facts& facts,
@@ -70,9 +69,9 @@ public:
     /// Most items that work() returns for an effort.
     std::size_t mostItems(std::size_t effort) const { return effort / costs_.visit + 1; }
 
-    /// Whether all that edits concern is known, and so among the open work.
+    /// Whether all that edits concern is known, and so in the dirty set.
     bool found() const { return row_ == table_.size(); }
-    /// Whether there is nothing to do but what may stay open.
+    /// Whether there is nothing to do but what may stay dirty.
     bool done(double enough) const { return found() && !open_.pending(enough); }
     /// Share of the work found since the last edit that is done, in [0, 1].
     double share() const;
@@ -95,7 +94,7 @@ private:
     std::size_t probe(const Expect& expect);
     void uniteParts();
     std::vector<Range> tasks() const;
-    /// What is looked through at a time: all of a row, or some blocks of one with very many.
+    /// What is searched at a time: all of a row, or some blocks of one with very many.
     struct Search {
         std::uint32_t row = 0;
         bool last = true; ///< of its row
@@ -120,20 +119,20 @@ private:
     const std::vector<ObjectId>& blockObjects_;
     DirtySet::Costs costs_;
     std::uint32_t edits_ = 0;      ///< so far
-    std::vector<Edit> unreported_; ///< the last of them: not all rows have been told
-    std::size_t row_ = 0;          ///< rows before it have been told of all edits
-    std::uint32_t block_ = 0;      ///< of row_, if it is told run by run
+    std::vector<Edit> unreported_; ///< the last of them: not all rows know of them
+    std::size_t row_ = 0;          ///< rows before it know of all edits
+    std::uint32_t block_ = 0;      ///< of row_, if it is searched run by run
     std::map<std::uint32_t, PendingChange> changes_; ///< for rows that know of so many edits
-    std::vector<MovedObject> moved_;       ///< since open work was opened; the last moved last
+    std::vector<MovedObject> moved_;       ///< since the dirty set was empty; the last moved last
     std::vector<std::uint32_t> movedWhen_; ///< the last edit that moved each of them
     DirtySet open_;
-    std::vector<DirtyBlock> items_, unseen_; ///< to be worked on; to be looked at
+    std::vector<DirtyBlock> items_, unseen_; ///< to be worked on; to be probed
     std::vector<RowBuilder> builders_;
     std::vector<ChangeProbe> probes_;
     std::vector<std::uint32_t> hidden_;
     RayCount rays_;
     std::uint64_t blocksVisited_ = 0, entriesChanged_ = 0;
-    std::size_t toDo_ = 0; ///< blocks that were open when the last edit had been found
+    std::size_t toDo_ = 0; ///< blocks that were dirty when the last edit had been found
 };
 
 } // namespace penumbra

@@ -9,12 +9,12 @@ namespace penumbra {
 namespace {
 
 constexpr std::uint32_t kBlock = PatchSet::kBlock;
-constexpr std::size_t kLightSamples = 16, kSightSamples = 8; ///< vertices of a place
+constexpr std::size_t kLightSamples = 16, kSightSamples = 8; ///< vertices of a cluster
 
 } // namespace
 
 VertexClusters::VertexClusters(const PatchSet& patches, std::size_t most) : patches_(patches) {
-    // Blocks of objects that are hidden now have a place as well: they may be shown later.
+    // Blocks of objects that are hidden now have a cluster as well: they may be shown later.
     std::vector<ReceiverCluster> blocks(patches.vertexBlockObject.size());
     std::vector<std::uint32_t> objects;
     for (std::uint32_t b = 0; b < blocks.size(); ++b) {
@@ -31,7 +31,7 @@ VertexClusters::VertexClusters(const PatchSet& patches, std::size_t most) : patc
     for (std::uint32_t cluster = 0; cluster < size(); ++cluster) locate(cluster);
 }
 
-/// How large places are, and what they reflect. Each corner has its share of an element.
+/// How large clusters are, and what they reflect. Each corner has its share of an element.
 void VertexClusters::measure() {
     for (ReceiverCluster& cluster : clusters_.clusters) cluster.area = cluster.reflectance = 0;
     area_.assign(patches_.firstPrivate, 0);
@@ -59,7 +59,7 @@ void VertexClusters::measure() {
     }
 }
 
-/// Calls visit(vertex index) for some of a place's vertices, spread evenly.
+/// Calls visit(vertex index) for some of a cluster's vertices, spread evenly.
 template <class Visit>
 void VertexClusters::forSome(std::uint32_t cluster, std::size_t most, Visit visit) const {
     const std::size_t first = std::size_t(firstBlock_[cluster]) * kBlock;

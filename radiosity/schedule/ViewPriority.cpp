@@ -189,7 +189,7 @@ ImportancePolicy::ViewSample ViewPriority::sample(std::uint32_t index) {
     return sample;
 }
 
-/// How many pixels an average block of a place covers, by vertices spread over it.
+/// How many pixels an average block of a cluster covers, by vertices spread over it.
 float ViewPriority::pixelsSeen(std::uint32_t cluster) {
     const Viewpoint& viewpoint = attention().viewpoint;
     const std::vector<std::size_t> vertices = clusters_.spread(cluster);

@@ -16,8 +16,8 @@
 namespace penumbra {
 
 /// Orders blocks of vertices by what a viewer gains from them. What hides them from the eye is
-/// found by a ray to each vertex of which the light may change, and to a few of each place when it
-/// is asked for; so it costs nothing where nothing is open. What was found is kept, vertex by
+/// found by a ray to each vertex of which the light may change, and to a few of each cluster when
+/// it is asked for; so it costs nothing where nothing is dirty. What was found is kept, vertex by
 /// vertex, for as long as the viewer stays and nothing moves that may stand in between.
 class ViewPriority final : public ImportancePolicy {
 public:
@@ -26,7 +26,7 @@ public:
     /// All must outlive this.
     ViewPriority(const PatchSet& patches, const RayScene& rays, Light light);
 
-    /// Objects were placed anew, hidden or shown.
+    /// Objects were posed anew, hidden or shown.
     void follow(std::span<const ObjectId> objects);
     /// Something reflects other light than before.
     void followColours() { clusters_.measure(); }
@@ -45,7 +45,7 @@ private:
         Bounds box; ///< around those that were asked for [m, world]
         std::uint64_t asked = 0, seen = 0, behindMovable = 0; ///< bits
     };
-    /// What vertices of a block are worth.
+    /// The priorities of vertices of a block.
     struct Values {
         std::uint64_t known = 0; ///< bits, in the policy's view
         std::uint32_t view = 0;

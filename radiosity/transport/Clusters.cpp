@@ -46,7 +46,7 @@ Clusters::Clusters(std::span<const ClusterPatch> patches) {
 /// Makes a cluster of patches and halves it. \param thin the axis that they face along
 std::uint32_t Clusters::split(std::span<ClusterPatch> patches, std::uint32_t first,
                               std::uint32_t parent, int thin) {
-    if (patches.size() < 2) return kNone; // a patch stands for itself
+    if (patches.size() < 2) return kNone; // a patch represents itself
     const auto index = std::uint32_t(clusters_.size());
     clusters_.push_back({});
     clusters_[index].parent = parent;
@@ -64,7 +64,7 @@ std::uint32_t Clusters::split(std::span<ClusterPatch> patches, std::uint32_t fir
     auto half = std::stable_partition(patches.begin(), patches.end(), [&](const ClusterPatch& p) {
         return p.centre[axis] < middle;
     });
-    if (half == patches.begin() || half == patches.end()) // all in one place
+    if (half == patches.begin() || half == patches.end()) // all at one point
         half = patches.begin() + std::ptrdiff_t(patches.size() / 2);
     const auto count = std::uint32_t(half - patches.begin());
     const std::uint32_t low = split(patches.first(count), first, index, thin);

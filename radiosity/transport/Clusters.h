@@ -49,7 +49,7 @@ public:
     const std::vector<Cluster>& clusters() const { return clusters_; }
     /// Indices of the patches, cluster by cluster.
     const std::vector<std::uint32_t>& patches() const { return order_; }
-    /// The smallest cluster that has the patch in place `i` of patches().
+    /// The smallest cluster that has the patch in slot `i` of patches().
     std::uint32_t clusterAt(std::size_t i) const { return clusterAt_[i]; }
 
 private:

@@ -20,7 +20,7 @@ double smoothstep(double low, double high, double x) {
     return t * t * (3 - 2 * t);
 }
 
-/// How far what rays gather takes the place of what patches say, at a node of this openness: what
+/// How far what rays gather replaces what patches say, at a node of this openness: what
 /// is wrong there spreads over its patches, so patches are believed later than at a vertex.
 double shutNodeWeight(double openness) {
     return 1 - smoothstep(0.4, 0.85, openness);
@@ -41,7 +41,7 @@ Rgb toRgb(glm::dvec3 v) {
 } // namespace
 
 /// Sweeps under way. Each takes three rounds, of elements, nodes and vertices; of the last one's
-/// vertices only those are gathered that somebody asks for.
+/// vertices only those are gathered that are asked for.
 struct DetailGather::Sweep {
     std::span<const Rgb> direct;
     std::vector<Rgb> indirect;

@@ -25,22 +25,23 @@ namespace penumbra {
 ///
 /// where w rises from 0 to 1 as the vertex's openness differs from the one interpolated from the
 /// nodes. Vertex and nodes use the same ray directions, so that most of the sampling error cancels.
-/// Where so little is open that near surfaces matter more than patches can tell, G itself is taken.
+/// Where a vertex is so enclosed that near surfaces matter more than patches can tell, G itself is
+/// taken.
 /// In a slit narrower than an element light dies off between two vertices. There a ray that meets
-/// the other side is taken to find the direct light D that is drawn there and as much indirect
+/// the opposite wall is taken to find the direct light D that is drawn there and as much indirect
 /// light as the vertex itself receives,
 ///
 ///     H_v = (sum of rho H over other rays + sum of rho D over rays across)
 ///           / (number of rays - sum of rho over rays across)
 ///
-/// and the rays start on half the way from the vertex to the middle of its elements, for what the
-/// very rim receives holds for little of an element.
+/// and the rays start half-way from the vertex to the middle of its elements: what the very rim
+/// receives is not typical of the element.
 /// Which vertices gather, with which weight and from what, is geometry alone: see DetailHits. Light
 /// goes from gathering vertex to gathering vertex in sweeps, anew whenever it has changed. Until
-/// the sweeps are done what the last ones found to be sent is gathered, along the rays as they are.
+/// these sweeps are done, vertices gather what the last ones found, along the present rays.
 class DetailGather {
 public:
-    /// Everything is open work at first. `patches` must outlive this.
+    /// Everything is dirty at first. `patches` must outlive this.
     explicit DetailGather(const PatchSet& patches);
     ~DetailGather();
 

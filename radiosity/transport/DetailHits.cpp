@@ -135,8 +135,8 @@ bool DetailHits::workOnVertices(std::size_t effort) {
                   [&](std::uint32_t group) { return traceVertices(group); });
 }
 
-/// How many rays an edit concerns can't be told before: a few groups at a time.
-/// \param rays that a receiver takes of which nothing is known, about
+/// How many rays an edit concerns can't be known before: a few groups at a time.
+/// \param rays about how many a receiver needs of which nothing is known
 template <class Trace>
 bool DetailHits::workOn(DirtyGroups& open, std::size_t rays, std::size_t effort,
                         const Trace& trace) {

@@ -19,10 +19,10 @@ namespace penumbra {
 /// The rays of DetailGather: what those of every node meet, which vertices are in question, and
 /// what theirs meet. It depends on geometry alone.
 ///
-/// After an edit only those rays are followed again that met what moved, or before whose hits it
-/// stands now, and all of receivers that lie elsewhere. What comes out is what a new one would
-/// find, bit for bit. A vertex that is not in question is known by its first rays only, up to a
-/// patch's size: what is farther away is none of its business.
+/// After an edit rays are traced again if they met what moved, if it is before their hits now, or
+/// if their receiver lies elsewhere. The result is what a new DetailHits would find, bit for bit.
+/// Of a vertex that is not in question only the first rays are kept, up to a patch's size: what is
+/// farther away does not matter to it.
 class DetailHits {
 public:
     static constexpr int kRays = DetailRays::kRays;
@@ -32,7 +32,7 @@ public:
     struct Gatherer {
         std::uint32_t vertex = 0;
         float detail = 0;       ///< weight of what its rays gather against what is interpolated
-        float shut = 0;         ///< weight of what its rays gather in place of what patches say
+        float shut = 0;         ///< weight of what its rays gather instead of what patches say
         bool slit = false;      ///< light is gathered from `inside`
         std::uint64_t near = 0; ///< rays that meet something nearer than a patch's size
         glm::vec3 inside{};     ///< half-way to the middle of its elements [m, world]
@@ -41,7 +41,7 @@ public:
         bool weighs() const { return detail != 0 || shut != 0; }
     };
 
-    /// Everything is open work at first. `patches` must outlive this.
+    /// Everything is dirty at first. `patches` must outlive this.
     explicit DetailHits(const PatchSet& patches);
     DetailHits(const DetailHits&) = delete;
     DetailHits& operator=(const DetailHits&) = delete;
@@ -51,7 +51,7 @@ public:
     /// Does a piece of work of about `effort` rays; false: there is none left.
     bool work(std::size_t effort);
     bool done() const { return dirtyNodes_.done() && dirtyVertices_.done(); }
-    /// Share of the groups of receivers that have no open work, in [0, 1].
+    /// Share of the groups of receivers that are not dirty, in [0, 1].
     double share() const;
 
     /// Vertices in question among kGroup * group ... kGroup * (group + 1) - 1, in their order.

@@ -40,7 +40,7 @@ public:
     /// \return number of rays
     int follow(const Receiver& receiver, std::uint64_t which, bool slits, Hits& hits) const;
 
-    /// Objects that were placed anew, hidden or shown.
+    /// Objects that were posed anew, hidden or shown.
     struct Moved {
         std::vector<Range> elements;
         std::vector<Bounds> boxes; ///< where they stand now, those that are there [m, world]

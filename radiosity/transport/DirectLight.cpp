@@ -83,7 +83,7 @@ void DirectLight::forEachPatch(std::uint32_t block, Visit visit) const {
             visit(set_.elements[set_.privateElement[v - set_.firstPrivate]].patch);
 }
 
-/// For bounds of what open work may change. Private vertices are handed out and given back: any
+/// For bounds of what dirty blocks may change. Private vertices are handed out and given back: any
 /// surface may be theirs.
 void DirectLight::describeReceivers() {
     std::vector<DirtySet::Receivers> blocks(table_.blocks().size());

@@ -23,17 +23,17 @@ namespace penumbra {
 /// over the emitters in their order: they depend on the rows and not on how these came about.
 class DirectLight {
 public:
-    /// Everything is open work at first. \param samples see SolverOptions. All must outlive this.
+    /// Everything is dirty at first. \param samples see SolverOptions. All must outlive this.
     DirectLight(const PatchSet& set, const RayScene& rays, int samples);
 
     void apply(const SceneChange& change);
     void invalidate(const Bounds& region); ///< see LitScene
     /// Brings rows up to date: a piece of work of about `effort` rays; false: there is none left.
-    /// \param enough what may stay open [lm/m^2], see DirtySet::take()
+    /// \param enough what may stay dirty [lm/m^2], see DirtySet::next()
     bool update(std::size_t effort, double enough);
     /// Sums what rows give that were brought up to date, likewise.
     bool sum(std::size_t effort) { return sumBlocks(effort) || averagePatches(effort); }
-    /// Bound of what is still open in the mean light of patches [lux].
+    /// Bound of what is still dirty in the mean light of patches [lux].
     std::vector<double> dirtyLight() const;
     /// See DirtySet.
     void setPolicy(std::shared_ptr<SchedulingPolicy> policy) {
@@ -54,10 +54,10 @@ public:
     std::span<const glm::dvec3> patches() const { return patches_; } ///< means [lux]
     /// Blocks of vertices that were summed anew since this was called last, each once.
     std::vector<std::uint32_t> takeSummedBlocks();
-    /// Whether all that edits concern is among the open work.
+    /// Whether all that edits concern is in the dirty set.
     bool dirtyKnown() const { return updates_.found(); }
     /// Blocks, in order, of which an emitter's row is not known to be what it should be. Work that
-    /// may be put off does not count, see work().
+    /// may be deferred does not count, see work().
     std::vector<std::uint32_t> dirtyBlocks(std::uint32_t emitter, double enough) const {
         return updates_.open().urgent(emitter, enough);
     }

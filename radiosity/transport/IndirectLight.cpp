@@ -64,7 +64,7 @@ void IndirectLight::placeNodes(std::span<const BlockMask> masks) {
     }
 }
 
-/// Gives rows the blocks that are linked to them since an object was placed anew: all of what it
+/// Gives rows the blocks that are linked to them since an object was posed anew: all of what it
 /// sends, and of all that it receives.
 void IndirectLight::link(ObjectId object) {
     const ObjectPart& part = set_.objects[object.value];
@@ -145,7 +145,7 @@ void IndirectLight::updateReach() {
     updates_.add({}, std::move(masks));
 }
 
-/// For bounds of what open work may change.
+/// For bounds of what dirty blocks may change.
 void IndirectLight::describeReceivers() {
     std::vector<DirtySet::Receivers> blocks(blockCount());
     parallelFor(blocks.size(), 16, [&](std::size_t first, std::size_t last) {

@@ -23,7 +23,7 @@ namespace penumbra {
 class DirectLight;
 
 /// Southwell relaxation over the rows of the patches and of their clusters. R = E + rho F S - S
-/// always holds for the rows as they stand, where E is what patches reflect of the direct light; a
+/// always holds for the rows as they are, where E is what patches reflect of the direct light; a
 /// cluster reflects the area-weighted mean of what its patches do.
 class IndirectLight {
 public:
@@ -38,7 +38,7 @@ public:
     void directChanged(bool litChanged);
 
     /// Brings rows up to date: a piece of work of about `effort` rays; false: there is none left.
-    /// \param enough what may stay open [lm/m^2], see DirtySet::take()
+    /// \param enough what may stay dirty [lm/m^2], see DirtySet::next()
     bool update(std::size_t effort, double enough);
     /// Relaxes: serves about `effort` rays' worth of receivers. \pre update() has nothing to do
     /// \param target certificate that is wanted [lm/m^2]
@@ -61,9 +61,9 @@ public:
     }
 
     double residual() const { return most_; } ///< max |R| [lm/m^2]
-    /// Bound of |B_exact - B|, with what open work may change [lm/m^2].
+    /// Bound of |B_exact - B|, with what dirty blocks may change [lm/m^2].
     double certificate() const { return certificate_; }
-    /// Bound of what open work may change in what any patch receives and reflects [lm/m^2].
+    /// Bound of what dirty blocks may change in what any patch receives and reflects [lm/m^2].
     double dirtyBound() const { return open_; }
     /// What a residual of this size leaves is larger by light that goes round: 1 / (1 - max rho).
     double gain() const { return gain_; }
@@ -83,7 +83,7 @@ private:
         std::vector<SenderLight> light;                    ///< what each sends [lm/m^2]
         std::vector<std::uint8_t> fresh, build;            ///< first time; row is not there
         bool dark = false;                                 ///< nothing is sent, only rows are built
-        std::vector<std::vector<std::uint32_t>> receivers; ///< places in `senders`, a block each
+        std::vector<std::vector<std::uint32_t>> receivers; ///< indices into `senders`, a block each
         std::size_t next = 0;                              ///< block: those before it are served
         std::size_t bytes = 0;
     };
@@ -91,7 +91,7 @@ private:
     struct Listing {
         std::vector<std::uint32_t> senders;
         bool dark = false;
-        std::size_t next = 0;                              ///< place in `senders`
+        std::size_t next = 0;                              ///< index into `senders`
         std::vector<std::vector<std::uint32_t>> linked;    ///< to senders without a row, one each
         std::vector<std::vector<std::uint32_t>> receivers; ///< as of Shot
     };

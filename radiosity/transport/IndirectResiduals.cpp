@@ -46,8 +46,8 @@ glm::dvec3 IndirectLight::reflected(std::uint32_t index) const {
            (direct_.patches()[index] + indirect);
 }
 
-/// What open work may change in the light at a node [lux]: what arrives, and the row sum f by which
-/// it is divided, as far as that is or comes to be above 1.
+/// What dirty blocks may change in the light at a node [lux]: what arrives, and the row sum f by
+/// which it is divided, as far as that is or comes to be above 1.
 double IndirectLight::openAt(std::uint32_t index) const {
     const DirtySet& open = updates_.open();
     const double f = open.factor(index / kBlock);

@@ -10,7 +10,7 @@ namespace penumbra {
 
 namespace {
 
-/// How many times its own size a cluster must be away to stand for its patches.
+/// How many times its own size a cluster must be away to represent its patches.
 constexpr float kFar = 3;
 
 static_assert(Clusters::kParts == kPatchSamples);

@@ -16,7 +16,7 @@
 namespace penumbra {
 
 /// Senders of indirect light, by one index: first the patches of a PatchSet, then clusters. A block
-/// of receivers takes light from the largest clusters that look small from where it is, and from
+/// of receivers takes light from the largest clusters that appear small from where it is, and from
 /// single patches close by: it is *linked* to them, and to no two that have a patch in common.
 ///
 /// Which clusters there are, and what is linked, depends on the fixed part of the scene and on each
@@ -34,7 +34,7 @@ public:
     Range clustersOf(ObjectId object) const { return clusterRanges_[object.value]; }
     Range fixedClusters() const { return fixedClusters_; }
 
-    /// An object was placed anew.
+    /// An object was posed anew.
     void place(ObjectId object);
 
     PatchSender sender(std::uint32_t index) const;

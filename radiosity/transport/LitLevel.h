@@ -1,4 +1,4 @@
-// How bright it is where there is light, and what a bound is worth beside that.
+// How bright it is where there is light, and how large a bound is beside that.
 #pragma once
 
 #include <utility>
@@ -26,7 +26,7 @@ private:
 };
 
 /// The certificate C as a share of what is lit, C / H_lit. C bounds what patches may still send
-/// [lm/m^2], and so what surfaces may still receive [lux]. At 1 and more it is worth nothing: the
+/// [lm/m^2], and so what surfaces may still receive [lux]. At 1 and more it says nothing: the
 /// light may as well be twice as strong, or not there.
 /// \return 0 if nothing is lit
 inline double certificateOfLit(double certificate, double litIlluminance) {

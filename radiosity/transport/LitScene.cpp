@@ -91,7 +91,7 @@ bool LitScene::sameStructure(const PlacedScene& now, const ObjectsByPath& object
     return true;
 }
 
-/// Whether colours and luminances can be taken in: what never shone has no rows to shine through.
+/// Whether colours and luminances can be taken in: what never emitted has no rows to emit through.
 bool LitScene::followColours(SceneChange& change) {
     PatchSet& set = built_.patches;
     const auto lightOf = [](const LightSource& source) {
@@ -123,7 +123,7 @@ bool LitScene::followColours(SceneChange& change) {
     return true;
 }
 
-/// \return objects that were moved or removed: lamps may be in other closed things than before
+/// \return objects that were moved or removed: lights may be in other closed things than before
 std::vector<ObjectId> LitScene::followObjects(const ObjectsByPath& objects, SceneChange& change) {
     PatchSet& set = built_.patches;
     std::vector<PosedPatches::ObjectPose> wanted;

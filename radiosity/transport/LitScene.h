@@ -19,8 +19,8 @@ namespace penumbra {
 ///
 /// Movable objects (Transform::movable()) that are moved, hidden, shown or removed, and colours and
 /// luminances that change are taken in by follow() at a cost that goes with the change. Edits of
-/// the fixed part, of geometry or of scale, things that are added, and a lamp that gets into or out
-/// of something closed mesh the scene anew.
+/// the fixed part, of geometry or of scale, things that are added, and a light that gets into or
+/// out of something closed mesh the scene anew.
 class LitScene {
 public:
     /// Meshes; solves nothing yet. The scene's nodes must outlive this. \throws Error
@@ -41,7 +41,7 @@ public:
     /// follow: receivers whose block meets the box, and entries of the shadow-form-factor-list
     /// whose shaft between sender and block meets it. Light stays as it is where nothing was wrong,
     /// within the certificate where rows were not kept. What things cover of each other is not
-    /// looked at again.
+    /// found again.
     ///
     /// \param box axis-aligned [m, world], taken a hair larger; its sides may be infinite; an empty
     ///            one changes nothing

@@ -10,10 +10,10 @@ namespace penumbra {
 
 /// What is not as it was in a PatchSet and its RayScene.
 struct SceneChange {
-    std::vector<ObjectId> objects;       ///< placed anew, hidden or shown, with all that is theirs
+    std::vector<ObjectId> objects;       ///< posed anew, hidden or shown, with all that is theirs
     std::vector<std::uint32_t> vertices; ///< others that lie elsewhere
     std::vector<std::uint32_t> nodes;    ///< likewise
-    std::vector<std::uint32_t> patches;  ///< whose elements are lit at other places
+    std::vector<std::uint32_t> patches;  ///< whose elements are lit at other points
     std::vector<std::uint32_t> emitters; ///< of another exitance
     bool colours = false;                ///< some reflectance or emission
 

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kMostEffort = std::size_t(1) << 20; ///< [rays]
 constexpr std::size_t kMostPromptEffort = 1536; ///< of a piece within a prompt budget [rays]
 constexpr double kPrompt = 2e-3;                ///< a budget below is one [s]
-/// What work that is put off may change, of what the certificate allows.
+/// What deferred work may change, of what the certificate allows.
 constexpr double kDirectMayStayDirty = 0.15, kIndirectMayStayDirty = 0.35;
 /// A piece of work within a prompt budget takes about so long; within others it takes the budget,
 /// up to so long [s]: small pieces have threads wait for each other, and work take longer in all.
@@ -125,7 +125,7 @@ bool Solver::stepUntil(SolutionState wanted, double budget, const Progress& prog
 void Solver::settle(SolutionState wanted, const Progress& progress) {
     while (!stepUntil(wanted, 3600, progress)) {
     }
-    while (state_ < wanted && !step(3600, progress)) { // it takes what was put off
+    while (state_ < wanted && !step(3600, progress)) { // it takes what was deferred
     }
 }
 
@@ -143,18 +143,18 @@ bool Solver::work(Pace& pace, const Progress& progress) {
     const bool first = !std::exchange(idle_, true);
     stopped_ = open == 0 && state_ == SolutionState::working;
     if (open == 0 || !first) return false;
-    if (detail_) detail_->sweepAgain(); // after what was put off, for which it is time now
-    return true;                        // whoever waits for this much gets to see it
+    if (detail_) detail_->sweepAgain(); // after what was deferred, for which it is time now
+    return true;                        // so that who waits for this state can read it
 }
 
-/// When nothing is left to be done but what is open.
+/// The state when nothing is left to be done. \param open whether deferred work is left
 SolutionState Solver::reached(bool open) const {
     return stateOf({.certificate = indirect_ && !certificateMet(),
                     .fineShadows = detail_ && detail_->pending(),
                     .deferred = open});
 }
 
-/// The same, but for what may be put off.
+/// The same, but for what may be deferred.
 bool Solver::workOnce(Pace& pace, const Progress& progress) {
     const double start = steadySeconds();
     if (pace.work(Pace::direct,
@@ -174,7 +174,7 @@ bool Solver::workOnce(Pace& pace, const Progress& progress) {
     return more;
 }
 
-/// Tells the indirect light that direct light is another one.
+/// Notifies the indirect light that direct light has changed.
 void Solver::handOver() {
     if (std::exchange(handedOver_, true)) return;
     const bool litChanged = direct_.takeLitChanged();
@@ -230,7 +230,7 @@ double Solver::directTolerance() const {
     return tolerance(kDirectMayStayDirty);
 }
 
-/// How much of what is owed open work may be that is put off [lm/m^2].
+/// How much of what is owed may be deferred [lm/m^2].
 double Solver::tolerance(double share) const {
     if (!indirect_) return share * options_.residual * direct_.brightest();
     return share * target() / indirect_->gain();

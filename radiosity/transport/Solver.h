@@ -84,11 +84,11 @@ struct SolveStatistics {
 /// What a solver has done since it was made, in counts that are the same on every machine.
 struct WorkDone {
     std::uint64_t rays = 0;
-    std::uint64_t blocks = 0; ///< of 64 entries, looked at by updates
+    std::uint64_t blocks = 0; ///< of 64 entries, read by updates
     std::uint64_t shots = 0;  ///< of patches, each onto all nodes
     std::size_t nodes = 0;
 
-    /// About [rays]: looking at 64 entries, or sending light through them, takes as long as a ray.
+    /// About [rays]: reading 64 entries, or sending light through them, takes as long as a ray.
     double inRays() const { return double(rays + blocks) + double(shots) * double(nodes) / 64; }
 };
 
@@ -110,18 +110,18 @@ public:
     /// Takes note that light which ends in a box or crosses it [m, world] is to be evaluated anew.
     void invalidate(const Bounds& region);
 
-    /// What the viewer sees now, and the object being moved: in the order of importance, open work
-    /// on direct light is done in that of what the viewer gains from it, from now on. Without an
+    /// What the viewer sees now, and the object being moved: with the policy `importance`, dirty
+    /// blocks of direct light are updated by what the viewer gains, from now on. Without an
     /// adaptation, that is found from what is in view.
     void attend(const Attention& attention);
-    /// Another order for what is open and for what comes.
+    /// Another policy for what is dirty and for what comes.
     void setPolicy(PolicyKind policy);
-    /// Another order for the work on direct light alone, as for measurements.
+    /// Another policy for direct light alone, as for measurements.
     void setDirectPolicy(std::shared_ptr<SchedulingPolicy> policy);
 
-    /// Of the open work on direct light only these receivers are done, as if others were not
-    /// concerned: for measurements, by someone who knows that these do not change. Who blocks an
-    /// entry that was left out may not be who is said to, until the last edit is applied again.
+    /// Of dirty blocks of direct light only these receivers are done, as if others were not
+    /// concerned: for measurements, by someone who knows that these do not change. An entry
+    /// that was left out may name the wrong blocker until the last edit is applied again.
     /// \param which bits: receivers of a block, by emitter and block
     /// \pre direct().dirtyKnown()
     void narrowDirect(const std::function<std::uint64_t(std::uint32_t, std::uint32_t)>& which) {
@@ -136,8 +136,8 @@ public:
     /// Works for `budget` seconds, or until nothing is left to be done, and returns whether that is
     /// so. What it leaves undone it goes on with at the next call.
     bool step(double budget, const Progress& progress = {});
-    /// The same, but for `certified` only until all is done that was not put off. It is not reached
-    /// then if relaxation was stopped, or if bounds of what was put off have grown since.
+    /// The same, but for `certified` only until all is done that was not deferred. It is not
+    /// reached then if relaxation was stopped, or if bounds of what was deferred have grown since.
     bool stepUntil(SolutionState wanted, double budget, const Progress& progress = {});
     /// Works until the state is reached, or nothing is left to be done for it.
     void settle(SolutionState wanted, const Progress& progress = {});
@@ -168,7 +168,8 @@ public:
 
     /// Blocks of vertices whose direct light may differ from what it was at the last call.
     std::vector<std::uint32_t> takeSummedBlocks() { return direct_.takeSummedBlocks(); }
-    /// Open work on direct light is put off if it changes less [lm/m^2], see DirtySet::take().
+    /// Dirty blocks of direct light are deferred if they change less [lm/m^2], see
+    /// DirtySet::next().
     double directTolerance() const;
     bool directOnly() const { return !indirect_; }
     double certificate() const { return indirect_ ? indirect_->certificate() : 0; }
@@ -204,14 +205,14 @@ private:
     SolverOptions options_;
     DirectLight direct_;
     std::optional<Attention> attention_;      ///< of the viewer, if there is one
-    std::shared_ptr<ViewPriority> seen_;      ///< what they see, once somebody looked
-    bool inViewOrder_ = false;                ///< direct light is done in the order of that
+    std::shared_ptr<ViewPriority> seen_;      ///< what they see, once there was a viewer
+    bool inViewOrder_ = false;                ///< direct light is updated by its priorities
     std::unique_ptr<IndirectLight> indirect_; ///< null: direct light only
     std::unique_ptr<DetailGather> detail_;
     bool handedOver_ = false; ///< whether the indirect light knows of the direct light as it is
     bool completing_ = false, completed_ = false; ///< see IndirectLight::complete()
     SolutionState state_ = SolutionState::working;
-    bool idle_ = false;    ///< all is done but for what was put off; nothing is any more
+    bool idle_ = false;    ///< all is done but for what was deferred; nothing is any more
     bool stopped_ = false; ///< see stopped()
     std::uint64_t shotsBefore_ = 0, servedBefore_ = 0; ///< before the last edit
     double firstCertificate_ = 0;

@@ -1,4 +1,4 @@
-// Boxes found through the hierarchy, against a look at each of them.
+// Boxes found through the hierarchy, against a test of each of them.
 #include "base/BoundsTree.h"
 
 #include <gtest/gtest.h>

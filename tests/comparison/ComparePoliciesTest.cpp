@@ -1,4 +1,4 @@
-// Playing an animation under several orders of work, and watching the picture come right.
+// Playing an animation under several scheduling policies, and watching the picture come right.
 #include "comparison/ComparePolicies.h"
 
 #include "comparison/HtmlReport.h"
@@ -124,7 +124,7 @@ TEST(ComparePolicies, AllOrdersComeToTheSameEnd) {
 }
 
 TEST(ComparePolicies, KnowingWhatComesOutIsBetterThanChance) {
-    // Of direct light alone, for that is what this order knows; fine enough for a choice.
+    // Of direct light alone, for that is what this policy knows; fine enough for a choice.
     using Kind = PolicyUnderTest::Kind;
     ComparisonOptions options = coarse();
     options.solving.directOnly = true;
@@ -183,7 +183,7 @@ TEST(ComparePolicies, AViewerWhoTurnsJudgesByWhatIsSeenAtTheMoment) {
                   before.policies[o].frames[0].front().error.mean);
         EXPECT_EQ(panned.policies[o].differsFromTruth, 0) << policies[o].name;
     }
-    // Plain order knows nothing of the view: the same light, seen from elsewhere.
+    // The policy `plain` knows nothing of the view: the same light, seen from elsewhere.
     const auto &ahead = panned.policies[0].frames[0], &aside = before.policies[0].frames[0];
     ASSERT_EQ(ahead.size(), aside.size());
     bool differ = false;

@@ -1,4 +1,4 @@
-// Which of the open work comes first.
+// Which pieces of work have the highest priorities.
 #include "importance/HighestPriorities.h"
 
 #include <gtest/gtest.h>

@@ -25,13 +25,13 @@ constexpr double kPixelsPerDegree = 38, kLit = 50, kPeak = 100; // a display of 
 constexpr double kCentimetre = 1.5;                             // [pixels]
 
 struct ShadowOptions {
-    int lightSamples = 16; ///< along each side of a square lamp
+    int lightSamples = 16; ///< along each side of a square light
     double offset = 0;     ///< of the object [cm]
     double ambient = 0.15; ///< share of light in the umbra
 };
 
 /// A floor of 50 nit with the soft shadow of a box: the mean of hard shadows from points of the
-/// lamp.
+/// light.
 Plane floorWithShadow(const ShadowOptions& options = {}) {
     Plane picture(kWidth, kHeight);
     const int n = options.lightSamples;

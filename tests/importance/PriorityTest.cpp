@@ -1,4 +1,4 @@
-// What a piece of open work is worth to the viewer.
+// The priority of a piece of work: what the viewer gains from it for its cost.
 #include "importance/Priority.h"
 
 #include "importance/ContrastSensitivity.h"

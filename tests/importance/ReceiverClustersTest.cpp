@@ -1,4 +1,4 @@
-// Blocks of receivers, put together into few places.
+// Blocks of receivers, put together into a few clusters.
 #include "importance/ReceiverClusters.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Open work in the order of its worth, re-ordered at once when the viewer moves.
+// Tasks by priority, in a new order at once when the viewer moves.
 #include "importance/WorkQueue.h"
 
 #include <gmock/gmock.h>
@@ -68,7 +68,7 @@ TEST(WorkQueue, WorkThatComesAfterTheViewerMovedIsWorthWhatItIsNow) {
     queue.add({.cluster = 0, .id = 0, .priority = {.change = 1}});
     queue.add({.cluster = 1, .id = 1, .priority = {.change = 1}});
     queue.rekey([](std::uint32_t cluster) { return weight(cluster == 1 ? 9 : 1); });
-    EXPECT_EQ(queue.take(0)->id, 1u); // nothing is open at place 1 now
+    EXPECT_EQ(queue.take(0)->id, 1u); // cluster 1 has no task now
     queue.rekey([](std::uint32_t cluster) { return weight(cluster == 1 ? 0.5 : 1); });
     queue.add({.cluster = 1, .id = 2, .priority = {.change = 1}});
     queue.add({.cluster = 7, .id = 3, .priority = {.change = 1.5}});
@@ -117,7 +117,7 @@ TEST(WorkQueue, CountsChangesByTheShareOfThePlaceThatChanges) {
     EXPECT_THAT(takeAll(queue), ElementsAre(1, 0, 2));
 }
 
-/// What an overdue test needs: much work that is worth more coming all the time.
+/// What an overdue test needs: much work of higher priority coming all the time.
 struct Dragging {
     WorkQueue queue{{.aging = 100, .reserve = 0.25}};
     double done = 0, now = 0; ///< cost
@@ -144,13 +144,13 @@ TEST(WorkQueue, NothingStarvesWhileNewWorkIsWorthMore) {
             lastHidden = drag.now;
         }
     }
-    // Work of cost 40 ahead of the last one: patience + 40 / 0.25, and one task.
+    // Work of cost 40 ahead of the last one: aging + 40 / 0.25, and one task.
     EXPECT_LE(lastHidden, 100 + 40 / 0.25 + 1);
     EXPECT_GE(lastHidden, 100 + 40 / 0.25 - 4); // and no more than its share is spent on it
 }
 
 TEST(WorkQueue, WorkThatIsRankedAgainAndAgainIsDoneInTime) {
-    // Dragging without end: hidden work is told of the drag each time, and keeps its age.
+    // Dragging without end: hidden work is ranked again each time, and keeps its age.
     Dragging drag;
     const auto hidden =
         drag.queue.add({.cluster = 0, .id = 7, .priority = {.change = 1}, .since = drag.now});
@@ -198,7 +198,7 @@ TEST(WorkQueue, WhatGainsSoMuchIsWorthThatPerCost) {
     };
     EXPECT_NEAR(queue.value(add(6, 4)), 1.5, 1e-5);
     EXPECT_NEAR(queue.value(add(1e-3, 4)), 2.5e-4, 1e-9);
-    EXPECT_GT(queue.value(add(0, 4)), 0) << "nothing is ever worth nothing";
+    EXPECT_GT(queue.value(add(0, 4)), 0) << "no priority is ever 0";
     const WorkQueue::Handle seen = add(6, 4);
     queue.rekey([](std::uint32_t) { return ClusterPriority{30, 0.3, false}; });
     EXPECT_NEAR(queue.value(seen), 15, 1e-4) << "ten times the pixels";
@@ -216,7 +216,7 @@ TEST(WorkQueue, WhatIsDoneInPartStaysOpenWithItsAge) {
     EXPECT_EQ(queue.take(4)->id, 7u);
 }
 
-/// The order by clusters is that of the tasks' own values, however they come and are keyed.
+/// The order by clusters is that of the tasks' own priorities, however they come and are keyed.
 RC_GTEST_PROP(WorkQueue, TakesWhatASortedListWouldHaveFirst, ()) {
     struct Open {
         WorkQueue::Task task;

@@ -1,4 +1,4 @@
-// What can't matter for the certificate is put off: the light is then as near to the settled light
+// What can't matter for the certificate is deferred: the light is then as near to the settled light
 // as the certificate says, and settles all the same.
 #include "tests/support/EditedScenes.h"
 #include "tests/support/LitDifference.h"

@@ -8,7 +8,7 @@ namespace penumbra {
 
 namespace {
 
-/// A room with a lamp that shines and one that is off, a shining panel, a black box and a screen.
+/// A room with a light that is on and one that is off, an emissive panel, a black box and a screen.
 struct PaintedRoom {
     std::shared_ptr<Material> walls = paint({0.7f, 0.5f, 0.3f}), black = paint(Rgb()),
                               panel = paint(Rgb(0.2f), Rgb(5));
@@ -60,7 +60,7 @@ TEST_F(EditCost, DimmingSwitchingAndRecolouringALightTraceNoRay) {
 
 TEST_F(EditCost, SwitchingOnALightThatNeverShoneTracesNoRay) {
     room.off->setLuminance({1, 20, 40});
-    expectNoRay("a lamp that was loaded dark");
+    expectNoRay("a light that was loaded dark");
 }
 
 TEST_F(EditCost, AnEmittingSurfaceIsDimmedAndSwitchedLikeALight) {
@@ -110,7 +110,7 @@ TEST_F(EditCost, AMoveTracesFewerRaysThanTheSceneDoesFromScratch) {
     EXPECT_LT(rays() - scratch, scratch);
 }
 
-/// Closed rooms of 2 m in a row, each with a lamp and a box that moves.
+/// Closed rooms of 2 m in a row, each with a light and a box that moves.
 Scene roomsInARow(int count, std::vector<std::shared_ptr<Transform>>& boxes) {
     std::vector<NodePtr> nodes;
     for (int i = 0; i < count; ++i) {
@@ -158,7 +158,7 @@ TEST(EditCostOfRooms, AMoveCostsWhatItCostsInItsOwnRoomAndRowsGrowWithTheRoomsAl
     EXPECT_GT(one.moveRays, 1000);
     EXPECT_NEAR(four.moveRays, one.moveRays, 0.01 * one.moveRays);
     EXPECT_GT(one.moveBlocks, 10);
-    EXPECT_EQ(four.moveBlocks, one.moveBlocks) << "nothing of the other rooms' lamps is looked at";
+    EXPECT_EQ(four.moveBlocks, one.moveBlocks) << "no row of the other rooms' lights is read";
 }
 
 } // namespace

@@ -61,9 +61,9 @@ TEST(Energy, IsSharedBetweenARoomAndWhatStandsInIt) {
 }
 
 TEST(Energy, AbsorbedInAGreyRoomIsWhatTheLightSends) {
-    // In a closed room the flux absorbed, sum of (1 - rho) H A, is the lamp's flux: the balance
-    // that holds for direct and indirect light together. The lamp's own black back absorbs nothing:
-    // it has none, and its front is met.
+    // In a closed room the flux absorbed, sum of (1 - rho) H A, is the light's flux: the balance
+    // that holds for direct and indirect light together. The light's own black back absorbs
+    // nothing: it has none, and its front is met.
     Solution solution(
         sceneOf({object("room", boxData({-1, -1, -1}, {1, 1, 1}, true, paint(Rgb(0.5f)))),
                  ceilingLight({0, 0, 0.999f}, 0.6f, 0.4f)}),

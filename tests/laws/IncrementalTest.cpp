@@ -1,4 +1,4 @@
-// After any sequence of edits the settled light is that of the scene as it stands, however it came
+// After any sequence of edits the settled light is that of the scene as it is, however it came
 // to be. `scripts/nightly` tries many more sequences.
 #include "tests/support/EditedScenes.h"
 #include "tests/support/LitDifference.h"
@@ -91,14 +91,14 @@ TEST(Incremental, EqualsFromScratchWhereAReceiverLiesInThePlaneOfASender) {
 }
 
 TEST(Incremental, EqualsFromScratchWhereAReceiverLiesInThePlaneOfAFaceInBetween) {
-    // And so does the middle of a quarter of the sender, for all of them stand on round numbers.
+    // And so does the middle of a quarter of the sender, for all of them are at round numbers.
     constexpr std::uint32_t kSeed = 4115628356;
     FollowedRoom followed(kSeed);
     EXPECT_EQ(differsAfterOverlappingEdits(followed, kSeed, 6), "") << followed.said;
 }
 
 TEST(Incremental, EqualsFromScratchWhereRaysPassByAnEdge) {
-    // A box touches a lamp, and another one a pebble, so that rays run into an edge of the box:
+    // A box touches a light, and another one a pebble, so that rays run into an edge of the box:
     // which of the two faces they met depended on how the hierarchy of its triangles came to be.
     constexpr std::array<std::pair<std::uint32_t, int>, 2> kRooms{
         {{1718266436, 4}, {4290188502, 3}}};
@@ -109,15 +109,15 @@ TEST(Incremental, EqualsFromScratchWhereRaysPassByAnEdge) {
 }
 
 TEST(Incremental, EqualsFromScratchWhereAShadowRayGrazesABox) {
-    // By rounding it passes beside a triangle that it is said to hit, if the boxes of the hierarchy
-    // let it through: those of the box alone did, those of the whole scene did not.
+    // By rounding it passes beside a triangle that is reported as hit, if the boxes of the
+    // hierarchy let it through: those of the box alone did, those of the whole scene did not.
     FollowedRoom followed(2464783612);
     EXPECT_EQ(differsAfterSettledEdits(followed, 4), "") << followed.said;
 }
 
 TEST(Incremental, EqualsFromScratchWhereARayGrazesSomethingAtItsVeryBeginning) {
     // It is in doubt there, and is asked again a hair aside. A ray that was turned aside instead
-    // looked elsewhere altogether.
+    // met something else altogether.
     FollowedRoom settled(795163583);
     EXPECT_EQ(differsAfterSettledEdits(settled, 4), "") << settled.said;
     constexpr std::uint32_t kSeed = 2796649543;

@@ -1,6 +1,6 @@
 // Margins follow where things are and how finely they are cut, never how large the scene is: the
-// light of a room is the same wherever it stands, however large it is, and however its things came
-// to stand where they do.
+// light of a room is the same wherever it is, however large it is, and however its things came
+// to be where they are.
 #include "radiosity/rays/Margins.h"
 #include "io/usd/scene/UsdAnimation.h"
 #include "io/usd/scene/UsdScene.h"
@@ -19,7 +19,7 @@ constexpr MeshingOptions kCoarse{.patchSize = 0.6f, .elementSize = 0.15f};
 constexpr SolverOptions kTight{.residual = 1e-4};
 
 TEST(Margins, PlayedFramesAreThoseOfAFreshStartWhereAThingBeganFarOutside) {
-    // A box comes in from 15 m away, and a lamp lies 0.1 mm above the ceiling: with margins of the
+    // A box comes in from 15 m away, and a light lies 0.1 mm above the ceiling: with margins of the
     // first frame's extent its light passed, with those of the last one it did not (45 %).
     const std::string file = dataFile("extent_of_first_frame.usda");
     const LoadedScene played = loadUsdScene(file);
@@ -53,7 +53,7 @@ TEST(Margins, OfAThingAreThoseItHasWithoutAnotherOneFarAway) {
 }
 
 /// A room with a box on its floor and one that hovers, `size` times as large, `away` from the
-/// origin [m], and what some places of its surfaces receive [lux].
+/// origin [m], and what some points of its surfaces receive [lux].
 struct FurnishedRoom {
     double size = 1;
     glm::dvec3 away{0};

@@ -1,4 +1,4 @@
-// Importance changes the order of work, never the answer.
+// The scheduling policy changes when work is done, never the answer.
 #include "importance/SchedulingPolicy.h"
 #include "tests/support/EditedScenes.h"
 #include "tests/support/LitDifference.h"
@@ -53,7 +53,7 @@ TEST(Policies, ComeToTheSameLight) {
 }
 
 TEST(Policies, WhatGoesDarkIsWorkAsWell) {
-    // A plate that faces a lamp is turned over: its light goes to nothing, and the order that the
+    // A plate that faces a light is turned over: its light goes to nothing, and the order that the
     // viewer makes finds that out before it is through.
     Scene scene;
     scene.root->add(object("floor", floorData(-2, 2, -2, 2, 0)));

@@ -61,7 +61,7 @@ void expectSameMasks(const LitScene& a, const LitScene& b) {
     EXPECT_GT(rows, 20);
 }
 
-/// Direct light at the corners of elements: by corner, for the vertices that stand for corners
+/// Direct light at the corners of elements: by corner, for the vertices that represent corners
 /// which something covers are handed out in any order.
 void expectSameDirectLight(const LitScene& a, const LitScene& b) {
     const auto lightA = a.solver().lighting().direct, lightB = b.solver().lighting().direct;

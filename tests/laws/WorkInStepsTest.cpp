@@ -62,7 +62,7 @@ TEST(WorkInSteps, EditsThatComeBeforeTheLastIsWorkedOffAreThoseInOneGo) {
 }
 
 TEST(WorkInSteps, APieceOfIndirectLightIsAsLargeAsItIsAskedFor) {
-    // A visit counts for 48 rays. Pieces that were said to be larger than they are kept one thread
+    // A visit counts for 48 rays. Pieces that were estimated larger than they are kept one thread
     // busy, and the others waiting.
     constexpr std::size_t kEffort = 4096; // [rays]
     double asked = 0, done = 0;

@@ -12,7 +12,7 @@ namespace penumbra {
 
 namespace {
 
-/// Where a point of the world stands in the picture: [-1, 1] from left to right, bottom to top,
+/// Where a point of the world is in the picture: [-1, 1] from left to right, bottom to top,
 /// near to far.
 glm::dvec3 onScreen(const View& view, glm::dvec3 point) {
     const glm::dvec4 clip = view.worldToClip() * glm::dvec4(point, 1);
@@ -92,7 +92,7 @@ TEST(Camera, AnOrthographicViewIsATenthOfItsApertureWideInLocalUnits) {
 }
 
 /// Whether the picture can be taken back to the scene: its corners, near and far, are somewhere,
-/// and the near ones, where rays begin, can be told apart in single precision.
+/// and the near ones, where rays begin, differ in single precision.
 bool canBeUndone(const View& view) {
     const glm::dmat4 back = glm::inverse(view.worldToClip());
     for (int corner = 0; corner < 8; ++corner) {

@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-/// Writes down every leaf with its place.
+/// Writes down every leaf with its path and transform.
 class Recorder : public Visitor {
 public:
     using Visitor::visit;

@@ -154,7 +154,7 @@ glm::dmat4 EditableRoom::anywhere(const Thing& thing) {
     case 5: // beside something
         at = there + glm::dvec3(other.half.x + half.x, uniform(-0.1, 0.1), 0);
         break;
-    case 6: // at the very place of something: equal faces if the two are alike
+    case 6: // exactly where something is: equal faces if the two are alike
         return other.place;
     case 7: // let into the table, its top in the table's top
         at = {uniform(1.1, 1.8), uniform(0.7, 1.5), kTableUpper.z - half.z};

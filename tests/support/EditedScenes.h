@@ -13,8 +13,8 @@
 namespace penumbra {
 
 /// A room with things that move, made from a seed: boxes and plates, an instanced pair, a
-/// subdivision surface, things below scaled and mirrored parents, lamps of all shapes with and
-/// without housings, a shining mesh; some hidden at first. Edits place them anywhere in the room,
+/// subdivision surface, things below scaled and mirrored parents, lights of all shapes with and
+/// without housings, an emissive mesh; some hidden at first. Edits place them anywhere in the room,
 /// through its walls, on the floor and on the table.
 class EditableRoom {
 public:
@@ -31,7 +31,7 @@ private:
         std::shared_ptr<Transform> node;
         std::shared_ptr<Switch> choice;   ///< hides it
         glm::dmat4 frame;                 ///< of its parent, a stretch
-        glm::dvec3 half;                  ///< half its size when it stands upright [m]
+        glm::dvec3 half;                  ///< half its size when it is upright [m]
         glm::dmat4 place{1.0}, home{1.0}; ///< rigid, in the world
         bool emits = false;
     };

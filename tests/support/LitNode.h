@@ -13,7 +13,7 @@ namespace penumbra {
 
 /// Calls update() until `until` holds; false: it did not within some time.
 bool updateUntil(RadiosityNode& node, const std::function<bool()>& until, double seconds = 60);
-/// Until the light is that of the graph, nothing of it put off, and all of it has arrived.
+/// Until the light is that of the graph, nothing of it deferred, and all of it has arrived.
 bool updateUntilSettled(RadiosityNode& node, double seconds = 20);
 
 /// Its state and messages, for people.
@@ -23,7 +23,7 @@ std::string describe(RadiosityNode& node);
 /// it is now, for people; empty: nothing, within the certificates of both and rounding.
 std::string differenceFromScratch(const RadiosityNode& node, const RadiosityOptions& options);
 
-/// A room with a lamp and a box that can be moved, as an application would build it.
+/// A room with a light and a box that can be moved, as an application would build it.
 struct LitRoom {
     explicit LitRoom(std::unique_ptr<LightingLink> link = makeThreadLink(),
                      const RadiosityOptions& wanted = smallRoomOptions(),

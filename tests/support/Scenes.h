@@ -78,14 +78,14 @@ inline NodePtr object(const std::string& name, MeshData data) {
     return placed(name, glm::dmat4(1.0), {std::make_shared<Mesh>("mesh", std::move(data))});
 }
 
-/// A lamp of luminance 1 nit that shines down from `centre`.
+/// A light of luminance 1 nit that faces down from `centre`.
 inline NodePtr ceilingLight(glm::vec3 centre, float width, float height, Rgb nits = Rgb(1.0f)) {
     return placed("lamp", moved(centre.x, centre.y, centre.z),
                   {std::make_shared<Light>("light", RectShape{width, height}, nits)});
 }
 
-/// Two squares of 0.3 m that shine down from 2 m, 2 m apart, with backs of another material that
-/// does not: too far from each other to be one emitter in a mesh of patches below a metre.
+/// Two squares of 0.3 m that emit downwards from 2 m, 2 m apart, with backs of another material
+/// that does not: too far from each other to be one emitter in a mesh of patches below a metre.
 inline MeshData twoPanels(std::shared_ptr<Material> one, std::shared_ptr<Material> other) {
     MeshData mesh;
     for (const float x : {-1.0f, 1.0f}) {

@@ -1,4 +1,4 @@
-// A worker that takes its turns when it is told to, in memory that can be looked at.
+// A worker that takes its turns when a test says so, in memory that can be read.
 #pragma once
 
 #include "radiosity/process/LightingLink.h"
@@ -23,8 +23,8 @@ private:
     std::unique_ptr<Regions> regions_ = makeHeapRegions();
 };
 
-/// Both sides in one thread, so that a test is the same each time, and can look, or write to any
-/// byte, between any two steps.
+/// Program and worker in one thread, so that a test is the same each time, and can read or write
+/// any byte between any two steps.
 class SteppedLink : public LightingLink {
 public:
     Regions& regions() override { return watched; }

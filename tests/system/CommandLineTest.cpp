@@ -92,7 +92,7 @@ TEST(CommandLine, InfoSaysWhatIsInAScene) {
     const Workplace here;
     const Outcome info = runPenumbra({"info", here.write("room.usda", smallRoom())});
     EXPECT_EQ(info.exitCode, 0);
-    for (const char* word : {"up axis Z", "2 meshes", "1 lamps", "  /Lamp ", "1 cameras",
+    for (const char* word : {"up axis Z", "2 meshes", "1 lights", "  /Lamp ", "1 cameras",
                              "  /Eye\n", "no animation", "0 movable objects"})
         EXPECT_THAT(info.out, HasSubstr(word));
     EXPECT_THAT(info.err, IsEmpty());

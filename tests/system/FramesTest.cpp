@@ -19,7 +19,7 @@ void replace(std::string& text, const std::string& from, const std::string& to) 
     text.replace(text.find(from), from.size(), to);
 }
 
-/// The small room; its box moves until frame 3, its lamp is dimmed at frame 4.
+/// The small room; its box moves until frame 3, its light is dimmed at frame 4.
 std::string playedRoom() {
     std::string room = smallRoom();
     replace(room, "xformOp:translate = (1.1, 1.2, 0.3)",
@@ -162,8 +162,8 @@ TEST_F(Frames, HaveStatisticsWithTheKeysOfTheContract) {
     EXPECT_EQ(frames[1].at("edits"), 1);
     EXPECT_GT(frames[1].at("entries_changed"), 0);
     EXPECT_LT(frames[1].at("rays"), frames[0].at("rays")) << "a move";
-    EXPECT_GE(frames[3].at("edits"), 1); // what sends its light, and how it looks
-    EXPECT_EQ(frames[3].at("rays"), 0) << "a lamp is dimmed";
+    EXPECT_GE(frames[3].at("edits"), 1); // its emitters, and its colour
+    EXPECT_EQ(frames[3].at("rays"), 0) << "a light is dimmed";
     EXPECT_EQ(frames[4].at("edits"), 0);
     EXPECT_EQ(frames[4].at("shots"), 0) << "nothing happens";
     EXPECT_FALSE(solve("v", {"--frame", "2"}).contains("frames"));

@@ -49,7 +49,7 @@ TEST_F(InfoAt, NamesTheSurfaceTheLightsAndWhatArrives) {
     EXPECT_GT(light[0], 1);
     EXPECT_EQ(light[1], light[0]);
     EXPECT_EQ(light[2], 0);
-    const auto direct = figures(info.out, "direct light, all lamps"),
+    const auto direct = figures(info.out, "direct light, all lights"),
                indirect = figures(info.out, "indirect light"),
                together = figures(info.out, "together");
     ASSERT_TRUE(direct.size() == 4 && indirect.size() == 1 && together.size() == 1) << info.out;

@@ -1,4 +1,4 @@
-// Files that can't be written: told early, and nothing half-written is left behind.
+// Files that can't be written: reported early, and nothing half-written is left behind.
 #include "Program.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Results never take the place of what is read, nor of one another.
+// Results never overwrite what is read, nor one another.
 #include "Program.h"
 
 #include <gmock/gmock.h>

@@ -44,9 +44,9 @@ private:
 std::string readFile(const std::string& path);
 std::size_t lineCount(const std::string& text);
 
-/// A small room in USD text: walls, a box, a lamp and a camera.
+/// A small room in USD text: walls, a box, a light and a camera.
 std::string smallRoom();
-/// A layer with one mesh, whose attributes are given as text, and a lamp above it.
+/// A layer with one mesh, whose attributes are given as text, and a light above it.
 std::string meshUnderLight(const std::string& attributes);
 /// Options that keep solving below a second.
 std::vector<std::string> coarse();

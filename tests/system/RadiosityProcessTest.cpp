@@ -139,7 +139,7 @@ TEST(RadiosityProcess, NamesOfSharedMemoryAreThereForAMomentAndForNobodyElse) {
         return room.node->state().reached(SolutionState::certified);
     }));
     EXPECT_TRUE(seen);
-    EXPECT_TRUE(segmentsOf(getpid()).empty()); // unlinked as soon as both sides had them
+    EXPECT_TRUE(segmentsOf(getpid()).empty()); // unlinked as soon as program and worker had them
     EXPECT_FALSE(leavesSegments(getpid()));
 }
 

@@ -89,7 +89,7 @@ TEST_F(Render, DrawsALitPictureThatAnotherLibraryReads) {
         EXPECT_THAT(info, HasSubstr(channel));
     EXPECT_THAT(info, HasSubstr("scene: \"room.usda\""));
     EXPECT_THAT(info, HasSubstr("certificate: "));
-    // The camera stands inside of a closed room: every pixel is covered and none is black.
+    // The camera is inside of a closed room: every pixel is covered and none is black.
     const std::string stats =
         outputOf("oiiotool " + here.path("a.exr") + " --ch R,G,B --printstats");
     EXPECT_THAT(stats, testing::Not(HasSubstr("Stats Min: 0.000000")));

@@ -66,7 +66,7 @@ TEST_F(Solve, RepeatsTheSensorsAndAddsTheirIlluminance) {
     for (std::size_t i = 0; i < 3; ++i) {
         ASSERT_EQ(rows[i].size(), 9u);
         for (std::size_t k = 0; k < 6; ++k) EXPECT_FLOAT_EQ(float(rows[i][k]), float(in[i][k]));
-        for (std::size_t k = 6; k < 9; ++k) EXPECT_GT(rows[i][k], 1); // a lamp of 100 nits
+        for (std::size_t k = 6; k < 9; ++k) EXPECT_GT(rows[i][k], 1); // a light of 100 nits
     }
 }
 
@@ -144,7 +144,7 @@ TEST_F(Solve, WritesStatisticsWithTheKeysOfTheContract) {
     EXPECT_EQ(json.at("solve").at("state"), "exact");
 }
 
-/// smallRoom() with something in place of its lamp's intensity, and something added.
+/// smallRoom() with something instead of its light's intensity, and something added.
 std::string roomWith(const std::string& intensity, const std::string& more) {
     std::string text = smallRoom();
     const std::string old = "inputs:intensity = 100";
@@ -152,7 +152,7 @@ std::string roomWith(const std::string& intensity, const std::string& more) {
     return text + more;
 }
 
-/// A black plate 2 cm below the lamp.
+/// A black plate 2 cm below the light.
 const std::string kShade = R"(def Cube "Shade"
 {
     double size = 1
@@ -176,7 +176,7 @@ TEST_F(Solve, WarnsWhereTheCertificateIsAsLargeAsTheLight) {
     outcome = runPenumbra(solve(here.write("shaded.usda", roomWith("100", kShade)), rough));
     EXPECT_EQ(outcome.exitCode, 0);
     EXPECT_THAT(outcome.err, HasSubstr("shaded.usda: warning: the certificate"));
-    EXPECT_THAT(outcome.err, HasSubstr("is worth nothing: as large as the light itself"));
+    EXPECT_THAT(outcome.err, HasSubstr("says nothing: it is as large as the light itself"));
     EXPECT_GE(share(), 1);
 }
 
@@ -186,7 +186,7 @@ TEST_F(Solve, SaysThatNothingIsLit) {
         runPenumbra(solve(here.write("black.usda", roomWith("0", "")), {"--stats", stats}));
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("nothing is lit"));
-    EXPECT_THAT(outcome.err, testing::Not(HasSubstr("worth nothing")));
+    EXPECT_THAT(outcome.err, testing::Not(HasSubstr("says nothing")));
     const auto json = nlohmann::json::parse(readFile(stats)).at("solve");
     EXPECT_EQ(json.at("lit_illuminance"), 0);
     EXPECT_TRUE(json.at("certificate_of_lit").is_null());

@@ -352,7 +352,7 @@ def replayed(take, last):
     check(max(abs(p[2] - places[0][2]) for p in places) < 1e-9, "it stayed on the floor")
     text = take.read_text()
     code = int(float(re.search(r"endTimeCode = (\S+)", text).group(1)))
-    check("inputs:intensity.timeSamples" in text, "the dimmed lamps are in the recording")
+    check("inputs:intensity.timeSamples" in text, "the dimmed lights are in the recording")
     frame = OUTPUT / "replayed.exr"
     subprocess.run([PENUMBRA, "render", take, "-o", frame, "--frame", str(code), "--width", "1280",
                     "--height", "720", "--patch-size", "1", "--element-size", "0.5", "--quiet"],

@@ -1,4 +1,4 @@
-"""A display of its own (Xvfb) with real keyboard and mouse (xdotool), and a look at its pixels."""
+"""A display of its own (Xvfb) with real keyboard and mouse (xdotool), and its pixels."""
 import mmap
 import os
 import pathlib

@@ -7,7 +7,7 @@
 
 namespace penumbra {
 
-/// Watches the times of some files. Looks at most every kSeconds, and says that they have changed
+/// Watches the times of some files. Checks at most every kSeconds, and says that they have changed
 /// once they have come to rest: programs write a file in several steps.
 class FileWatcher {
 public:

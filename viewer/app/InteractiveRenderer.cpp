@@ -26,7 +26,7 @@ namespace penumbra {
 
 namespace {
 
-/// The lamps as the preview shader wants them, in the frame of the camera.
+/// The lights as the preview shader wants them, in the frame of the camera.
 void setPreviewLighting(const ShaderProgram& program, const UnlitLighting& lighting,
                         const View& view) {
     std::vector<glm::vec4> places, axes, intensities;
@@ -99,14 +99,14 @@ void InteractiveRenderer::Impl::drawLit(const std::vector<LitItem>& items) {
     }
 }
 
-/// The same, but triangles that a live change of light may reach are drawn by the live pass.
+/// The same, but triangles that a previewed change may reach are drawn by the preview pass.
 void InteractiveRenderer::Impl::drawPreviewed(const std::vector<LitItem>& items) {
     std::vector<MapPreview::Runs> preview;
     litProgram.use();
     for (std::size_t i = 0; i < items.size(); ++i) {
         const LitItem& item = items[i];
         std::vector<IndexRuns> plain(item.gpu->ranges().size());
-        std::map<std::pair<std::size_t, unsigned>, IndexRuns> reached; // by range and lamps
+        std::map<std::pair<std::size_t, unsigned>, IndexRuns> reached; // by range and lights
         for (const TriangleChunk& chunk : item.gpu->chunks()) {
             const unsigned lights = mapPreview->reaching(item, chunk);
             IndexRuns& runs = lights == 0 ? plain[chunk.range] : reached[{chunk.range, lights}];

@@ -47,7 +47,7 @@ public:
 
     /// \param list         what is in view, see listVisible()
     /// \param width,height [pixel], at least 1 \throws Error if the driver can't
-    /// \param live         lamps whose light is brought up to date by the shader
+    /// \param preview      lights that the shader brings up to date
     void drawScene(const DrawList& list, const View& view, const UnlitLighting& unlit, int width,
                    int height, const PreviewLighting& preview = {});
 

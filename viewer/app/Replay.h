@@ -5,7 +5,7 @@ namespace penumbra {
 
 class Walkthrough;
 
-/// Plays what a file moves: its things, its lamps, and its first camera. Who looks through that
+/// Plays what a file moves: its things, its lights, and its first camera. Who looks through that
 /// camera is taken along; who has moved away from it is not.
 class Replay {
 public:

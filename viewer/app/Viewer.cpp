@@ -97,7 +97,7 @@ private:
     Group nothing_{""};
     std::optional<GuiLayer> gui_; // after what it draws over
     std::string title_;
-    double highestPriority_ = 0; ///< of open work, since it is shown
+    double highestPriority_ = 0; ///< in the dirty set, since it is shown
     bool quit_ = false;
     int stale_ = kAfterglow; ///< pictures to be drawn whether anything changes or not
 };
@@ -343,7 +343,7 @@ OverlayView Viewer::overlayView() {
     return {};
 }
 
-/// At the pointer, in the scene as it stands now, so that the answer keeps up with what is moved.
+/// At the pointer, in the scene as it is now, so that the answer keeps up with what is moved.
 OverlayView Viewer::blockers() const {
     const std::optional<Touch> touch = walk_->pointedAt(window_.pixels());
     const auto& selection = walk_->selection();
@@ -354,7 +354,7 @@ OverlayView Viewer::blockers() const {
             lightsOf(probeLight(walk_->placed(), walk_->rays(), touch->position, touch->normal),
                      one ? selection->objectPath : std::string());
     return blockersView(light_->objects(), light_->placed(), walk_->placed(), lights,
-                        one ? "selected, at the pointer" : "at the pointer");
+                        one ? "of what is selected, at the pointer" : "at the pointer");
 }
 
 /// What the window shows, but for the panels, as PNG; with all layers as EXR, once there is light.

@@ -25,9 +25,10 @@ struct ViewerOptions {
     std::optional<ToneStyle> tone;  ///< none: that of the user's settings
     bool vsync = true;
     int samples = 0; ///< a pixel; 0: 4 with a graphics card, 1 without
-    /// Told what the reader has to say about the file, once.
+    /// Called once with what the reader has to say about the file.
     std::function<void(const std::vector<Diagnostic>&)> reported;
-    /// Told which files the scene was read from, once, before anything is written. May throw.
+    /// Called once with the files that the scene was read from, before anything is written. May
+    /// throw.
     std::function<void(const std::vector<std::filesystem::path>&)> opened;
 };
 

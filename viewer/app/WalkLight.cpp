@@ -26,14 +26,14 @@ void WalkLight::setTrigger(Trigger trigger) {
     if (std::exchange(trigger_, trigger) != trigger) node_->setTrigger(trigger);
 }
 
-/// Those of the selected thing: their light is there when somebody takes hold of it.
+/// Those of the selected thing: their rows are there when a drag begins.
 void WalkLight::chooseLights(const Walkthrough& walk) {
     const auto& selection = walk.selection();
     if (!selection || !selection->movable()) return; // what was selected may be moved by undo
     if (lightsFor_ == selection->object && lightsOf_ == walk.revision() && lightsLit_ == complete())
-        return; // meshes that shine are known when they are lit
+        return; // emissive meshes are known when they are lit
     const bool inHand = lightsFor_ == selection->object && walk.inHand();
-    if (inHand) return; // no other lamps in the middle of a move
+    if (inHand) return; // no other lights in the middle of a move
     lightsFor_ = selection->object;
     lightsOf_ = walk.revision();
     lightsLit_ = complete();

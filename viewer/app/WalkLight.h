@@ -20,8 +20,8 @@ namespace penumbra {
 
 class Walkthrough;
 
-/// Keeps a RadiosityNode beside a walkthrough: tells it what is edited, held and seen, and lists
-/// what is to be drawn, lit or not yet. Never waits.
+/// Keeps a RadiosityNode beside a walkthrough: reports to it what is edited, held and seen, and
+/// lists what is to be drawn, lit or not yet. Never waits.
 class WalkLight {
 public:
     /// \param walk its scene must outlive this
@@ -46,13 +46,13 @@ public:
     /// What is to be drawn in a view: the lit surfaces, and the meshes and lights of objects that
     /// have no light yet.
     DrawList listVisible(const Frustum& frustum) const;
-    /// Lamps for the renderer to draw live: those that matter to what is selected, while it moves.
+    /// Lights for the renderer to preview: those that matter to what is selected, while it moves.
     /// None with PreviewMethod::rays, when listVisible() has their light.
     const PreviewLighting& preview() const { return vertices_ ? none_ : blend_.preview(); }
     std::size_t lightsPreviewed() const { return blend_.preview().lights.size(); }
     /// Whether direct light is on its way on the screen.
     bool fading() const { return blend_.fading(); }
-    /// Whether vertices wait for their light, to be exact for how things stand.
+    /// Whether vertices still wait for light that is exact for the scene as it is now.
     bool waiting() const { return blend_.waiting(); }
     /// Everything that has light.
     const Group& lit() const { return node_->lit(); }
@@ -82,7 +82,7 @@ private:
     PreviewLimits limits_;
     bool lightsLit_ = false;     ///< lightsFor_ was answered when all was lit
     std::uint64_t lightsOf_ = 0; ///< revision of the walkthrough, and
-    ObjectId lightsFor_;         ///< the object, that live lamps were chosen for
+    ObjectId lightsFor_;         ///< the object, that previewed lights were chosen for
     std::shared_ptr<const Transform> inHand_;
     Trigger trigger_;
     PolicyKind policy_;

@@ -108,7 +108,7 @@ std::vector<TriangleChunk> cutIntoChunks(const std::vector<std::uint32_t>& indic
     return chunks;
 }
 
-/// What is to be looked at for news: the shown light, or else the geometry's own.
+/// Where new light is searched for: in the shown light, or else in the geometry's own.
 std::uint64_t revisionOf(const LitGeometry& geometry, const ShownLight* shown) {
     return shown ? shown->revision : geometry.revision();
 }
@@ -153,7 +153,7 @@ void GpuGeometry::makeBuffers(const LitGeometry& geometry, const ShownLight* sho
     indirect_ =
         attributeBuffer(kIndirect, shown ? shown->indirect : mesh.indirect, GL_DYNAMIC_DRAW, room_);
     dropFactors();        // they have no room for copies
-    redrawnRevision_ = 0; // copies have no places yet
+    redrawnRevision_ = 0; // copies have no slots yet
     glBindVertexArray(0);
 }
 
@@ -211,7 +211,7 @@ void GpuGeometry::dropFactors() {
     behind_ = {};
 }
 
-/// Makes room for the factors of live lamps, or removes it.
+/// Makes room for the factors of previewed lights, or removes it.
 void GpuGeometry::requireFactors(const ShownLight& shown) {
     if (shown.factors.empty() == (factors_.name() == 0)) return;
     glBindVertexArray(vertexArray_.name());

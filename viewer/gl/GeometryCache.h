@@ -58,7 +58,7 @@ private:
     void requireFactors(const ShownLight& shown);
 
     GlObject vertexArray_, positions_, normals_, direct_, indirect_, indices_;
-    GlObject factors_, behind_; ///< of live lamps, when there first are any
+    GlObject factors_, behind_; ///< of previewed lights, when there first are any
     std::size_t room_ = 0;      ///< for vertices
     std::vector<MaterialRange> ranges_;
     std::vector<TriangleChunk> chunks_;

@@ -10,7 +10,7 @@ namespace penumbra {
 
 /// A framebuffer of luminances [nit] with a depth buffer, multisampled if wanted, and a texture
 /// that its averages go to. Alpha is the share of the pixel that counts for exposure: reflecting
-/// surfaces do, lamps and what lies outside do not.
+/// surfaces do, lights and what lies outside do not.
 class HdrTarget {
 public:
     enum class Precision { half, single }; ///< half: up to 65504 nit, relative error 2^-11

@@ -25,11 +25,11 @@ struct DrawPose {
     bool mirrored = false;
 };
 
-/// Hands a place to the program in use, as far as its shaders ask for it, and sets which way round
+/// Hands a pose to the program in use, as far as its shaders ask for it, and sets which way round
 /// fronts are.
 void setPose(const ShaderProgram& program, const DrawPose& place);
 
-/// A place of a geometry with what the shaders need of it.
+/// An instance of a geometry with what the shaders need of it.
 struct LitItem {
     const LitGeometry* geometry = nullptr;
     const GpuGeometry* gpu = nullptr; ///< in the cache

@@ -23,7 +23,7 @@ namespace {
                 " (install EGL and OpenGL 3.3; on Debian: apt install libegl1 libgl1-mesa-dri)");
 }
 
-/// libepoxy ends the whole program when a library is missing, so look for them before it does.
+/// libepoxy ends the whole program when a library is missing, so search for them before it does.
 void requireLibrary(std::initializer_list<const char*> anyOf) {
     for (const char* name : anyOf)
         if (dlopen(name, RTLD_LAZY | RTLD_LOCAL)) return; // stays loaded; epoxy loads it anyway

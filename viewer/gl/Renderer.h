@@ -21,8 +21,8 @@ struct RendererOptions {
 
 /// What the last frame cost.
 struct RenderStatistics {
-    std::size_t drawn = 0;        ///< places of a LitGeometry in view
-    std::size_t culled = 0;       ///< places outside of it
+    std::size_t drawn = 0;        ///< instances of a LitGeometry in view
+    std::size_t culled = 0;       ///< instances outside of it
     std::size_t drawCalls = 0;    ///< over both passes and all strips
     std::size_t uploads = 0;      ///< geometries copied to the graphics card
     std::size_t lightUploads = 0; ///< of which the light alone was copied

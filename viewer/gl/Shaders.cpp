@@ -114,7 +114,7 @@ uniform vec3 reflectance;
 uniform vec3 emission;                   // nit
 uniform int lampCount;
 uniform vec4 lampPlaces[16];             // position [m], area [m^2]
-uniform vec4 lampAxes[16];               // unit; zero: shines all round
+uniform vec4 lampAxes[16];               // unit; zero: emits all round
 uniform vec4 lampIntensities[16];        // cd
 uniform vec3 ambient;                    // lux
 

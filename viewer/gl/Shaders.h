@@ -9,7 +9,7 @@ enum LitAttribute : unsigned {
     kNormal = 1,
     kDirect = 2,
     kIndirect = 3,
-    kFactors = 4, ///< of live lamps, see ShownLight
+    kFactors = 4, ///< of previewed lights, see ShownLight
     kBehind = 5
 };
 
@@ -25,7 +25,7 @@ extern const char* const kLightFragmentShader;
 extern const char* const kSurfaceFragmentShader;
 
 /// What the eye receives of a lit surface [nit], up to the range of 16-bit floats; alpha says how
-/// much it counts for exposure: what reflects does, what shines does not.
+/// much it counts for exposure: what reflects does, what emits does not.
 extern const char* const kScreenFragmentShader;
 
 /// Surfaces before radiosity, lit as UnlitLighting says, flat shaded; the same output.

@@ -18,7 +18,7 @@ public:
     struct Picture {
         unsigned luminances = 0; ///< texture [nit], linear Rec. 709
         /// The multisampled texture that these are the means of, or 0. Each sample goes through the
-        /// tone curve and then they are averaged, so that the edges of lamps are smooth.
+        /// tone curve and then they are averaged, so that the edges of lights are smooth.
         unsigned samples = 0;
         int sampleCount = 1;
         /// Texture of what lies over it: display colours with premultiplied alpha; 0: nothing.

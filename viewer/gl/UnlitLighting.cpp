@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/// A lamp and all the light it sends.
+/// A light and its whole flux.
 struct Candidate {
     UnlitLight source;
     Rgb flux; ///< [lm]

@@ -1,4 +1,4 @@
-// Light to look at things by until radiosity has come.
+// Light to see things by until radiosity has come.
 #pragma once
 
 #include "base/Rgb.h"
@@ -10,14 +10,14 @@
 
 namespace penumbra {
 
-/// A lamp as a point with a direction. At distance d, under angle a to its axis, it gives
+/// A light as a point with a direction. At distance d, under angle a to its axis, it gives
 ///
 ///     E = intensity * shape(a) / (d^2 + area / pi),   shape = cos a in front, or 1 all round
 ///
 /// which is right far away and does not blow up close by; nothing casts a shadow.
 struct UnlitLight {
     glm::dvec3 position{}; ///< [m, world]
-    glm::dvec3 axis{};     ///< unit, the way it shines; zero: all round
+    glm::dvec3 axis{};     ///< unit, the way it emits; zero: all round
     Rgb intensity;         ///< along the axis [cd]
     float area = 0;        ///< emitting, as seen from afar [m^2]
 };
@@ -26,12 +26,12 @@ struct UnlitLighting {
     static constexpr std::size_t kMostLights = 16;
 
     std::vector<UnlitLight> lights; ///< the strongest ones, at most kMostLights
-    /// Mean illuminance of the scene if the lamps' light spread evenly over its bounding box
+    /// Mean illuminance of the scene if the flux of its lights spread evenly over its bounding box
     /// [lux]: half of it comes from all around, and again as much from the headlight, head on.
     Rgb ambient;
 };
 
-/// Lamps and emissive meshes of a scene as it stands. Without any: a headlight alone, 100 lux.
+/// Lights and emissive meshes of a scene as it is. Without any: a headlight alone, 100 lux.
 UnlitLighting unlitLighting(const PlacedScene& scene);
 
 } // namespace penumbra

@@ -11,7 +11,7 @@ constexpr double kGravity = 9.81;    // [m/s^2]
 constexpr double kTerminal = 20;     // nobody falls faster [m/s]
 constexpr double kStepHeight = 0.45; // what a walker steps over; walls are felt for above it [m]
 constexpr double kStepSeconds = 0.1; // time constant of stepping up
-constexpr double kFloorReach = 1000; // how far down a floor is looked for [m]
+constexpr double kFloorReach = 1000; // how far down a floor is searched for [m]
 
 glm::dvec3 rotated(glm::dvec3 v, glm::dvec3 axis, double angle) { // Rodrigues' formula
     return v * std::cos(angle) + glm::cross(axis, v) * std::sin(angle) +

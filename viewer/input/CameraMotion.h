@@ -51,7 +51,7 @@ Travel travelled(Travel state, TravelMode mode, const MotionInput& input, double
                  const TravelOptions& options, const Compass& compass,
                  const Surroundings& surroundings);
 
-/// A camera that circles around a point. The point keeps its place in the view, wherever that is.
+/// A camera that circles around a point. The point stays where it is in the view.
 struct Orbit {
     CameraPose pose;
     glm::dvec3 centre{0.0}; ///< [m, world]

@@ -12,7 +12,7 @@ namespace {
 constexpr double kKeyTurn = 1.2;  // of keys in orbit mode [rad/s]
 constexpr double kKeyNotches = 8; // of the wheel a second
 
-/// A camera's lens without the scale of its place: clipping range in metres.
+/// A camera's lens without the scale of its transform: clipping range in metres.
 Lens inMetres(Lens lens, const glm::dmat4& toWorld) {
     lens.clippingRange *= float(glm::length(glm::dvec3(toWorld[2])));
     return lens;

@@ -10,7 +10,7 @@
 
 namespace penumbra {
 
-/// A camera of the file as a place to go to.
+/// A camera of the file as a viewpoint to go to.
 struct Bookmark {
     std::string path;
     CameraPose pose;

@@ -10,7 +10,7 @@
 
 namespace penumbra {
 
-/// A key by its place on the keyboard: letters and digits as they are on a US layout, by their
+/// A key by its position on the keyboard: letters and digits as they are on a US layout, by their
 /// character, others by name.
 enum class Key : std::uint8_t {
     unknown = 0,

@@ -11,7 +11,7 @@
 namespace penumbra {
 
 /// What is asked for, else what the file asks for; and a patch size in any case: else the one that
-/// follows the scene as it stands at its start, the same for every frame that one begins with.
+/// follows the scene as it is at its start, the same for every frame that one begins with.
 /// What is still empty is up to optionsFor().
 ///
 /// \param loaded  from `file`, at `frame`

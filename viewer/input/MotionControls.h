@@ -7,7 +7,7 @@
 namespace penumbra {
 
 /// Keys and mouse movements, gathered to the MotionInput of a frame. Movement keys count by their
-/// place on the keyboard, as games have it:
+/// position on the keyboard, as games have it:
 ///
 ///     W A S D   ahead, left, back, right      E Q   up, down       Shift   run
 class MotionControls {

@@ -24,12 +24,12 @@ struct LoosenEdit {
     std::shared_ptr<Transform> node;
     bool before = false, after = false;
 };
-/// A lamp is dimmed, switched or recoloured.
+/// A light is dimmed, switched or recoloured.
 struct LightEdit {
     std::shared_ptr<Light> light;
     Rgb before, after; ///< [nit]
 };
-/// A surface is repainted, or, if it shines, dimmed or recoloured.
+/// A surface is repainted, or, if it emits, dimmed or recoloured.
 struct PaintEdit {
     std::shared_ptr<Material> material;
     struct Paint {

@@ -15,7 +15,7 @@ Selection selectionOf(const Scene& scene, const PlacedScene& placed, const Touch
     selection.normal = touch.normal;
     selection.material = touch.material;
     selection.node = findAt<Transform>(*scene.root, selection.objectPath);
-    if (!selection.node) { // of what belongs to no object, only the lamp that was touched
+    if (!selection.node) { // of what belongs to no object, only the light that was touched
         if (const auto light = findAt<Light>(*scene.root, touch.path))
             selection.lights.push_back(light);
         return selection;

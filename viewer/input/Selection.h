@@ -21,17 +21,17 @@ struct Selection {
     glm::dvec3 position{0.0}, normal{0.0};      ///< where, when it was clicked [m, world]
     std::shared_ptr<Transform> node;            ///< that begins the object; null: the rest
     std::shared_ptr<Material> material;         ///< of the face; null: of a light
-    std::vector<std::shared_ptr<Light>> lights; ///< all lamps of the object
+    std::vector<std::shared_ptr<Light>> lights; ///< all lights of the object
 
     bool movable() const { return node && node->movable(); }
-    /// Whether there is something to be dimmed: lamps, or a surface that shines.
+    /// Whether there is something to be dimmed: lights, or a surface that emits.
     bool emits() const { return !lights.empty() || (material && material->emissive()); }
 };
 
 /// The selection of what a ray touched.
 Selection selectionOf(const Scene& scene, const PlacedScene& placed, const Touch& touch);
 
-/// Every lamp of the scene, each once.
+/// Every light of the scene, each once.
 std::vector<std::shared_ptr<Light>> allLights(const Scene& scene, const PlacedScene& placed);
 
 /// Turns the frame of an object into the matrix of its node.

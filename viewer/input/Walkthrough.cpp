@@ -9,7 +9,7 @@ namespace penumbra {
 
 namespace {
 
-constexpr double kReach = 1e6;     // of looking for what is under the pointer [m]
+constexpr double kReach = 1e6;     // of the search for what is under the pointer [m]
 constexpr double kClickPixels = 4; // less is no drag
 
 } // namespace
@@ -181,7 +181,7 @@ void Walkthrough::brighten(double stops) {
     EditHistory::Step step;
     for (const auto& light : all ? allLights(scene(), placed_) : selection_->lights)
         step.push_back(LightEdit{light, light->luminance(), light->luminance() * factor});
-    if (step.empty() && !all) { // a surface that shines
+    if (step.empty() && !all) { // a surface that emits
         const Material& material = *selection_->material;
         const PaintEdit::Paint before{material.reflectance(), material.emission()};
         step.push_back(PaintEdit{

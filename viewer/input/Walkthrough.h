@@ -53,7 +53,7 @@ public:
     const EditHistory& history() const { return history_; }
     /// Makes an edit of the scene, such that it can be taken back.
     void make(const EditHistory::Step& step);
-    /// Makes the selected lamp, or all lamps, so many stops brighter.
+    /// Makes the selected lights, or all lights, so many stops brighter.
     void brighten(double stops);
     /// Something else has edited the scene graph: a played animation.
     void followScene();
@@ -101,7 +101,7 @@ private:
     std::optional<Selection> selection_;
     std::optional<Held> held_;
     EditHistory history_;
-    std::unordered_map<const Light*, Rgb> switchedOff_; ///< what a lamp was before [nit]
+    std::unordered_map<const Light*, Rgb> switchedOff_; ///< what a light was before [nit]
     double time_ = 0;
     std::uint64_t revision_ = 1;
 };

@@ -63,7 +63,7 @@ Key keyOf(int code) {
     return found == kNamed.end() ? Key::unknown : found->second;
 }
 
-/// What stands on a key, where that is a letter.
+/// What is printed on a key, where that is a letter.
 char letterOf(int code, int scan) {
     const char* const name = glfwGetKeyName(code, scan);
     if (!name || name[0] == 0 || name[1] != 0) return 0;
@@ -116,7 +116,7 @@ struct Window::Impl {
     std::vector<InputEvent> events;
     glm::dvec2 pointer{0.0};
     bool pointerKnown = false;     ///< false: the next position is no movement
-    std::array<int, 4> windowed{}; ///< place and size before full screen
+    std::array<int, 4> windowed{}; ///< position and size before full screen
 };
 
 Window::Impl::Impl(const WindowOptions& options) {

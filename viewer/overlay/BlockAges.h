@@ -14,7 +14,7 @@ namespace penumbra {
 struct LitObject;
 
 /// Follows the light that a RadiosityNode takes in, block by block. What is published again with
-/// the same values (factors of live lamps come that way) is as old as it was.
+/// the same values (factors of previewed lights come that way) is as old as it was.
 class BlockAges {
 public:
     /// To be called after each update() of the node. \param time that only grows [s]

@@ -14,7 +14,7 @@ struct Edge {
     std::uint32_t patch, a, b; ///< a lies before b, see before()
 };
 
-/// An order of places.
+/// An order of positions.
 bool before(const glm::vec3& a, const glm::vec3& b) {
     return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
 }

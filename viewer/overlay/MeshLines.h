@@ -16,7 +16,7 @@ struct MeshLines {
 
 /// An element is a triangle, or a quadrilateral that was cut into two consecutive ones: the cut is
 /// no edge. An outline of a patch is an edge of one of its elements alone; vertices count as the
-/// same one if they lie at the same place, for elements that something touches have corners of
+/// same one if they lie at the same point, for elements that something touches have corners of
 /// their own.
 MeshLines meshLines(const LitMeshData& mesh);
 

@@ -71,7 +71,7 @@ OverlayView dirtyView(std::span<const LitObject> objects, WorkOfObjects work) {
         std::size_t blocks = 0;
     };
     std::array<Shown, 4> kinds{
-        {{DirtyStatus::Kind::lights, 0, "light straight from lamps"},
+        {{DirtyStatus::Kind::lights, 0, "direct light"},
          {DirtyStatus::Kind::coming, 3, "computed, about to be shown"},
          {DirtyStatus::Kind::patches, 1, "light that surfaces pass on"},
          {DirtyStatus::Kind::deferred, 6, "deferred: too little to matter yet"}}};
@@ -132,9 +132,9 @@ OverlayView blockersView(std::span<const LitObject> objects, const PlacedScene& 
                          const PlacedScene& scene, std::span<const EmitterAccount> lights,
                          const std::string& of) {
     constexpr std::size_t kMostLights = 4, kMostBlockers = 6;
-    constexpr double kLeast = 0.01; // less is not worth a word
+    constexpr double kLeast = 0.01; // less is not mentioned
     OverlayView view;
-    view.legend.title = "Light from lamps " + of;
+    view.legend.title = "Direct light " + of;
     double whole = 0;
     std::map<std::uint32_t, double> taken; // by object [lux]
     for (const EmitterAccount& light : lights) {
@@ -147,7 +147,7 @@ OverlayView blockersView(std::span<const LitObject> objects, const PlacedScene& 
                                         light.path);
     }
     if (!(whole > 0)) {
-        view.legend.lines.push_back("no lamp shines on this side");
+        view.legend.lines.push_back("no direct light on this side");
         return view;
     }
     view.legend.lines.push_back("Share of it that an object takes:");

@@ -31,27 +31,26 @@ OverlayView ageView(std::span<const LitObject> objects, const BlockAges& ages, d
 /// What RadiosityNode::dirtyBlocks() says of each object.
 using WorkOfObjects = std::span<const std::vector<DirtyStatus>>;
 
-/// The frontier of the work: which blocks are open, and what for.
+/// The frontier of the work: which blocks are dirty, and why.
 OverlayView dirtyView(std::span<const LitObject> objects, WorkOfObjects work);
 
-/// What the open work is worth to the viewer, as the solver ranks it: a heat map over four powers
-/// of ten.
-/// \param most the largest worth so far, which the scale ends above; raised if there is a larger
-///             one, so that colours keep their meaning as work is done
+/// The priorities of dirty blocks, as the solver ranks them: a heat map over four powers of ten.
+/// \param most the highest priority so far, which the scale ends above; raised if there is a
+///             higher one, so that colours keep their meaning as work is done
 OverlayView importanceView(std::span<const LitObject> objects, WorkOfObjects work, double& most);
-/// The same if the work is done in another order: a word about that.
+/// The same if the policy is not `importance`: a line that says so.
 OverlayView noImportanceView();
 
-/// Why it is as dark as it is at a point: who takes how much of the light that lamps would give.
+/// Why it is as dark as it is at a point: who takes how much of what lights would give.
 /// Each blocker is tinted by the share of all of that light which it takes, on a scale from 0 to 1,
-/// and the account is told in lux.
+/// and the account is in lux.
 /// \param objects,below of the node, and its scene, whose paths these have
 /// \param scene         that the account is about: the same objects, with paths for people
 /// \param of            what the account is of, for people
 OverlayView blockersView(std::span<const LitObject> objects, const PlacedScene& below,
                          const PlacedScene& scene, std::span<const EmitterAccount> lights,
                          const std::string& of);
-/// The accounts of the lamps of one object, and of others if it has none.
+/// The accounts of the lights of one object, and of others if it has none.
 /// \param path of the object; empty: of all
 std::vector<EmitterAccount> lightsOf(std::vector<EmitterAccount> lights, const std::string& path);
 

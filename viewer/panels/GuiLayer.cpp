@@ -13,7 +13,7 @@ namespace {
 constexpr float kFontPixels = 15; // at 96 dpi
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
-/// Calm and dark, so that the picture is what is looked at.
+/// Calm and dark, so that the eye stays on the picture.
 void setColours() {
     ImGui::StyleColorsDark();
     ImGuiStyle& style = ImGui::GetStyle();
@@ -39,7 +39,7 @@ void setColours() {
 
 GuiLayer::GuiLayer(Window& window) : window_(window) {
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr; // the panels have their places
+    ImGui::GetIO().IniFilename = nullptr; // the panels have fixed positions
     ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;
     ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
     ImGui_ImplOpenGL3_Init("#version 330 core");

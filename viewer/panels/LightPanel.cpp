@@ -13,7 +13,7 @@ namespace penumbra {
 namespace {
 
 constexpr const char* kTriggers[] = {"when I grab or let go", "when I press U", "all the time"};
-constexpr const char* kPolicies[] = {"what I see", "one lamp by one", "anything"};
+constexpr const char* kPolicies[] = {"what I see", "light by light", "anything"};
 
 /// What the last thing that was drawn means, for those who point at it.
 void explain(const char* words) {

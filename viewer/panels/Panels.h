@@ -10,7 +10,7 @@ void drawPanels(PanelState& state);
 
 void drawViewPanel(PanelState& state);      ///< camera, exposure, tone curve, saving
 void drawLightPanel(PanelState& state);     ///< radiosity: trigger, sizes, progress, certificate
-void drawSelectionPanel(PanelState& state); ///< the selected object: lamps, paint, why it is dark
+void drawSelectionPanel(PanelState& state); ///< the selected object: lights, paint, why it is dark
 void drawTimePanel(PanelState& state);      ///< frame times and what was drawn
 
 /// What is always there: the line at the bottom, and what there is to say.

@@ -1,4 +1,4 @@
-// The selected object: lamps, paint, and why it is dark where it was clicked.
+// The selected object: lights, paint, and why it is dark where it was clicked.
 #include "radiosity/query/LightProbe.h"
 #include "viewer/panels/PanelState.h"
 #include "viewer/panels/Panels.h"
@@ -49,7 +49,7 @@ void editPaint(Walkthrough& walk, const std::shared_ptr<Material>& material) {
         };
         after.reflectance = {possible(colour[0]), possible(colour[1]), possible(colour[2])};
     }
-    if (material->emissive()) edited |= editLuminance("shines", after.emission);
+    if (material->emissive()) edited |= editLuminance("emits", after.emission);
     if (edited) walk.make({PaintEdit{material, before, after}});
 }
 
@@ -69,7 +69,7 @@ void explainLight(const Walkthrough& walk, const Selection& selection) {
                                 walk.placed().objects[loss.object.value].path.c_str());
         }
     }
-    if (lines == 0) ImGui::TextDisabled("no lamp shines on this side");
+    if (lines == 0) ImGui::TextDisabled("no direct light on this side");
     ImGui::TreePop();
 }
 

@@ -12,15 +12,15 @@
 
 namespace penumbra {
 
-/// When a thing touches a corner of an element no more, that corner is drawn with the vertex again
-/// that it shares with others (see Contact.h), which goes on with its own light. What was shown at
-/// the corner goes to that without a jump: it is drawn with a copy of the vertex that shows
+/// When a thing no longer touches a corner of an element, the corner is drawn with the shared
+/// vertex again (see Contact.h). That vertex keeps its own light. The corner fades to it without a
+/// jump: it is drawn with a copy of the vertex that shows
 ///
 ///     vertex + over (1 - w),   w as in LightFade
 ///
-/// and sets out with the vertex for its light, each time anew, so that both arrive together.
-/// `over` is what was shown there beyond the vertex, of all but the live lamps: these have the
-/// light of now at both.
+/// and begins to fade to the vertex's light with the vertex, each time anew, so that both end
+/// together. `over` is what was shown there beyond the vertex, of all but the previewed lights:
+/// of these both have the light of now.
 class CornerFade {
 public:
     struct Over {
@@ -37,7 +37,7 @@ public:
     void put(std::uint32_t entry, std::uint32_t vertex, const Over& over);
     void clear();
 
-    /// When a vertex set out for its light last; none: it waits for it.
+    /// When the last fade of a vertex began; none: it waits for its light.
     using FadeStart = std::function<std::optional<double>(std::uint32_t vertex)>;
     /// \param time see LightFade::Frame
     void advance(double time, double seconds, const FadeStart& fadeStart);
@@ -50,7 +50,7 @@ public:
 private:
     struct Corner {
         std::uint32_t vertex = 0;
-        Over first, now; ///< when it set out; on its way
+        Over first, now; ///< when the fade began; during it
         double start = kWaits;
     };
     static constexpr double kWaits = -1e30;

@@ -17,7 +17,7 @@ class LitGeometry;
 class Mesh;
 struct ShownLight;
 
-/// One lit surface in its place. The pointers are good until the graph is edited.
+/// One lit surface in its pose. The pointers are good until the graph is edited.
 struct DrawItem {
     const LitGeometry* geometry = nullptr;
     const Group* parent = nullptr; ///< one that holds the geometry
@@ -36,10 +36,10 @@ struct UnlitItem {
 struct DrawList {
     std::vector<DrawItem> items;  ///< in traversal order
     std::vector<UnlitItem> unlit; ///< in traversal order
-    std::size_t culled = 0;       ///< places left out because they are outside of the view
+    std::size_t culled = 0;       ///< instances left out because they are outside of the view
 };
 
-/// Lists every place of a LitGeometry, a Mesh or a Light below `root`, hidden ones (Switch) not
+/// Lists every instance of a LitGeometry, a Mesh or a Light below `root`, hidden ones (Switch) not
 /// counted, whose box may be seen in `frustum`.
 DrawList listVisible(const Group& root, const Frustum& frustum);
 

@@ -47,7 +47,7 @@ bool LightBlend::followObjects(const RadiosityNode& node) {
     return true;
 }
 
-/// How things stand now; the same pointer as long as they do.
+/// The scene state now; the same pointer for as long as it does not change.
 void LightBlend::observe(const RadiosityNode& node) {
     SceneState now = sceneStateOf(node, lights_);
     for (const SceneStatePtr& known : {now_, next_, rest_, behind_})

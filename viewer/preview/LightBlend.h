@@ -14,7 +14,7 @@ namespace penumbra {
 class RadiosityNode;
 struct RadiosityState;
 
-/// How it is found out what live lamps reach.
+/// How it is found what previewed lights reach.
 enum class PreviewMethod {
     maps, ///< by shadow maps, in the vertex shader: MapPreview
     rays  ///< by radiosity's rays, vertex by vertex: RayPreview
@@ -31,33 +31,33 @@ inline PreviewMethod bestPreviewMethod(bool software, unsigned threads) {
 
 struct BlendOptions {
     double seconds = 0.25; ///< that a vertex takes from one light to the next; 0: it jumps
-    int points = 16;       ///< of a lamp for its fast shadows, at most 16
+    int points = 16;       ///< of a light for its fast shadows, at most 16
     PreviewMethod by = PreviewMethod::maps;
-    std::size_t lights = kMostPreviewed; ///< emitters drawn live at most, see PreviewLimits
+    std::size_t lights = kMostPreviewed; ///< emitters previewed at most, see PreviewLimits
 };
 
 /// Follows the light of a RadiosityNode such that nothing on the screen jumps: when something
-/// begins to move the shader takes over for the live lamps (PreviewLighting), and vertex by vertex
-/// gives back when radiosity is ready (LightFade).
+/// begins to move the shader takes over for the previewed lights (PreviewLighting), and vertex by
+/// vertex gives back when radiosity is ready (LightFade).
 ///
-/// Vertices carry light of the arrangement that is *at rest*: the last one whose light became
-/// exact. The shader brings it up to date with how things stand *now*. When the light of a newer
-/// arrangement, the one that was *sent*, becomes exact, that one comes to rest: the share of the
-/// old one fades to it in all vertices at once, by one number; vertices that are not ready then
-/// keep the old one for themselves (they are *behind*) and follow one by one. Only one arrangement
-/// can be left behind at a time; if a third comes to rest before its vertices have followed, it
-/// waits until all are ready.
+/// Vertices carry light of the scene state that is *at rest*: the last one of which the light
+/// became exact. The shader brings it up to date with the state *now*. When the light of a newer
+/// state, the one that was *sent*, becomes exact, that one comes to rest. The share of the old
+/// state then falls to 0, in all vertices at once, by one number. Vertices that are not ready
+/// keep the old state for themselves (they are *behind*) and follow one by one. Only one state
+/// can be left behind at a time; if a third is to come to rest before its vertices have followed,
+/// it waits until all are ready.
 ///
 /// Indirect light is not exchanged. It fades to what was published when that is certified; if that
 /// takes long, every two seconds.
 ///
-/// It makes no difference who moves things: a hand, arrow keys, undo, an animation. If nobody has
-/// asked for live lamps, light fades as it is published.
+/// It makes no difference who moves things: a hand, arrow keys, undo, an animation. If no lights
+/// are previewed, light fades as it is published.
 class LightBlend {
 public:
     explicit LightBlend(const BlendOptions& options = {}) : options_(options) {}
 
-    /// Which lamps are to be drawn live; their paths, see lightsThatMatter(), at most
+    /// Which lights are to be previewed; their paths, see lightsThatMatter(), at most
     /// kMostPreviewed. Takes effect when nothing is on its way.
     void want(std::vector<std::string> lights);
 
@@ -66,7 +66,7 @@ public:
 
     /// What is shown of a geometry of the node; null: it is not known.
     const ShownLight* shown(const LitGeometry& geometry) const;
-    /// The live part, for the renderer.
+    /// The preview lighting, for the renderer.
     const PreviewLighting& preview() const { return preview_; }
     /// What it would be of if an object began to move now; without anchors. \param object its path,
     /// as LitObject has it
@@ -76,7 +76,7 @@ public:
     bool changing() const { return changing_; }
     /// Whether light that was published, or is to come, is not taken yet.
     bool waiting() const { return waiting_; }
-    /// Whether direct light is drawn live or on its way: exposure had better stay.
+    /// Whether direct light is previewed or fades: exposure had better stay.
     bool fading() const { return fading_ || preview_.active(); }
 
 private:
@@ -107,7 +107,7 @@ private:
     SceneStatePtr rest_, next_; ///< rest_ fades to next_, if there is one
     SceneStatePtr behind_;      ///< what some vertices are left with
     double since_ = 0;          ///< of next_ [s]
-    double indirectSince_ = 0;  ///< that indirect light set out last [s]
+    double indirectSince_ = 0;  ///< that indirect light began to fade last [s]
     PreviewLighting preview_;
     bool changing_ = false, fading_ = false, waiting_ = false;
 };

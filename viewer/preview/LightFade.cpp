@@ -28,8 +28,8 @@ bool alike(Rgb a, Rgb b) {
            std::abs(a.b - b.b) <= most;
 }
 
-/// Whether nobody sees one value take the place of another at once, even on all of the screen: a
-/// quarter of the step that is just seen there.
+/// Whether nobody sees the jump from one value to another, even on all of the screen: a quarter of
+/// the step that is just seen there.
 bool unseen(Rgb a, Rgb b) {
     return maxChannel(absolute(a - b)) <= 1e-3f * std::min(maxChannel(a), maxChannel(b));
 }
@@ -69,8 +69,8 @@ void LightFade::followTopology(const PublishedGeometry& geometry) {
     findBorders(data);
 }
 
-/// Vertices that stand for none of the corners that they stood for before take over what was shown
-/// at one of those that they stand for now. All others show their own light, and corners that have
+/// Vertices that represent none of their earlier corners any more take over what was shown at one
+/// of those that they represent now. All others show their own light, and corners that have
 /// come to be drawn with them go to that.
 void LightFade::adopt(const PublishedGeometry& geometry) {
     const LitMeshData& data = geometry.data();
@@ -118,8 +118,8 @@ void LightFade::beginWith(std::uint32_t vertex, const Light& light) {
     ++shown_.blockRevisions[vertex / kBlock];
 }
 
-/// How much more light that is than what a vertex shows, without that of live lamps: it is brought
-/// up to date, from whatever it is in both, to what it is now.
+/// How much more light that is than what a vertex shows, without that of previewed lights: it is
+/// brought up to date, from whatever it is in both, to what it is now.
 CornerFade::Over LightFade::beyond(const PublishedGeometry& geometry, std::uint32_t vertex,
                                    const Light& light) const {
     CornerFade::Over over{light.direct - shown_.direct[vertex],
@@ -162,7 +162,7 @@ void LightFade::setLights(std::size_t lights) {
         for (auto& way : flight.direct) way.from.factors = way.target.factors = LightFactors();
     for (std::uint64_t& revision : shown_.blockRevisions) ++revision;
     ++shown_.revision;
-    std::fill(seen_.begin(), seen_.end(), 0); // all are looked at again
+    std::fill(seen_.begin(), seen_.end(), 0); // all are checked again
     revision_ = 0;
 }
 
@@ -204,8 +204,8 @@ LightFade::Direct LightFade::target(const PublishedGeometry& geometry, std::size
     return direct;
 }
 
-/// The share o of the old arrangement in a vertex is `behind` b of it and, with the arrangement
-/// that all others leave, o = b + (1 - b) rest.
+/// The share o of the old scene state in a vertex is `behind` b of it and, with the state that all
+/// others leave, o = b + (1 - b) rest.
 LightFade::Direct LightFade::shownDirect(std::size_t vertex, const Frame& frame) const {
     if (shown_.factors.empty()) return {shown_.direct[vertex]};
     const float behind = shown_.behind[vertex];
@@ -268,7 +268,7 @@ bool LightFade::advanceDirect(const PublishedGeometry& geometry, std::size_t ver
         return true;
     if (wanted == (way.start != kNever ? way.target : now)) return way.start == kNever;
     if (wanted.light == now.light && wanted.old == now.old) {
-        setShown(vertex, wanted, frame); // lamps have become known: nothing is seen of that
+        setShown(vertex, wanted, frame); // lights have become known: nothing is seen of that
         way.start = kNever;
         return true;
     }

@@ -12,21 +12,21 @@
 
 namespace penumbra {
 
-/// Keeps what is shown of a geometry apart from what it carries, and lets the one follow the
-/// other without a jump: each vertex by a smoothstep in time, in linear light,
+/// Keeps apart what is shown of a geometry and what it carries. The former follows the latter
+/// without a jump, each vertex by a smoothstep in time, in linear light,
 ///
 ///     shown = from + (target - from) w,   w = s^2 (3 - 2 s),   s = (t - start) / seconds
 ///
-/// A vertex takes a new target when it is *ready*: its direct light, when the factors of all live
-/// lamps are exact in its block and in the blocks that share a triangle with it, so that no
-/// triangle is half ready; its indirect light, when a frame says so, all at once. Until then it
-/// goes on to the target that it has, or stays. A target that comes while it is on its way starts a
-/// new way from what is shown.
+/// A vertex takes a new target when it is *ready*. Its direct light is ready when the factors of
+/// all previewed lights are exact in its block and in the blocks that share a triangle with it, so
+/// that no triangle is half ready. Indirect light is ready when a frame says so, at all vertices at
+/// once. Until then the vertex goes on to the target that it has, or stays. A target that comes
+/// during a fade starts a new fade from what is shown.
 ///
-/// A vertex that comes to stand for a corner of a triangle (see Contact.h) begins with the light
+/// A vertex that comes to represent a corner of a triangle (see Contact.h) begins with the light
 /// that was shown there. If it goes on with its own, the corner does not: see CornerFade.
 ///
-/// Only blocks that wait or are on their way cost anything.
+/// Only blocks that wait or fade cost anything.
 class LightFade {
 public:
     /// Shows what the geometry carries.
@@ -35,20 +35,21 @@ public:
     struct Frame {
         double time = 0;        ///< [s]
         double seconds = 0.25;  ///< of a fade; 0: at once
-        std::size_t lights = 0; ///< live ones; with none of them every vertex is always ready
-        bool fresh = true;      ///< what is exact is the light of the arrangement that is at rest
-        /// Share of the arrangement before that vertices have which are not behind; it falls to 0.
+        std::size_t lights = 0; ///< previewed ones; with none of them every vertex is always ready
+        bool fresh = true;      ///< what is exact is the light of the scene state that is at rest
+        /// Share of the state before in vertices that are not behind; it falls to 0.
         float rest = 0;
-        /// Vertices that are behind are so with that arrangement, and not with one before it: those
-        /// follow only when `rest` has come to 0, for a vertex has but two arrangements.
+        /// Vertices that are behind are so with that state, and not with one before it: those
+        /// follow only when `rest` has come to 0, for a vertex has but two states.
         bool behindIsRest = true;
-        bool indirect = true; ///< indirect light may set out, and does not wait
+        bool indirect = true; ///< indirect light may begin to fade, and does not wait
     };
 
-    /// Begins anew with another number of live lamps: no factors are known. \pre nothing is behind
+    /// Begins anew with another number of previewed lights: no factors are known. \pre nothing is
+    /// behind
     void setLights(std::size_t lights);
 
-    /// Another arrangement comes to rest: vertices that are not ready stay behind with the one
+    /// Another scene state comes to rest: vertices that are not ready stay behind with the one
     /// before (see ShownLight::behind). \return whether there are any
     bool leaveBehind(const PublishedGeometry& geometry, const Frame& frame);
     /// What leaveBehind() would return.
@@ -73,8 +74,7 @@ private:
     struct Direct {
         Rgb light;
         LightFactors factors = {};
-        float old =
-            0; ///< share that the arrangement before, or the one that is behind, has in them
+        float old = 0; ///< share that the state before, or the one that is behind, has in them
         friend bool operator==(const Direct&, const Direct&) = default;
     };
     template <class T>

@@ -58,7 +58,7 @@ double lightAt(const Emitter& emitter, glm::dvec3 thing) {
     return sum;
 }
 
-/// Where an emitter is looked for.
+/// Points of an emitter that are tested for whether they are seen.
 glm::dvec3 centreOf(const Emitter& emitter) {
     if (emitter.kind != Emitter::Kind::polygons) return emitter.centre;
     glm::dvec3 sum(0);

@@ -1,4 +1,4 @@
-// Which lamps matter to a thing.
+// Which lights matter to a thing.
 #pragma once
 
 #include "radiosity/mesh/PatchSet.h"
@@ -12,32 +12,33 @@
 
 namespace penumbra {
 
-/// A light or a mesh that shines.
+/// A light or an emissive mesh.
 struct PreviewLight {
     std::string path;
     ObjectId object;
     std::vector<Emitter> emitters; ///< [m, world]
 };
 
-/// The lamps below a node that shine, are shown and can be drawn live: by rays all lights and those
-/// meshes of which all that shines is of one brightness, by maps rectangles, disks and spheres.
+/// The lights below a node that are on, are shown and can be previewed: by rays all UsdLux lights
+/// and meshes of which all emitting faces have one luminance, by maps rectangles, disks and
+/// spheres.
 std::vector<PreviewLight> previewableLights(const RadiosityNode& node, PreviewMethod by);
 
 struct PreviewLimits {
-    std::size_t most = kMostPreviewed; ///< emitters: each costs as much as another lamp
-    double least = 0;                  ///< share of all light that a lamp has to have
-    bool hidden = true;                ///< lamps that the object does not see now, as well
+    std::size_t most = kMostPreviewed; ///< emitters: each costs as much as another light
+    double least = 0;                  ///< share of all light that a light has to have
+    bool hidden = true;                ///< lights that the object does not see now, as well
 };
 PreviewLimits previewLimits(PreviewMethod by);
 
-/// The lamps to be drawn live while an object moves, the most important ones first: those in it,
+/// The lights to be previewed while an object moves, the most important ones first: those in it,
 /// then those that give it the most light, of which it may take the most away from what lies
 /// behind it. Of an emitter that gives E without obstacles and is seen from a share v of the object
-/// (its corners and its middle), E v counts. Lamps that are not seen come last, as if half a corner
-/// saw them: the object may be moved into their light. Lamps that are turned away from it give
-/// none.
+/// (its corners and its middle), E v counts. Lights that are not seen come last, as if half a
+/// corner saw them: the object may be moved into their light. Lights that are turned away from it
+/// give none.
 ///
-/// \param object in `rays`, as Lamp::object \return paths
+/// \param object in `rays`, as PreviewLight::object \return paths
 std::vector<std::string> lightsThatMatter(const std::vector<PreviewLight>& lights,
                                           const SceneRays& rays, ObjectId object,
                                           const PreviewLimits& limits);

@@ -1,4 +1,4 @@
-// Lamps whose light is drawn live, while something in it moves: what the renderer is told.
+// Previewed lights, while something in their light moves: what the renderer needs of them.
 #pragma once
 
 #include "base/Rgb.h"
@@ -16,7 +16,7 @@ namespace penumbra {
 
 constexpr std::size_t kMostPreviewedByMaps = 4; ///< their factors are one attribute of a vertex
 
-/// How lit objects and live lamps stand at one time.
+/// Where lit objects and previewed lights are at one time.
 struct SceneState {
     struct ObjectState {
         glm::dmat4 toWorld{1.0}; ///< of the geometry's frame
@@ -30,27 +30,27 @@ struct SceneState {
 };
 using SceneStatePtr = std::shared_ptr<const SceneState>;
 
-/// Vertices carry light of an earlier time, when things stood otherwise. The shader brings it up to
-/// date: with F_u a lamp's form factor in closed form and V the share of it that is seen, by shadow
-/// maps, a vertex of which the lamp's factor was f is shown with
+/// Vertices carry light of an earlier scene state. The shader brings it up to date: with F_u a
+/// light's form factor in closed form and V the share of it that is seen, by shadow maps, a vertex
+/// of which the light's factor was f is shown with
 ///
 ///     f + sum over anchors a of share_a (F_u(now) V(now) - F_u(a) V(a))
 ///
-/// in place of f; anchors are arrangements of earlier times whose light is in the vertex, by their
-/// shares. The sum is kept in [0, F_u(now) + max(0, f - F_u(then))]; the last term is what the
-/// triangle, on which f is linear, has too much. It is the sum that is kept there, not each of its
-/// terms: f is a mixture as well, and what one term takes another may have to give.
+/// instead of f; anchors are earlier scene states whose light is in the vertex, by their shares.
+/// The sum is kept in [0, F_u(now) + max(0, f - F_u(then))]; the last term is what the triangle, on
+/// which f is linear, has too much. The bound holds for the sum and not for each of its terms: f is
+/// a mixture as well, and terms may cancel.
 ///
-/// Where nothing has changed the light is f, exactly: nothing jumps when a thing is taken hold of,
-/// and what lies in no shadow keeps its radiosity.
+/// Where nothing has changed the light is f, exactly: nothing jumps when a drag begins, and what
+/// lies in no shadow keeps its radiosity.
 struct PreviewLighting {
     struct Object {
         std::shared_ptr<const LitGeometry> geometry;
-        bool moves = false; ///< does not stand alike in all arrangements
+        bool moves = false; ///< has not the same pose in all scene states
     };
     struct PreviewLight {
         Rgb exitance;       ///< pi L, now [lm/m^2]
-        bool moves = false; ///< its shadows are looked for everywhere, not behind what moves alone
+        bool moves = false; ///< else its shadows change only behind what moves
     };
     struct Anchor {
         SceneStatePtr sceneState;
@@ -61,7 +61,7 @@ struct PreviewLighting {
     std::vector<PreviewLight> lights; ///< at most kMostPreviewed; by maps, kMostPreviewedByMaps
     SceneStatePtr now;
     std::vector<Anchor> anchors; ///< at most 3, none of them now
-    int points = 16;             ///< of a lamp, from which shadows are drawn; at most 16
+    int points = 16;             ///< of a light, from which shadows are drawn; at most 16
 
     bool active() const { return !lights.empty() && !anchors.empty(); }
 };

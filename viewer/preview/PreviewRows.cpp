@@ -37,7 +37,7 @@ bool PreviewRows::knows(const PreviewLighting& light) const {
                       alike);
 }
 
-/// Whether what is known still holds: the same things move, the same lamps are live.
+/// Whether what is known still holds: the same things move, the same lights are previewed.
 bool PreviewRows::sameMoves(const PreviewLighting& light) {
     std::vector<bool> moves, lightMoves;
     for (const auto& object : light.objects) moves.push_back(object.moves);
@@ -64,8 +64,8 @@ void PreviewRows::followTriangles(const ShownOf& shown) {
     }
 }
 
-/// Vertices that begin with the light of others have, in the arrangements that this is of, been lit
-/// where those were.
+/// A vertex that took over the light of another one also takes over the points at which that light
+/// was evaluated.
 void PreviewRows::carryOver(std::uint32_t object, const std::vector<AdoptedVertex>& adopted) {
     for (std::size_t s = 1; s < slots_.size(); ++s) {
         std::vector<std::pair<Key, Receiver>> places;
@@ -119,7 +119,7 @@ void PreviewRows::chooseSlots(const PreviewLighting& light) {
     std::vector<SceneStatePtr> wanted{light.now};
     for (const auto& anchor : light.anchors) wanted.push_back(anchor.sceneState);
     std::vector<Slot> slots(wanted.size());
-    for (std::size_t s = wanted.size(); s-- > 0;) { // now last: things stay as they stand there
+    for (std::size_t s = wanted.size(); s-- > 0;) { // now last: things keep their poses of now
         const auto known = std::find_if(slots_.begin(), slots_.end(),
                                         [&](const Slot& slot) { return slot.of == wanted[s]; });
         slots[s] = known != slots_.end() ? std::move(*known) : makeSlot(light, wanted[s]);
@@ -128,7 +128,7 @@ void PreviewRows::chooseSlots(const PreviewLighting& light) {
     slots_ = std::move(slots);
 }
 
-/// Lamps between which and a box something that moves may stand.
+/// Lights between which and a box something that moves may be.
 unsigned PreviewRows::lightsThrough(const PreviewLighting& light, const Slot& slot,
                                     const Bounds& box) const {
     unsigned lights = 0;
@@ -144,7 +144,7 @@ unsigned PreviewRows::lightsThrough(const PreviewLighting& light, const Slot& sl
     return lights;
 }
 
-/// Lamps whose light a change may take from what lies in a box of an object [m, local], or give it.
+/// Lights that a change may hide from what lies in a box of an object [m, local], or uncover.
 unsigned PreviewRows::lightsReaching(const PreviewLighting& light, std::uint32_t object,
                                      const Bounds& box) const {
     unsigned lights = light.objects[object].moves ? (1u << light.lights.size()) - 1 : 0;
@@ -155,7 +155,7 @@ unsigned PreviewRows::lightsReaching(const PreviewLighting& light, std::uint32_t
 }
 
 /// Blocks with vertices that a change may reach and that can be seen, of one object. Of what moves,
-/// half looks away.
+/// half is turned away.
 std::vector<PreviewRows::Reached> PreviewRows::reachedOf(const PreviewLighting& light,
                                                          std::uint32_t object, const View* view,
                                                          const Frustum* frustum) const {
@@ -179,7 +179,7 @@ std::vector<PreviewRows::Reached> PreviewRows::reachedOf(const PreviewLighting& 
     return reached;
 }
 
-/// Vertices that stand for corners lie all over the object: each is looked at by itself. What
+/// Vertices that represent corners lie all over the object: each is tested by itself. What
 /// touches one of the elements around a corner concerns it as well.
 void PreviewRows::addReachedStandIns(const PreviewLighting& light, std::uint32_t object,
                                      std::vector<Reached>& reached) const {
@@ -242,7 +242,7 @@ void PreviewRows::findTouched(const PreviewLighting& light) {
     }
 }
 
-/// Where a vertex takes its light in an arrangement, whatever it carries.
+/// The point at which a vertex is evaluated in a scene state, whatever light it carries.
 Receiver PreviewRows::ownReceiver(const Slot& slot, std::uint32_t object,
                                   std::size_t vertex) const {
     const PreviewSurface& surface = surfaces_[object];
@@ -263,7 +263,7 @@ Receiver PreviewRows::ownReceiver(const Slot& slot, std::uint32_t object,
                                     : stage_->receiver(object, vertex);
 }
 
-/// Where the light that it carries of an arrangement was taken.
+/// The point at which the light that it carries of a scene state was evaluated.
 Receiver PreviewRows::receiver(const Slot& slot, std::uint32_t object, std::size_t vertex) const {
     if (!slot.instead.empty()) {
         const auto at = slot.instead.find(keyOf(object, vertex));
@@ -282,7 +282,7 @@ void PreviewRows::prepare(const PreviewLighting& light, const ShownOf& shown, co
     chooseSlots(light);
     findReached(light, view);
     findTouched(light);
-    // Now comes last: what all arrangements have in common is as it was when it was lit.
+    // Now comes last: what all states have in common is traced as it was when it was lit.
     for (std::size_t s = slots_.size(); s-- > 0;) trace(light, slots_[s]);
     traceTouched();
 }

@@ -1,4 +1,4 @@
-// What lamps give to vertices while things move, by rays.
+// What lights give to vertices while things move, by rays.
 #pragma once
 
 #include "radiosity/rows/EmitterSender.h"
@@ -23,15 +23,15 @@ namespace penumbra {
 class Frustum;
 class EmitterRowBuilder;
 
-/// Rows of the shadow-form-factor-list for the live lamps, of those vertices alone that a change
-/// may reach: the same closed forms, samples and rays as radiosity takes (EmitterRowBuilder), at
-/// the same places (PreviewScene), so that both come to the same light. Kept arrangement by
-/// arrangement as long as that is asked for: what stands still is traced once, and where what moves
-/// is not in the way of a lamp it does not matter where it is.
+/// Rows of the shadow-form-factor-list for the previewed lights, of those vertices alone that a
+/// change may reach: the same closed forms, samples and rays as radiosity takes
+/// (EmitterRowBuilder), at the same points (PreviewScene), so that both come to the same light.
+/// They are kept for each scene state, for as long as that is asked for: what does not move is
+/// traced once, and what moves matters only where it is in the way of a light.
 ///
-/// A vertex takes its light, in an arrangement, where it took it when it was lit: those that stand
-/// for corners at the place that was found for these then. Corners that something touches now are
-/// listed by themselves.
+/// Each vertex remembers the point at which radiosity evaluated it in a scene state; the preview
+/// evaluates it at the same point. For a vertex that represents a corner this is the point that
+/// was found for the corner then. Corners that something touches now are in a list of their own.
 class PreviewRows {
 public:
     static constexpr std::size_t kBlock = LitGeometry::kBlock;
@@ -45,30 +45,31 @@ public:
 
     /// Indexes these geometries (null: none) for rays, unless they are.
     void require(const std::vector<std::shared_ptr<const LitGeometry>>& geometries);
-    /// Whether what is known is of this arrangement, as it stands now.
+    /// Whether what is known is of this scene state, now.
     bool knows(const PreviewLighting& light) const;
 
-    /// A block that a live change may reach, by which lamps, and which of its vertices: a bit each.
+    /// A block that a previewed change may reach, by which lights, and which of its vertices: a bit
+    /// each.
     struct Reached {
         std::uint32_t object = 0, block = 0;
         unsigned lights = 0;
         std::uint64_t vertices = ~std::uint64_t(0);
     };
-    /// Traces what is missing. \param light of some lamps; without anchors: what it is like now, so
-    /// that little is missing when something begins to move \param shown what vertices carry
-    /// \param view from where it is looked at: what can't be seen is left out; null: nothing is
+    /// Traces what is missing. \param light of some lights; without anchors: what it is like now,
+    /// so that little is missing when something begins to move \param shown what vertices carry
+    /// \param view from where it is seen: what can't be seen is left out; null: nothing is
     void prepare(const PreviewLighting& light, const ShownOf& shown, const View* view);
     /// Drops what is known.
     void forget();
     std::span<const Reached> reached() const { return reached_; }
 
     using Factors = std::array<float, kBlock>; ///< F V of the vertices of a block
-    /// Of a lamp that reaches the block. \param slot 0: now; 1 ...: the anchors \param at an index
+    /// Of a light that reaches the block. \param slot 0: now; 1 ...: the anchors \param at an index
     /// of reached()
     const Factors& factors(std::size_t slot, std::size_t at, std::size_t source) const {
         return slots_[slot].found[at * kMostPreviewed + source]->factors;
     }
-    /// What a lamp gives to a vertex now when nothing is in its way.
+    /// What a light gives to a vertex now when nothing is in its way.
     float unoccluded(const Reached& at, std::size_t source, std::size_t vertex) const;
 
     /// A corner that something touches now, but is drawn with a vertex that it shares.
@@ -90,13 +91,13 @@ private:
     using Table = std::unordered_map<Key, Known>;
     struct Slot {
         SceneStatePtr of;
-        std::vector<std::vector<EmitterSender>> senders; ///< by lamp; none: hidden
+        std::vector<std::vector<EmitterSender>> senders; ///< by light; none: hidden
         std::vector<Bounds> things; ///< boxes around what moves, one a thing [m, world]
         std::unordered_map<std::uint32_t, Pose> poses; ///< of objects that move
         std::vector<TouchedCorner> touched;
         std::unordered_map<Key, Receiver> instead; ///< of vertices that are lit somewhere else
         Table table;
-        /// What is known of what is reached, by index of reached() and lamp; null: not reached.
+        /// What is known of what is reached, by index of reached() and light; null: not reached.
         std::vector<const Known*> found;
     };
     struct Task {

@@ -1,4 +1,4 @@
-// The rays of PreviewRows: of what is missing, in one arrangement.
+// The rays of PreviewRows: of what is missing, in one scene state.
 #include "base/Bits.h"
 #include "base/Parallel.h"
 #include "radiosity/rays/Shaft.h"
@@ -10,8 +10,8 @@
 
 namespace penumbra {
 
-/// Whether nothing that moves is between a lamp and a vertex, and it is lit where it always is when
-/// nothing that moves touches it. Blocks are wide: of the vertices of one that something is before,
+/// Whether nothing that moves is between a light and a vertex or touches the vertex: it is then
+/// evaluated where it always is. Blocks are wide: of the vertices of one that something is before,
 /// it is before a few.
 bool PreviewRows::isClear(const Task& task, std::size_t vertex, const Receiver& receiver) const {
     const Slot& slot = *task.slot;
@@ -62,7 +62,7 @@ void PreviewRows::run(const Task& task, EmitterRowBuilder& builder) const {
     }
 }
 
-/// For all that is reached, lamps that something that moves may be before in this arrangement.
+/// For all that is reached, lights that what moves may hide in this scene state.
 std::vector<unsigned> PreviewRows::lightsInDoubt(const PreviewLighting& light,
                                                  const Slot& slot) const {
     std::vector<unsigned> lights(reached_.size(), ~0u);
@@ -78,7 +78,7 @@ std::vector<unsigned> PreviewRows::lightsInDoubt(const PreviewLighting& light,
     return lights;
 }
 
-/// Things stay as they stand now.
+/// Things keep their present poses.
 const RayScene& PreviewRows::raysOf(const Slot& slot) {
     if (&slot != &slots_.front()) return stage_->raysAt(*slot.of);
     stage_->pose(*slot.of);
@@ -114,7 +114,7 @@ void PreviewRows::trace(const PreviewLighting& light, Slot& slot) {
     });
 }
 
-/// What is touched now: a few corners, looked at anew in each frame.
+/// What is touched now: a few corners, evaluated anew in each frame.
 void PreviewRows::traceTouched() {
     if (touched_.empty()) return;
     const Slot& now = slots_.front();

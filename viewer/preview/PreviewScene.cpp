@@ -27,7 +27,7 @@ void PreviewScene::free(std::uint32_t object) {
     part.shape.rayVertices = set_.rayMeshes[object].vertices;
 }
 
-/// What stands otherwise than in `places`, which follow.
+/// What has another pose than in `places`, which follow.
 std::vector<PosedPatches::ObjectPose> PreviewScene::follow(ObjectStates& states,
                                                            const SceneState& sceneState) {
     std::vector<ObjectPose> wanted;

@@ -1,4 +1,4 @@
-// Where lit things stand for live rays, and what they touch there.
+// The poses of lit things for preview rays, and what they touch there.
 #pragma once
 
 #include "radiosity/mesh/PatchSet.h"
@@ -21,28 +21,28 @@ struct TouchedCorner {
     Receiver at;              ///< [m, world]
 };
 
-/// Radiosity's own patches, rays and contacts, brought to where things stand in an arrangement, so
-/// that light is looked for at the same places.
+/// Radiosity's own patches, rays and contacts, posed as in a scene state, so that light is
+/// evaluated at the same points.
 class PreviewScene {
 public:
     /// \param set see RadiosityNode::patches()
     explicit PreviewScene(PatchSet set);
 
-    /// Things stand as in this arrangement from now on; costs what changes.
+    /// Poses things as in this scene state; costs what changes.
     void pose(const SceneState& sceneState);
 
     const RayScene& rays() const { return posed_.rays(); }
-    /// Rays through things as they stand in another arrangement; what they touch there is not
-    /// looked for. Costs what changes from one call to the next.
+    /// Rays through things as they are in another scene state; what they touch there is not
+    /// searched for. Costs what changes from one call to the next.
     const RayScene& raysAt(const SceneState& sceneState);
-    /// Where a vertex of an object takes its light when nothing touches it; as things stand, and in
-    /// a pose of the object.
+    /// The point at which a vertex of an object is evaluated when nothing touches it: with things
+    /// as they are, and in a pose of the object.
     Receiver receiver(std::uint32_t object, std::size_t vertex) const;
     Receiver receiver(std::uint32_t object, std::size_t vertex, const Pose& pose) const;
-    /// What is touched as things stand, by object and corner.
+    /// What is touched in the present poses, by object and corner.
     std::vector<TouchedCorner> touched() const;
 
-    /// Vertices that an object has from the start; those behind them stand for corners.
+    /// Vertices that an object has from the start; those behind them represent corners.
     std::size_t vertices(std::uint32_t object) const { return set_.objects[object].vertices.count; }
     /// The elements of an object when nothing touches it; their vertices are the set's.
     std::span<const Element> elements(std::uint32_t object) const;

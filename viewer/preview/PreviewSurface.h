@@ -1,4 +1,4 @@
-// One lit surface as live rays see it: its blocks, and which vertices stand for touched corners.
+// One lit surface as preview rays see it: its blocks, and which vertices represent touched corners.
 #pragma once
 
 #include "base/Bounds.h"
@@ -16,7 +16,7 @@
 namespace penumbra {
 
 /// Follows how a LitGeometry is drawn: the vertices that it has from the start lie in blocks, those
-/// behind them stand for single corners of elements that something touches (see LitObjects), now
+/// behind them represent single corners of elements that something touches (see LitObjects), now
 /// for one and later for another.
 class PreviewSurface {
 public:
@@ -44,7 +44,7 @@ public:
     /// Vertices from the start that have an element which does not turn its back on a point: one
     /// bit each, a word a block. \param eye [m, local]
     std::vector<std::uint64_t> turnedTo(glm::vec3 eye) const;
-    /// A vertex behind those from the start, and what it stands for.
+    /// A vertex behind those from the start, and what it represents.
     struct StandIn {
         std::uint32_t vertex = 0, corner = 0; ///< see TouchedCorner
     };

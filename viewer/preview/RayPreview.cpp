@@ -54,7 +54,7 @@ void RayPreview::follow(Copy& copy, const ShownLight& from) {
     }
 }
 
-/// Factors of a lamp at a block, in the arrangements of the anchors.
+/// Factors of a light at a block, in the scene states of the anchors.
 RayPreview::Then RayPreview::thenOf(const PreviewLighting& light, std::size_t at,
                                     std::size_t source) const {
     Then then{};
@@ -63,8 +63,8 @@ RayPreview::Then RayPreview::thenOf(const PreviewLighting& light, std::size_t at
     return then;
 }
 
-/// The formula of PreviewLighting for one lamp, over its exitance. There is no less light than
-/// none, and no more than without obstacles. \param unoccluded asked for what the lamp gives then,
+/// The formula of PreviewLighting for one light, over its exitance. There is no less light than
+/// none, and no more than without obstacles. \param unoccluded asked for what the light gives then,
 /// if that matters
 template <class Unoccluded>
 float RayPreview::change(const PreviewLighting& light, const ShownLight& from, const Then& then,
@@ -129,8 +129,8 @@ void RayPreview::bringAllUpToDate(const PreviewLighting& light, const ShownOf& s
     }
 }
 
-/// Copies that are there already show so much more than their vertices as they do without live
-/// lamps.
+/// Copies that are there already show so much more than their vertices as they do without previewed
+/// lights.
 void RayPreview::bringCopiesUpToDate(Copy& copy, const ShownLight& from) {
     const std::size_t first = from.direct.size() - from.copies.size();
     for (std::size_t c = 0; c < from.copies.size(); ++c) {
@@ -152,7 +152,7 @@ void RayPreview::drawTouched(Copy& copy, std::span<const PreviewRows::Touched> t
     copy.light.indirect.resize(copy.vertices);
     for (const PreviewRows::Touched& corner : touched) {
         const PreviewSurface& surface = rows_.surface(corner.object);
-        std::size_t drawn = corner.vertex; // without live lamps
+        std::size_t drawn = corner.vertex; // without previewed lights
         for (const std::uint32_t entry : surface.entriesOf(corner.corner)) {
             drawn = drawnAt(from, entry, drawn);
             redrawn.emplace_back(entry, std::uint32_t(copies.size()));

@@ -1,4 +1,4 @@
-// The light of live lamps at vertices, by rays.
+// The light of previewed lights at vertices, by rays.
 #pragma once
 
 #include "viewer/preview/PreviewLighting.h"
@@ -15,8 +15,8 @@
 namespace penumbra {
 
 /// Brings the light that vertices carry up to date, as PreviewLighting says, before it is drawn:
-/// with visibility by rays (PreviewRows) in place of shadow maps. As the rays are radiosity's own,
-/// the fast shadow is the soft one: there is nothing to be seen of its becoming exact. See
+/// with visibility by rays (PreviewRows) instead of shadow maps. As the rays are radiosity's own,
+/// the fast shadow is the soft one: nobody sees when it becomes exact. See
 /// bestPreviewMethod().
 class RayPreview {
 public:
@@ -24,13 +24,14 @@ public:
     RayPreview(int samples, PreviewRows::PatchesOf patches) : rows_(samples, std::move(patches)) {}
 
     using ShownOf = PreviewRows::ShownOf;
-    /// Once a frame. \param shown what is shown without live lamps \param view see PreviewRows
+    /// Once a frame. \param shown what is shown without previewed lights \param view see
+    /// PreviewRows
     void update(const PreviewLighting& light, const ShownOf& shown, const View* view = nullptr);
     /// The same while nothing moves. \param expected see LightBlend::expecting(): is made ready, so
     /// that the first frame of a move need not
     void rest(const PreviewLighting& expected, const ShownOf& shown, const View* view = nullptr);
 
-    /// What is shown of a geometry; null: what is shown without live lamps.
+    /// What is shown of a geometry; null: what is shown without previewed lights.
     const ShownLight* shown(const LitGeometry& geometry) const;
 
 private:

@@ -43,7 +43,7 @@ Rgb exitanceOf(const PlacedScene& placed, const std::string& source) {
     for (std::size_t face = 0; mesh && face < mesh->node->faceCount(); ++face)
         if (const Material& material = *mesh->node->materialOf(face); material.emissive())
             return lambertianExitance(
-                material.emission()); // all that shines of it is alike, see EmissiveMesh
+                material.emission()); // all of its emitting faces are alike, see EmissiveMesh
     return {};
 }
 

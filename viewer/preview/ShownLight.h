@@ -13,7 +13,7 @@ namespace penumbra {
 
 constexpr std::size_t kMostPreviewed = 8;
 
-/// Factors (see LightShare) of the live lamps at a vertex; negative: not known.
+/// Factors (see LightShare) of the previewed lights at a vertex; negative: not known.
 struct LightFactors {
     LightFactors() : LightFactors(-1) {}
     explicit LightFactors(float all) { of.fill(all); }
@@ -24,25 +24,25 @@ struct LightFactors {
     std::array<float, kMostPreviewed> of;
 };
 
-/// A vertex that began with the light of another one, in whose place triangles have it.
+/// A vertex that began with the light of another one, which it replaces in triangles.
 struct AdoptedVertex {
     std::uint32_t vertex = 0, from = 0;
 };
 
-/// In place of what a LitGeometry carries: the same vertices, in the same blocks.
+/// Instead of what a LitGeometry carries: the same vertices, in the same blocks.
 struct ShownLight {
     std::vector<Rgb> direct, indirect; ///< [lux]
-    /// Of the live lamps, that direct contains. Empty: there are none.
+    /// Of the previewed lights, that direct contains. Empty: there are none.
     std::vector<LightFactors> factors;
-    /// Share of the light that is of the arrangement which most vertices have left behind, in
+    /// Share of the light that is of the scene state which most vertices have left behind, in
     /// [0, 1] (see PreviewLighting::Anchor). As long as factors.
     std::vector<float> behind;
 
-    /// Those of the last time that triangles came to be made of other vertices.
+    /// From the last time that triangles changed their vertices.
     std::vector<AdoptedVertex> adopted;
 
-    /// Corners of triangles that are drawn with light of their own: what is above goes on
-    /// behind the vertices of the geometry with vertices that lie where these do,
+    /// Corners of triangles that are drawn with light of their own: the arrays above go on,
+    /// behind the vertices of the geometry, with copies of these vertices,
     std::vector<std::uint32_t> copies;
     /// and these entries of LitMeshData::indices are drawn with those, counted from the first one
     /// of the geometry.

@@ -41,7 +41,7 @@ struct MapPreview::Impl {
     PreviewStatistics statistics;
 };
 
-/// The item's places now and in the anchors, in the frame of the maps.
+/// The item's poses now and in the anchors, in the frame of the maps.
 void MapPreview::Impl::setPlaces(const LitItem& item) {
     const bool own = moves(item);
     program.set("ownMoves", int(own));
@@ -77,7 +77,7 @@ unsigned MapPreview::reaching(const LitItem& item, const TriangleChunk& chunk) c
     return lights;
 }
 
-/// The lamps of a mask, one after the other.
+/// The lights of a mask, one after the other.
 void MapPreview::Impl::setLights(unsigned mask) {
     int count = 0;
     for (int l = 0; l < int(kMostPreviewedByMaps); ++l)

@@ -19,9 +19,9 @@ struct PreviewStatistics {
 };
 
 /// The renderer's part of PreviewLighting: shadow maps of what moves, tight around it, and of what
-/// stands in the same light, for each arrangement; and a program that adds the change of the light
+/// is in the same light, for each scene state; and a program that adds the change of the light
 /// to what vertices carry. It is used for those triangles alone that a change may reach: whose
-/// shaft to a lamp meets what moves; all others are drawn as ever.
+/// shaft to a light meets what moves; all others are drawn as ever.
 class MapPreview {
 public:
     MapPreview();
@@ -31,11 +31,11 @@ public:
     /// \param light with PreviewLighting::active()
     void prepare(const PreviewLighting& light, GeometryCache& cache);
 
-    /// Which lamps' change may reach a triangle of a chunk, a bit a lamp. After prepare(), before
+    /// Which lights' change may reach a triangle of a chunk, a bit a light. After prepare(), before
     /// the next.
     unsigned reaching(const LitItem& item, const TriangleChunk& chunk) const;
 
-    /// Triangles of one range of an item that the same lamps reach.
+    /// Triangles of one range of an item that the same lights reach.
     struct Runs {
         std::size_t item = 0, range = 0;
         unsigned lights = 0;

@@ -16,9 +16,9 @@ namespace {
 constexpr int kLayerSize = 1024;               // [texels]
 constexpr int kTightTiles = 4, kCubeTiles = 5; // a side: 16 points, 4 points of 6 faces
 constexpr int kCubePoints = 2;
-constexpr float kFixedNear = 0.01f; // [m]; nearer to a lamp nothing casts shadows
+constexpr float kFixedNear = 0.01f; // [m]; nearer to a light nothing casts shadows
 
-/// A sphere around a lamp.
+/// A sphere around a light.
 glm::vec4 sphereOf(const Emitter& source) {
     if (source.kind != Emitter::Kind::polygons) return {source.centre, source.radius};
     Bounds box;
@@ -38,7 +38,7 @@ Bounds boxOf(const Emitter& source) {
     return box;
 }
 
-/// What of a lamp's row does not depend on maps.
+/// What of a light's row does not depend on maps.
 void describe(const Emitter& source, std::array<glm::vec4, kPreviewColumns>& row) {
     glm::vec3 normal = source.axis;
     if (source.kind == Emitter::Kind::polygons) {
@@ -72,7 +72,7 @@ void describe(const ShadowView& view, int tileSize, std::array<glm::vec4, kPrevi
 
 PreviewMaps::PreviewMaps() : table_(makeTexture()) {}
 
-/// The lamp in the frame of the maps.
+/// The light in the frame of the maps.
 Emitter PreviewMaps::placedLight(const Emitter& source) const {
     Emitter placed = source;
     const glm::vec3 shift(origin_);
@@ -119,13 +119,13 @@ void PreviewMaps::startAnew(const PreviewLighting& light) {
     if (!thing.empty()) origin_ = glm::round(glm::dvec3(thing.centre()));
 }
 
-/// The group with the maps of an arrangement, or one that nobody wants.
+/// The group with the maps of a scene state, or one that is free.
 std::size_t PreviewMaps::groupOf(const SceneStatePtr& sceneState) {
     for (std::size_t g = 0; g < groups_.size(); ++g)
         if (groups_[g].of == sceneState) return g;
     for (std::size_t g = 0; g < groups_.size(); ++g)
         if (!groups_[g].wanted) return g;
-    assert(!"there are as many groups as arrangements at a time");
+    assert(!"there are as many groups as scene states at a time");
     return 0;
 }
 
@@ -143,7 +143,7 @@ std::vector<ShadowCaster> PreviewMaps::casters(const PreviewLighting& light, con
         const LitMeshData& data = object.geometry->data();
         for (const TriangleChunk& chunk : caster.gpu->chunks()) {
             const MaterialRange& range = caster.gpu->ranges()[chunk.range];
-            if (maxChannel(data.materials[range.material].emission) > 0) continue; // it shines
+            if (maxChannel(data.materials[range.material].emission) > 0) continue; // it emits
             const Bounds box = transformed(chunk.bounds, place);
             if (moving || reach.everywhere || shaftMeets(reach.source, box, reach.thing) ||
                 shaftMeets(reach.source, reach.thing, box))
@@ -218,7 +218,7 @@ std::size_t PreviewMaps::draw(const PreviewLighting& light, GeometryCache& cache
         } else if (!thing.empty()) {
             drawn += drawTight(maps, source, layer, casters(light, at, cache, true, maps.reach),
                                casters(light, at, cache, false, maps.reach));
-            maps.row[10].w = float(layer); // drawTight() may have said anew where it faces
+            maps.row[10].w = float(layer); // drawTight() may have turned it
         }
     }
     return drawn;

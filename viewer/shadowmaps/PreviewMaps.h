@@ -1,4 +1,4 @@
-// The shadow maps of live lamps, arrangement by arrangement.
+// The shadow maps of previewed lights, one group for each scene state.
 #pragma once
 
 #include "viewer/gl/GeometryCache.h"
@@ -14,7 +14,7 @@
 
 namespace penumbra {
 
-/// Keeps the maps of an arrangement as long as it is asked for, so that what does not move is drawn
+/// Keeps the maps of a scene state as long as it is asked for, so that what does not move is drawn
 /// once and what moves once a frame, and the table that the shaders read them by.
 class PreviewMaps {
 public:
@@ -29,12 +29,12 @@ public:
     /// Origin of the frame of the maps [m, world]: near what moves, so that floats suffice.
     glm::dvec3 origin() const { return origin_; }
 
-    /// How light may change of a lamp in an arrangement: on segments from one box that meet the
+    /// How light may change of a light in a scene state: on segments from one box that meet the
     /// other [m, frame of the maps].
     struct Reach {
         Bounds source, thing;
-        bool everywhere = false; ///< the lamp itself moves
-        std::size_t index = 0;   ///< of the lamp
+        bool everywhere = false; ///< the light itself moves
+        std::size_t index = 0;   ///< of the light
     };
     const std::vector<Reach>& reaches() const { return reaches_; }
 
@@ -44,7 +44,7 @@ private:
         Row row{};
         Reach reach;
     };
-    struct Group { ///< of layers: the maps of one arrangement
+    struct Group { ///< of layers: the maps of one scene state
         SceneStatePtr of;
         bool wanted = false;
         std::vector<LightMaps> lights;

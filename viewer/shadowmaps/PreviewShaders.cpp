@@ -1,5 +1,5 @@
 // [Lambert1760], [Baum1989], [Howell] as in radiosity/FormFactor.cpp, which says more; shadows from
-// several points of a lamp after [HeckbertHerf1997].
+// several points of a light after [HeckbertHerf1997].
 #include "viewer/shadowmaps/PreviewShaders.h"
 
 namespace penumbra {
@@ -127,7 +127,7 @@ uniform int livePoints;
 uniform float tightTile, cubeTile;       // texels
 uniform int cubePoints;
 
-// Whether anything of the sphere of what moves may be seen in front of the sphere of the lamp.
+// Whether anything of the sphere of what moves may be seen in front of the sphere of the light.
 bool inShadowCone(vec3 p, vec4 lamp, vec4 thing) {
     vec3 l = lamp.xyz - p, t = thing.xyz - p;
     float l2 = dot(l, l), t2 = dot(t, t);
@@ -142,7 +142,7 @@ int mostOf(vec3 v) {
     return a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
 }
 
-// How much of a lamp a point does not see because of what moves (of: own, or cube views, because of
+// How much of a light a point does not see because of what moves (of: own, or cube views, because of
 // anything at all): of its points, weighed by cos cos / d^2 as radiosity weighs its samples.
 //
 // A map is compared with the receiver's plane at the middle of the texel: a plane casts no shadow

@@ -1,4 +1,4 @@
-// Depth maps from points of lamps.
+// Depth maps from points of lights.
 #pragma once
 
 #include "viewer/gl/GlObject.h"
@@ -13,7 +13,7 @@ namespace penumbra {
 
 class GpuGeometry;
 
-/// What casts shadows, and where it stands.
+/// What casts shadows, and its pose.
 struct ShadowCaster {
     const GpuGeometry* gpu = nullptr;
     glm::mat4 place{1.0f}; ///< of its frame, in that of the maps

@@ -11,7 +11,7 @@
 
 namespace penumbra {
 
-/// Points of a lamp from which shadow maps are drawn: the first visibility samples that radiosity
+/// Points of a light from which shadow maps are drawn: the first visibility samples that radiosity
 /// takes (sampleEmitter()), so that both see the same obstacles. Of a sphere: on the disk in it
 /// that faces `towards`.
 std::vector<glm::vec3> shadowPoints(const Emitter& source, std::size_t count, glm::vec3 towards);

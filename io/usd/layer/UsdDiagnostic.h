@@ -11,7 +11,7 @@
 
 namespace penumbra {
 
-/// One warning. Repeats of one text are counted and keep the place of the first.
+/// One warning. Repeats of one text are counted and keep the position of the first.
 struct Diagnostic {
     SourceLocation where;
     std::string text;

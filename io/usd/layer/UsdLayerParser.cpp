@@ -49,7 +49,7 @@ public:
 private:
     // "#usda 1.0", at the first byte.
     void header() {
-        in_.moveTo(in_.cursor() + 5); // "#usda": the caller has looked
+        in_.moveTo(in_.cursor() + 5); // "#usda": the caller has checked
         const char* begin = in_.cursor();
         while (in_.peek() == ' ' || in_.peek() == '\t') in_.advance();
         const char* digits = in_.cursor();

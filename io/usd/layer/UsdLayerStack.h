@@ -9,7 +9,7 @@
 
 namespace penumbra {
 
-/// A layer in its place in a stack.
+/// A layer of a stack, and how it got there.
 struct UsdStackedLayer {
     std::shared_ptr<const UsdLayer> layer;
     UsdLayerOffset offset; ///< its times to those of the root layer

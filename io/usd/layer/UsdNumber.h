@@ -17,7 +17,7 @@ struct UsdNumber {
 ///
 ///     ["-"] (digits ["." {digit}] | "." digits) [("e"|"E") ["+"|"-"] digits] | ["-"] "inf" | "nan"
 ///
-/// Returns the place after it, or null if no number stands there. Short decimals are computed with
+/// Returns the position after it, or null if there is no number. Short decimals are computed with
 /// one exact multiplication or division (Clinger, PLDI 1990), the others by std::from_chars.
 const char* scanUsdNumber(const char* text, UsdNumber& number);
 

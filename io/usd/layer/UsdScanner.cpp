@@ -188,7 +188,7 @@ bool isOctal(char c) {
 
 } // namespace
 
-// At a backslash: appends what the escape stands for. An unknown one is the character itself.
+// At a backslash: appends what the escape means. An unknown one is the character itself.
 void UsdScanner::appendEscape(std::string& text) {
     ++cursor_;
     constexpr std::string_view kLetters = "ntrabfv";
@@ -220,7 +220,7 @@ std::string UsdScanner::asset() {
     return {open + 1, p};
 }
 
-// Up to two @ may stand right before the closing three; `\@@@` is three @ of the path itself.
+// Up to two @ may come right before the closing three; `\@@@` is three @ of the path itself.
 std::string UsdScanner::longAsset(const char* open) {
     std::string text;
     const char* p = open + 3;

@@ -10,14 +10,14 @@
 
 namespace penumbra {
 
-/// A place in one file, small enough to be kept with every prim and property.
+/// A position in one file, small enough to be kept with every prim and property.
 struct UsdPosition {
     std::uint32_t line = 0;   ///< from 1
     std::uint32_t column = 0; ///< from 1, in bytes
 };
 
 /// Walks over a text that lies in memory whole. The text is NUL-terminated and contains no other
-/// NUL (the reader of the file sees to that), so a single character can be looked at without asking
+/// NUL (the reader of the file sees to that), so a single character can be read without asking
 /// whether the end is near. Errors are thrown as SceneFileError.
 class UsdScanner {
 public:
@@ -28,7 +28,7 @@ public:
     [[noreturn]] void fail(const std::string& problem) const { failAt(cursor_, problem); }
     [[noreturn]] void failAt(const char* where, const std::string& problem) const;
     SourceLocation location(const char* where) const;
-    /// Cheap if asked for in the order of the text: it goes on from the place asked for last.
+    /// Cheap if asked for in the order of the text: it goes on from the position asked for last.
     UsdPosition position(const char* where) const;
     const std::string& file() const { return file_; }
 
@@ -45,7 +45,7 @@ public:
     }
     /// Takes `c` or fails with `expected 'c' <purpose>, found ...`.
     void expect(char c, std::string_view purpose);
-    /// What stands at the cursor, for error texts: `'x'` or `the end of the file`.
+    /// What is at the cursor, for error texts: `'x'` or `the end of the file`.
     std::string found() const;
 
     /// Skips blanks and comments on this line (a block comment may span lines).
@@ -63,7 +63,7 @@ public:
     std::string_view propertyName();
     /// `Mesh`, `ns::Type`, `a.b`; empty if there is none.
     std::string_view typeName();
-    /// Looks at the identifier at the cursor without taking it.
+    /// Reads the identifier at the cursor without taking it.
     std::string_view peekIdentifier() const;
 
     bool atString() const { return *cursor_ == '"' || *cursor_ == '\''; }
@@ -92,7 +92,7 @@ private:
     const char* end_;
     const char* cursor_;
 
-    // The place that was located last: [text offset of a line's start, its number].
+    // The position that was located last: [text offset of a line's start, its number].
     mutable const char* lineStart_;
     mutable std::uint32_t line_ = 1;
 };

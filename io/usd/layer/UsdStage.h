@@ -32,7 +32,7 @@ struct UsdPrim {
     std::vector<std::uint32_t> children; ///< indices into UsdStage::prims(), in order
     std::vector<UsdOpinion> opinions;    ///< strongest first, at least one (the root has none)
 
-    /// Where the strongest opinion stands.
+    /// Where the strongest opinion is.
     SourceLocation location() const;
 };
 

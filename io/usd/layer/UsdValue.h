@@ -51,7 +51,7 @@ using UsdDictionary = std::vector<UsdNamedValue>;
 struct UsdBlock {
     bool operator==(const UsdBlock&) const = default;
 };
-/// The text of a value whose type we do not know, as it stands in the file.
+/// The text of a value whose type we do not know, as it is in the file.
 struct UsdRaw {
     std::string text;
     bool operator==(const UsdRaw&) const = default;

@@ -146,7 +146,7 @@ double tubeArea(const glm::dmat3& m, double radius, double length) {
     return 2 * kPi * radius * length * sum / kSegments;
 }
 
-// The regular polygon that stands in for the circle has its area per length of side, hence the
+// The regular polygon that replaces the circle has its area per length of side, hence the
 // light's flux: the corners lie outside the circle by (pi/n) / sin(pi/n).
 NodePtr makeTube(const std::string& name, const std::string& material, double radius, double length,
                  Rgb luminance) {

@@ -37,7 +37,7 @@ double usdLightArea(const UsdAttributes& light, const glm::dmat4& toWorld);
 NodePtr makeUsdLight(const std::string& name, const UsdAttributes& light, const glm::dmat4& toWorld,
                      Diagnostics& diagnostics);
 
-/// Lights at infinity and portals: understood, but without a place in the scene graph yet.
+/// Lights at infinity and portals: understood, but not in the scene graph yet.
 bool isUsdLightWithoutArea(std::string_view typeName);
 bool isUsdAreaLight(std::string_view typeName);
 

@@ -100,7 +100,7 @@ UsdMaterials::Input UsdMaterials::input(const UsdPrim& shader, const std::string
     return {};
 }
 
-// A shader's output is not computed: only a texture's authored fallback stands in for it.
+// A shader's output is not computed: only a texture's authored fallback replaces it.
 UsdMaterials::Input UsdMaterials::textureFallback(const UsdPrim& shader, const std::string& output,
                                                   const std::string& name) {
     const bool radiometric = name == "inputs:diffuseColor" || name == "inputs:emissiveColor" ||

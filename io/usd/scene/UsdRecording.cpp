@@ -39,7 +39,7 @@ private:
     Samples samples_;
 };
 
-/// A place as it is written: M = translate * orient * scale.
+/// A transform as it is written: M = translate * orient * scale.
 struct Parts {
     glm::dvec3 translate{0.0};
     glm::dquat orient{1, 0, 0, 0};
@@ -64,7 +64,7 @@ std::optional<Parts> partsOf(const glm::dmat4& matrix) {
     return parts;
 }
 
-/// The place of one prim over time, both ways it may be written.
+/// The transform of one prim over time, both ways it may be written.
 struct PoseTrack {
     Track translate, orient, scale, matrix;
     bool rigid = true; ///< translate, orient and scale say it all

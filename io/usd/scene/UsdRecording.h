@@ -15,18 +15,18 @@
 namespace penumbra {
 
 /// Follows a loaded scene by the revisions of its nodes and writes what changes as USD time
-/// samples: transforms, lamps, materials, the camera. Loading the layer is replaying the session:
+/// samples: transforms, lights, materials, the camera. Loading the layer is replaying the session:
 /// UsdAnimation plays it, and so does every other program that reads USD.
 ///
-/// The layer has the scene's file as its sublayer. Places are written as translate, orient and
-/// scale (a matrix if they are sheared or mirrored), the camera in place of the first camera of the
+/// The layer has the scene's file as its sublayer. Transforms are written as translate, orient and
+/// scale (a matrix if they are sheared or mirrored), the camera over the first camera of the
 /// file, or, if it has none, as /SessionCamera. What holds still has one value and no samples.
 /// Time codes begin at 1 and count kRate a second.
 class UsdRecording {
 public:
     static constexpr double kRate = 30; ///< time codes a second
 
-    /// Begins with the scene as it stands. \param file the scene's; `scene`'s nodes are kept alive
+    /// Begins with the scene as it is. \param file the scene's; `scene`'s nodes are kept alive
     UsdRecording(const LoadedScene& scene, std::filesystem::path file);
     ~UsdRecording();
     UsdRecording(const UsdRecording&) = delete;
@@ -36,13 +36,13 @@ public:
     /// one counts. \param cameraToWorld [m] \param lens clipping range in metres
     void sample(double seconds, const glm::dmat4& cameraToWorld, const Lens& lens);
 
-    /// The layer so far, as it is to stand in the file `layer`.
+    /// The layer so far, as it is to be written to the file `layer`.
     std::string text(const std::filesystem::path& layer) const;
     /// Writes it, whole or not at all. \throws Error
     void write(const std::filesystem::path& layer) const;
 
-    /// Names of what was edited but can't be said in a layer: colours of a mesh that has several of
-    /// its own without materials, mesh lights.
+    /// Names of what was edited but can't be written in a layer: colours of a mesh that has several
+    /// of its own without materials, mesh lights.
     std::vector<std::string> missed() const;
 
 private:

@@ -116,8 +116,8 @@ private:
     // Whether the animation hides it and shows it: it becomes a Switch.
     static bool comesAndGoes(const UsdPrim& prim) { return UsdStage::animated(prim, "visibility"); }
 
-    // A Transform if the prim has, or may get, a place of its own; else null. What comes and goes
-    // is movable, for only movable objects can be hidden without meshing the scene anew.
+    // A Transform if the prim has, or may get, a transform of its own; else null. What comes and
+    // goes is movable, for only movable objects can be hidden without meshing the scene anew.
     std::shared_ptr<Transform> makeTransform(const UsdAttributes& attributes, const Place& parent,
                                              Place& place) {
         const UsdPrim& prim = attributes.prim();
@@ -280,7 +280,7 @@ std::optional<double> positive(const UsdPrim& prim, std::string_view name, const
     return std::nullopt;
 }
 
-/// What one of some words stands for, if the prim says one of them.
+/// What one of some words means, if the prim says one of them.
 template <class Value>
 std::optional<Value> word(const UsdPrim& prim, std::string_view name,
                           std::initializer_list<std::pair<std::string_view, Value>> words,

@@ -78,7 +78,7 @@ void UsdTracks::addMaterials(const UsdMaterials& materials) {
 }
 
 void UsdTracks::setTime(double timeCode) {
-    Diagnostics ignored; // all was said when the scene was loaded
+    Diagnostics ignored; // all was reported when the scene was loaded
     for (const TransformTrack& track : transforms_) {
         const UsdLocalTransform local =
             usdLocalTransform(UsdAttributes(*track.prim, timeCode), ignored);

@@ -30,7 +30,7 @@ public:
                       const glm::dmat4& parentToWorld);
     /// \param node hides what `prim` became; always remembered
     void addSwitch(std::shared_ptr<Switch> node, const UsdPrim& prim);
-    /// \param node a Light, or the Mesh that stands for a CylinderLight
+    /// \param node a Light, or the Mesh that represents a CylinderLight
     void addLight(const NodePtr& node, const UsdPrim& prim, const glm::dmat4& toWorld);
     void addCamera(std::shared_ptr<Camera> node, const UsdPrim& prim);
     /// The materials that were made, those that change.

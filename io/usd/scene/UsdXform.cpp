@@ -52,7 +52,7 @@ glm::dmat4 rotation(int axis, double degrees) {
     return m;
 }
 
-// `letters` is the order of application: the first turns first, so it stands rightmost.
+// `letters` is the order of application: the first turns first, so it is rightmost.
 glm::dmat4 eulerRotation(std::string_view letters, const std::vector<double>& degrees) {
     glm::dmat4 m(1.0);
     for (const char letter : letters) {

@@ -1,4 +1,4 @@
-// UsdGeomXformable: where a prim stands in its parent.
+// UsdGeomXformable: the transform of a prim in its parent.
 #pragma once
 
 #include "io/usd/layer/UsdAttributes.h"
@@ -26,8 +26,8 @@ struct UsdLocalTransform {
 /// finite) are skipped with a warning.
 UsdLocalTransform usdLocalTransform(const UsdAttributes& prim, Diagnostics& diagnostics);
 
-/// The matrix that gives a prim its own place whatever its parent's is: inverse(parent) * local.
-/// Without the parent's inverse (a flattened parent) it is the local one.
+/// The matrix that gives a prim its own transform whatever its parent's is: inverse(parent) *
+/// local. Without the parent's inverse (a flattened parent) it is the local one.
 glm::dmat4 relativeToParent(const UsdLocalTransform& local, const glm::dmat4& parentToWorld);
 
 } // namespace penumbra

@@ -12,7 +12,7 @@
 
 namespace penumbra {
 
-/// Appends values as they lie in memory: both sides run on the same machine.
+/// Appends values as they lie in memory: program and worker run on the same machine.
 class ByteWriter {
 public:
     template <class T>

@@ -16,8 +16,8 @@
 
 namespace penumbra {
 
-// Each region of memory, and each field of it, is written by one side only. Whoever reads it checks
-// it: the other side may have gone mad.
+// Each region of memory, and each field of it, is written by one side only, program or worker.
+// Whoever reads it checks it: the writer may have gone mad.
 
 /// Rises with every change of the layout or of the messages.
 constexpr std::uint32_t kProtocolVersion = 7;
@@ -54,7 +54,7 @@ enum class MessageKind : std::uint32_t {
     update,        ///< a person wants to see the light now
     previewLights, ///< serial of this set, number of paths, paths
     policy,        ///< PolicyKind
-    watchDirty,    ///< publish what work is open: number of the question, 0: not any more
+    watchDirty,    ///< publish the dirty set: number of the question, 0: not any more
     stop
 };
 
@@ -63,7 +63,7 @@ struct WorkerStatus {
     enum Phase : std::uint32_t { idle, meshing, solving, failed };
     std::uint64_t taken = 0;  ///< serial of the last message that was taken in
     std::uint64_t lit = 0;    ///< `solution` is about the scene after this message
-    std::uint64_t marked = 0; ///< what is stale of live lamps is right for this message
+    std::uint64_t marked = 0; ///< what is stale of previewed lights is right for this message
     std::uint32_t phase = idle;
     std::uint32_t dirtyBlocks = 0;
     std::uint32_t solution = 0; ///< SolutionState of the light as it is published

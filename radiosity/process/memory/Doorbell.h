@@ -6,7 +6,7 @@
 
 namespace penumbra {
 
-/// Makes a waiting worker look again. Never waits. Works across processes (a futex).
+/// Makes a waiting worker check again. Never waits. Works across processes (a futex).
 void ring(std::atomic<std::uint32_t>& bell);
 /// Waits until the bell is rung, if it still says `heard`, but not longer than this [s].
 void waitForRing(std::atomic<std::uint32_t>& bell, std::uint32_t heard, double seconds);

@@ -1,4 +1,4 @@
-// Memory that two sides see.
+// Memory that program and worker share.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace penumbra {
 
-/// A run of zeroed bytes with a name, which both sides see at addresses of their own. It lives as
+/// A run of zeroed bytes with a name, which each side maps at an address of its own. It lives as
 /// long as one of them holds it.
 class Region {
 public:

@@ -12,22 +12,22 @@
 namespace penumbra {
 
 /// Gives numbers to the nodes and materials of a graph, and finds what was edited by their
-/// revisions. Beside the graph as it is it keeps an image of it as it was told to the other side:
-/// a new one is handed this image, and has missed nothing.
+/// revisions. Beside the graph as it is it keeps a snapshot of what was sent to the worker:
+/// a new worker gets this snapshot, and has missed nothing.
 class SceneDiff {
 public:
     /// \param root must outlive this
     explicit SceneDiff(const Group& root);
 
     struct Change {
-        bool structure = false; ///< there are new things: the image is to be handed over whole
+        bool structure = false; ///< there are new things: the snapshot is to be sent whole
         std::vector<GraphEdit> edits;
         bool any() const { return structure || !edits.empty(); }
     };
     /// What was edited since this was called last. New things, and which things there are, enter
-    /// the image here; other edits do when they are told.
+    /// the snapshot here; other edits do when they are sent.
     Change diff();
-    /// An edit goes to the other side.
+    /// An edit goes to the worker.
     void report(const GraphEdit& edit) { apply(snapshot_, edit); }
 
     const SceneSnapshot& snapshot() const { return snapshot_; }

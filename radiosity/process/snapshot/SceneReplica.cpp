@@ -57,7 +57,7 @@ NodePtr SceneReplica::makeNode(const NodeSnapshot& snapshot) const {
     return nullptr;
 }
 
-/// Gives a node the children that the image says.
+/// Gives a node the children that the snapshot says.
 void SceneReplica::adopt(std::uint32_t node) {
     auto* const group = dynamic_cast<Group*>(nodes_[node].get());
     if (!group) return;
@@ -65,7 +65,7 @@ void SceneReplica::adopt(std::uint32_t node) {
     for (std::uint32_t child : snapshot_.nodes[node].children) group->add(nodes_[child]);
 }
 
-/// Edits the nodes as the image was edited, so that both say the same.
+/// Edits the nodes as the snapshot was edited, so that both say the same.
 struct SceneReplica::Editor {
     SceneReplica& copy;
 

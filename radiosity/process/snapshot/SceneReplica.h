@@ -1,4 +1,4 @@
-// A scene graph made from an image, and edited as told.
+// A scene graph made from a snapshot, to which edits are applied.
 #pragma once
 
 #include "radiosity/process/snapshot/SceneSnapshot.h"
@@ -11,7 +11,7 @@
 
 namespace penumbra {
 
-/// The other side's own graph.
+/// The worker's own graph.
 class SceneReplica {
 public:
     explicit SceneReplica(SceneSnapshot snapshot);
@@ -20,7 +20,7 @@ public:
     bool apply(const GraphEdit& edit);
 
     const Scene& scene() const { return scene_; }
-    /// Numbers in the image; kNone: it is none of these.
+    /// Numbers in the snapshot; kNone: it is none of these.
     std::uint32_t numberOf(const Material* material) const;
     std::uint32_t numberOf(const Node* node) const;
     static constexpr std::uint32_t kNone = 0xffffffffu;

@@ -36,7 +36,7 @@ struct NodeSnapshot {
     std::vector<std::uint32_t> materials; ///< of a mesh, in its order
 };
 
-/// Node 0 is the root, a group. Numbers are good for the life of an image.
+/// Node 0 is the root, a group. Numbers are good for the life of a snapshot.
 struct SceneSnapshot {
     std::vector<NodeSnapshot> nodes;
     std::vector<MaterialSnapshot> materials;

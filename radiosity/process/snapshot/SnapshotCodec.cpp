@@ -1,4 +1,4 @@
-// Graph images and edits as bytes, and back again without trusting them.
+// Scene snapshots and edits as bytes, and back again without trusting them.
 #include "radiosity/process/snapshot/SceneSnapshot.h"
 
 #include <algorithm>

@@ -7,20 +7,20 @@
 
 namespace penumbra {
 
-/// The open work on one block, as the solver sees it; of several kinds the first that applies,
-/// from the last one here.
+/// Why one block is dirty, as the solver sees it; of several reasons the one that is last in this
+/// list.
 struct DirtyStatus {
     enum class Kind : std::uint8_t {
         none,     ///< its light is as it will stay, as far as anybody knows
-        deferred, ///< lamps: what it may change is within the tolerance of the picture
+        deferred, ///< lights: what it may change is within the tolerance of the picture
         patches,  ///< rows of patches that light it
         coming,   ///< its direct light was worked on, and is about to be summed and published
-        lights    ///< rows of lamps
+        lights    ///< rows of emitters
     };
     Kind kind = Kind::none;
-    std::uint8_t rows = 0; ///< of lamps that are open, 255: so many or more
-    /// By which the most valuable of its open work is ranked, see priorityOf(); >= 0. In the order
-    /// of importance: visible steps of luminance, times pixels, per ray.
+    std::uint8_t rows = 0; ///< of emitters for which it is dirty, 255: so many or more
+    /// The highest priority of its work, see priorityOf(); >= 0. With the policy `importance`:
+    /// visible steps of luminance, times pixels, per ray.
     float priority = 0;
 
     /// One word, which nobody reads torn.

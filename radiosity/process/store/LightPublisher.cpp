@@ -191,7 +191,7 @@ void LightPublisher::publishDirty(std::uint32_t question) {
     store_->writeDirty(question, work);
 }
 
-/// Blocks of vertices that are lit by patches of which rows are open.
+/// Blocks of vertices that are lit by patches of which rows are dirty.
 void LightPublisher::markPatches(std::vector<DirtyStatus>& work) const {
     const DirtySet& open = scene_.solver().indirect().updates().open();
     if (open.count() == 0) return;
@@ -251,7 +251,7 @@ void LightPublisher::writeLights(std::uint32_t block, LightBlock& light) const {
         }
         if (!lights_[l].emitters.empty())
             light.exitance[l] = scene_.patches().emitters[lights_[l].emitters.front()].exitance;
-        // What other lamps give is in the light that a factor is taken with.
+        // What other lights give is in the light that a factor is taken with.
         for (const LightRows* rows : {&lights_[l], &others_})
             if (std::binary_search(rows->stale.begin(), rows->stale.end(), block))
                 light.stale |= 1u << l;

@@ -28,11 +28,11 @@ public:
     bool outgrown() const;
     std::uint32_t blockCount() const;
 
-    /// Lamps of which each one's own light is published as well, see RadiosityNode.
+    /// Lights of which each one's own part is published as well, see RadiosityNode.
     /// \param serial of this set, not 0
     void setPreviewLights(std::uint32_t serial, const std::vector<std::string>& paths);
-    /// Finds what of their rows, and of those of other lamps, is open work. \return false: there
-    /// may be more. Work that the solver puts off does not count: what it may change is within the
+    /// Finds what of their rows, and of those of other lights, is dirty. \return false: there may
+    /// be more. Work that the solver defers does not count: what it may change is within the
     /// tolerance of the whole picture, and may take long to come.
     bool findStale();
     /// Whether all that was found to be stale has been published as such.
@@ -40,15 +40,15 @@ public:
 
     /// An edit was taken in.
     void follow(const SceneChange& change);
-    /// The solver has worked: looks at the direct light, which it has told of what changed.
+    /// The solver has worked: compares the blocks of direct light that it reported as changed.
     void directWorked();
-    /// Looks at all light. \param settled all light is as it will stay
+    /// Compares all light. \param settled all light is as it will stay
     void solverWorked(bool settled);
     /// Publishes at most so many blocks, the last touched first. Those whose direct light is being
-    /// summed come later, for it has to fit the factors of lamps. \return false: there was none
+    /// summed come later, for it has to fit the factors of lights. \return false: there was none
     bool publish(std::size_t most);
     std::size_t open() const { return open_.size(); }
-    /// Publishes what work is open. Takes as long as there is some; nobody need call it.
+    /// Publishes the dirty set, in time that goes with its size; nobody need call it.
     /// \param question see StoreHeader::dirtyFor
     void publishDirty(std::uint32_t question);
 
@@ -66,7 +66,7 @@ private:
 
     struct LightRows {
         std::vector<std::uint32_t> emitters;
-        std::vector<std::uint32_t> stale; ///< blocks of which work is open, in order
+        std::vector<std::uint32_t> stale; ///< dirty blocks, in order
     };
     void findStale(LightRows& rows);
 
@@ -77,7 +77,7 @@ private:
     std::vector<glm::dvec3> nodes_;                       ///< illuminance that is published [lux]
     std::vector<Rgb> detail_; ///< what fine shadows added when it was settled last [lux]
     std::uint32_t previewSet_ = 0;
-    std::vector<LightRows> lights_; ///< live ones,
+    std::vector<LightRows> lights_; ///< previewed ones,
     LightRows others_;              ///< and all that are not
     enum class Touched : std::uint8_t { no, yes, stale };
     std::vector<std::uint32_t> open_;

@@ -18,7 +18,7 @@ constexpr std::size_t kCornerWords = offsetof(LightBlock, lights) / 8 - kBaseWor
 constexpr std::size_t kLightsAt = kBaseWords + kCornerWords;
 constexpr std::size_t kLightHead =
     (offsetof(LightBlock, factor) - offsetof(LightBlock, lights)) / 8;
-constexpr std::size_t kLightWords = LightBlock::kSize * sizeof(float) / 8; ///< of each lamp
+constexpr std::size_t kLightWords = LightBlock::kSize * sizeof(float) / 8; ///< of each light
 static_assert(sizeof(LightBlock) % 8 == 0 && offsetof(LightBlock, corners) % 8 == 0 &&
               offsetof(LightBlock, lights) % 8 == 0 && offsetof(LightBlock, factor) % 8 == 0);
 static_assert(kLightsAt + kLightHead + kMostPreviewLights * kLightWords == kBlockWords);
@@ -45,7 +45,7 @@ T* at(Region& region, std::size_t offset) {
     return reinterpret_cast<T*>(region.bytes().data() + offset);
 }
 
-/// Runs of words of a block that matter: of a private one, and with so many live lamps.
+/// Runs of words of a block that matter: of a private one, and with so many previewed lights.
 template <class Visit>
 void forEachRun(bool isPrivate, std::uint32_t lights, Visit visit) {
     visit(std::size_t(0), kBaseWords);

@@ -25,13 +25,13 @@ struct alignas(8) LightBlock {
     static constexpr std::size_t kSize = PatchSet::kBlock;
 
     std::uint32_t object = 0;     ///< whose block it is
-    std::uint32_t previewSet = 0; ///< serial of the live lamps that `lamps` is about; 0: none
+    std::uint32_t previewSet = 0; ///< serial of the previewed lights of the factors; 0: none
     std::array<Rgb, kSize> direct{}, indirect{}; ///< of each vertex [lux]
-    /// Of private blocks only, see PatchSet: what each vertex stands for, see kNoCorner.
+    /// Of private blocks only, see PatchSet: which corner each vertex represents, see kNoCorner.
     std::array<std::uint32_t, kSize> corners{};
-    /// If there are live lamps only.
+    /// If there are previewed lights only.
     std::uint32_t lights = 0;
-    std::uint32_t stale = 0; ///< bit l: open work on the row of lamp l, or of one not live
+    std::uint32_t stale = 0; ///< bit l: dirty for light l, or for one that is not previewed
     std::array<Rgb, kMostPreviewLights> exitance{}; ///< that `direct` was summed with [lm/m^2]
     std::array<std::array<float, kSize>, kMostPreviewLights> factor{}; ///< see LightShare
 };
@@ -44,7 +44,7 @@ struct StoreShape {
     std::size_t bytes() const;      ///< of the whole store
 };
 
-/// Begins a store. What follows: mesh, sequence numbers, blocks, open work, each aligned to 64.
+/// Begins a store. What follows: mesh, sequence numbers, blocks, dirty status, each aligned to 64.
 struct StoreHeader {
     std::uint64_t magic;
     std::uint64_t number; ///< of the request
@@ -52,7 +52,7 @@ struct StoreHeader {
     std::atomic<std::uint32_t> ready;     ///< 1: the mesh is there
     std::atomic<std::uint32_t> used;      ///< blocks in use
     std::atomic<std::uint64_t> published; ///< rises with every block that is written
-    /// Which question for open work the table of it answers: a number of the node's; 0: none.
+    /// Which question for the dirty set its table answers: a number of the node's; 0: none.
     std::atomic<std::uint32_t> dirtyFor;
 };
 
@@ -67,8 +67,8 @@ public:
     void setUsed(std::uint32_t blocks);
     /// Writes a block; one that says the same as before is not written again.
     void write(std::uint32_t block, const LightBlock& light);
-    /// Writes the open work of the first blocks, as many as there is room for; each by itself is
-    /// read whole. \param question see StoreHeader::dirtyFor
+    /// Writes the dirty status of the first blocks, as many as there is room for; each by itself
+    /// is read whole. \param question see StoreHeader::dirtyFor
     void writeDirty(std::uint32_t question, std::span<const DirtyStatus> work);
 
 private:
@@ -97,7 +97,7 @@ public:
         LightBlock light;
     };
     void read(std::size_t most, std::vector<Got>& got);
-    /// The open work of all blocks; empty: it is not about this question.
+    /// The dirty status of all blocks; empty: it is not about this question.
     void readDirty(std::uint32_t question, std::vector<DirtyStatus>& work) const;
     /// Whether the last read() has brought all that was published before it.
     bool current() const { return current_; }

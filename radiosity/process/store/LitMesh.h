@@ -1,4 +1,4 @@
-// The mesh that is lit, as the worker tells it to the node.
+// The mesh that is lit, as the worker reports it to the node.
 #pragma once
 
 #include "radiosity/mesh/BuildPatches.h"
@@ -18,10 +18,10 @@ namespace penumbra {
 class SceneReplica;
 class LitScene;
 
-/// Faces of a mesh that shine, as one sender of direct light: one of PatchSet::emitters.
+/// Emitting faces of a mesh, as one sender of direct light: one of PatchSet::emitters.
 struct LitMeshEmitter {
     std::string path;                             ///< of the mesh
-    std::uint32_t material = 0;                   ///< a number of the graph image
+    std::uint32_t material = 0;                   ///< a number of the scene snapshot
     std::vector<std::vector<glm::vec3>> polygons; ///< in the frame of the vertices [m]
 };
 
@@ -43,7 +43,7 @@ struct LitMeshObject {
     std::vector<LitMeshEmitter> emitters;    ///< of its meshes; lights the graph knows of
 };
 
-/// Where a colour comes from: numbers of the graph image, kNone if there is none.
+/// Where a colour comes from: numbers of the scene snapshot, kNone if there is none.
 struct LitMeshMaterial {
     static constexpr std::uint32_t kNone = 0xffffffffu;
     std::uint32_t material = kNone, light = kNone;
@@ -81,7 +81,7 @@ private:
     std::uint32_t next_ = 0, nextBlock_ = 0;
 };
 
-/// The corner of an element that each vertex of a private block stands for: 4 * element + corner,
+/// The corner of an element that each vertex of a private block represents: 4 * element + corner,
 /// in the order of LitMeshObject::elements; kNoCorner: none.
 constexpr std::uint32_t kNoCorner = 0xffffffffu;
 

@@ -26,7 +26,7 @@ std::size_t indexCount(const std::array<std::uint32_t, 4>& base) {
     return base[2] == base[3] ? 3 : 6;
 }
 
-/// Emitters of one mesh follow each other. Meshes with several materials that shine are left out:
+/// Emitters of one mesh follow each other. Meshes with several emitting materials are left out:
 /// one factor says nothing of two brightnesses.
 std::vector<EmissiveMesh> emissiveOf(std::vector<LitMeshEmitter> emitters) {
     std::vector<EmissiveMesh> emissive;
@@ -177,7 +177,7 @@ void LitObjects::takeShares(const LightBlock& light, std::size_t block, LightSha
     }
 }
 
-/// Private vertices stand for corners of elements; which ones may have changed.
+/// Private vertices represent corners of elements; which ones may have changed.
 void LitObjects::follow(Part& part, std::uint32_t firstVertex, const LightBlock& light) {
     for (std::uint32_t k = 0; k < kBlock; ++k) {
         const std::uint32_t before = std::exchange(part.standsFor[firstVertex + k], kNoCorner);

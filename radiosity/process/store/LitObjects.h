@@ -35,7 +35,7 @@ public:
     void take(const Colour& colour);
     /// Colours are to be asked for again.
     void recolour(const Colour& colour);
-    /// Reads what work is open. \param question that was asked
+    /// Reads the dirty status of all blocks. \param question that was asked
     void takeDirty(std::uint32_t question);
     /// By object, one a block of its geometry; empty: it is not known.
     const std::vector<std::vector<DirtyStatus>>& work() const { return work_; }

@@ -1,4 +1,4 @@
-// The patches of a mesh that was told by the worker, for those who trace rays beside it.
+// The patches of a mesh that came from the worker, for those who trace rays beside it.
 #pragma once
 
 #include "radiosity/mesh/PatchSet.h"
@@ -12,8 +12,8 @@ namespace penumbra {
 
 /// What rays and contacts need of the worker's PatchSet: objects, vertices with their receivers,
 /// elements by patches, and triangles for rays, all in the same order and with the same values. It
-/// has no nodes, colours or emitters. Movable objects are absent and stand at the origin of their
-/// frames: see PosedPatches::place().
+/// has no nodes, colours or emitters. Movable objects are absent, and lie in frames of their own:
+/// see PosedPatches::pose().
 ///
 /// \param mesh  as describeMesh() wrote it, or anything else
 /// \param blocks vertices are there for as many

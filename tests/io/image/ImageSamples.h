@@ -41,7 +41,7 @@ inline std::string contentOf(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// A picture in which every value of every layer is another one.
+/// A picture in which no two values of any layers are equal.
 inline FrameLayers sampleFrame(int width = 5, int height = 3) {
     FrameLayers frame(width, height);
     float next = 0.125f;

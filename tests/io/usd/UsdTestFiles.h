@@ -23,7 +23,7 @@ std::optional<std::filesystem::path> sharedFolder();
 /// Loads `text` as the only layer of a scene; the header is put before it.
 LoadedScene loadText(const std::string& text, const LoadOptions& options = {});
 
-/// A node in its place.
+/// A node at one path, with its transform.
 struct PlacedNode {
     const Node* node = nullptr;
     glm::dmat4 toWorld{1.0}; ///< of the node's children, or of its geometry [m]

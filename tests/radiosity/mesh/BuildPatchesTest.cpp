@@ -11,7 +11,7 @@ namespace penumbra {
 
 namespace {
 
-/// A room with a box and a lamp, all `scale` times a few metres.
+/// A room with a box and a light, all `scale` times a few metres.
 Scene room(double scale) {
     return sceneOf({placed("world", scaled(scale),
                            {object("room", boxData({0, 0, 0}, {4, 3, 2.5f}, true)),
@@ -149,7 +149,7 @@ TEST(BuildPatches, OfNothingIsNothing) {
     EXPECT_TRUE(built.patches.patches.empty());
 }
 
-/// Lights a scene and returns what was said of it; all light is to be finite.
+/// Lights a scene and returns the messages about it; all light is to be finite.
 std::vector<std::string> warningsOf(Scene scene) {
     const Solution solution(std::move(scene), {.patchSize = 0.5f, .elementSize = 0.25f});
     for (std::size_t v = 0; v < solution.patches().vertices.size(); ++v)

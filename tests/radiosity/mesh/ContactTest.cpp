@@ -10,7 +10,7 @@ namespace {
 
 const SolverOptions kDirect{.samples = 64, .directOnly = true};
 
-/// Elements of the horizontal surface at height 0, told by their middles.
+/// Elements of the horizontal surface at height 0, identified by their middles.
 template <class Visit>
 void forFloor(const Solution& solution, Visit visit) {
     for (const Element& element : solution.patches().elements) {
@@ -90,7 +90,7 @@ TEST_F(BoxOnFloor, HasNoLightOnItsBottom) {
     }
 }
 
-/// A closed room of 2 x 2 x 1 m in two halves, parted by a sheet without thickness at x; the lamp
+/// A closed room of 2 x 2 x 1 m in two halves, parted by a sheet without thickness at x; the light
 /// is in the half x < 0.
 class PartedRoom : public testing::TestWithParam<float> {
 protected:

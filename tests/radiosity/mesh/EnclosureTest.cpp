@@ -1,4 +1,4 @@
-// Lamps that get into closed things and out of them.
+// Lights that get into closed things and out of them.
 #include "radiosity/mesh/Enclosure.h"
 #include "tests/support/Scenes.h"
 
@@ -16,7 +16,7 @@ NodePtr twoSidedBox() {
     return std::make_shared<Mesh>("mesh", std::move(data));
 }
 
-/// A lamp and a closed box in a room; both can be moved.
+/// A light and a closed box in a room; both can be moved.
 struct BoxAndLight {
     std::shared_ptr<Transform> box = movable("box", {twoSidedBox()});
     std::shared_ptr<Transform> light =
@@ -29,7 +29,7 @@ struct BoxAndLight {
     }
 };
 
-/// How many closed surfaces hold a lamp.
+/// How many closed surfaces hold a light.
 std::size_t litCount(const LitScene& lit, const Scene& scene) {
     const BuiltPatches built = buildPatches(placeScene(scene), sizesOf(lit.patches()));
     const std::vector<bool> flags = built.enclosures.lit(built.patches);

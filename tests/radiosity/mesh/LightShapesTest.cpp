@@ -1,4 +1,4 @@
-// Lamps as senders: area, flux, direction.
+// Lights as senders: area, flux, direction.
 #include "radiosity/mesh/LightShapes.h"
 #include "radiosity/rows/FormFactor.h"
 #include "tests/support/Scenes.h"

@@ -1,4 +1,4 @@
-// Rigid motions told apart from stretches.
+// Rigid motions separated from stretches.
 #include "radiosity/mesh/Pose.h"
 
 #include <glm/gtc/matrix_transform.hpp>

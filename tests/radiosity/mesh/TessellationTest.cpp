@@ -28,7 +28,7 @@ std::size_t cornersOf(const Facet& facet) {
     return facet.vertices[2] == facet.vertices[3] ? 3 : 4;
 }
 
-/// Edges that are not gone along once each way, told by the positions of their ends.
+/// Edges that are not gone along once each way, given by the positions of their ends.
 int cracks(const Tessellation& t) {
     std::map<std::pair<Place, Place>, int> edges;
     const auto place = [&](std::uint32_t v) {

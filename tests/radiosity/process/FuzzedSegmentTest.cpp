@@ -43,7 +43,7 @@ bool settle(RadiosityNode& node, SteppedLink& link) {
     return false;
 }
 
-/// Whether what is said of open work is about the blocks that there are, in numbers that can be.
+/// Whether the published dirty status is about the blocks that there are, in numbers that can be.
 bool soundWork(const RadiosityNode& node) {
     const auto work = node.dirtyBlocks();
     for (std::size_t o = 0; o < work.size() && o < node.objects().size(); ++o) {

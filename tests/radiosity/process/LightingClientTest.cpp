@@ -8,7 +8,7 @@ namespace penumbra {
 
 namespace {
 
-/// A room whose other side takes a turn when it is told to.
+/// A room whose worker takes a turn when the test says so.
 struct SteppedRoom {
     SteppedLink* link = nullptr;
     LitRoom room{[this] {

@@ -15,7 +15,7 @@ namespace {
 using Known = LightShare::Known;
 using Shares = std::map<std::string, std::vector<LightShare>>; ///< of objects
 
-/// A room with two lamps, both live, and whose other side takes a step a frame.
+/// A room with two lights, both previewed, and whose worker takes a step a frame.
 class LightRoom {
 public:
     explicit LightRoom(double residual = 1e-7) : room_(takeLink(), optionsOf(residual)) {
@@ -27,7 +27,7 @@ public:
         link_->step(1e-9); // one piece of work
         room_.node->update();
     }
-    /// \param look at each frame
+    /// \param look called with each frame
     bool settle(const std::function<void()>& look = [] {}) {
         for (int i = 0; i < 20'000; ++i) {
             frame();
@@ -39,7 +39,7 @@ public:
     const RadiosityState& state() const { return room_.node->state(); }
     LitRoom& room() { return room_; }
 
-    /// The lamps' shares of all objects.
+    /// The lights' shares of all objects.
     Shares shares() const {
         Shares all;
         for (const LitObject& object : room_.node->objects())
@@ -96,19 +96,19 @@ void expectNoExactLightChanges(LightRoom& lights, const std::function<void()>& e
     const Shares last = lights.shares();
     std::size_t stale = 0;
     for (const Shares& shares : seen)
-        for (const char* path : {"/room", "/box"}) // lamps themselves reflect nothing
+        for (const char* path : {"/room", "/box"}) // lights themselves reflect nothing
             for (std::size_t l = 0; l < 2; ++l) {
                 const LightShare& then = shares.at(path)[l];
                 stale += std::size_t(std::ranges::count(then.known, Known::stale));
                 ASSERT_EQ(wrongOnes(then, last.at(path)[l]), 0u)
-                    << path << ", lamp " << l << ", frame " << &shares - seen.data();
+                    << path << ", light " << l << ", frame " << &shares - seen.data();
             }
     EXPECT_GT(stale, 0u);
     EXPECT_EQ(lights.blocks(Known::stale), 0u);
     EXPECT_EQ(lights.blocks(Known::no), 0u);
 }
 
-/// There is no other lamp, so that what they give is all direct light.
+/// There are no other lights, so that what these give is all direct light.
 void expectLightsAreAllDirectLight(const LightRoom& lights, const RadiosityNode& node) {
     std::size_t wrong = 0, lit = 0;
     for (const LitObject& object : node.objects()) {
@@ -147,7 +147,7 @@ TEST(PreviewLights, LightThatIsCalledExactDoesNotChangeAnyMore) {
     lights.other->setMatrix(moved(1.5, 1, 2.3));
     ASSERT_TRUE(lights.settle());
     LitRoom& room = lights.room();
-    // another object; the lamp itself; a lamp that is off; something that comes to touch a wall
+    // another object; the light itself; a light that is off; something that comes to touch a wall
     expectNoExactLightChanges(lights, [&] { room.box->setMatrix(moved(0.9, -0.4, 0.1)); });
     expectNoExactLightChanges(lights, [&] { lights.other->setMatrix(moved(-1, 1, 1.8)); });
     lights.otherLight->setLuminance(Rgb(0));
@@ -211,7 +211,7 @@ TEST(PreviewLights, ALightThatIsSwitchedOffKeepsItsFactors) {
     const auto on = lights.shares();
     lights.otherLight->setLuminance(Rgb(0));
     lights.room().node->update();
-    EXPECT_FALSE(lights.state().dirtyMarked); // nobody has looked at it yet
+    EXPECT_FALSE(lights.state().dirtyMarked); // the worker has not compared it yet
     ASSERT_TRUE(lights.settle([&] { EXPECT_EQ(lights.blocks(Known::stale), 0u); }));
     for (const auto& [path, shares] : lights.shares())
         EXPECT_EQ(shares[0].factor, on.at(path)[0].factor) << path;

@@ -49,7 +49,7 @@ TEST(Triggers, UpdatesRunWhenTheStrategySaysSwitchedWhileDragging) {
     const Node& box = *session.room.box;
 
     node.setTrigger(Trigger::implicit);
-    EXPECT_EQ(session.updatesBy([&] { node.grab(box); }), 0u); // nothing was open
+    EXPECT_EQ(session.updatesBy([&] { node.grab(box); }), 0u); // nothing was held back
     EXPECT_EQ(session.drag(10), 0u);
     EXPECT_FALSE(session.upToDate());
 
@@ -89,7 +89,7 @@ TEST(Triggers, WhatIsHeldBackStaysSoWhenTheOtherSideIsReplaced) {
     RadiosityNode& node = *session.room.node;
     node.setTrigger(Trigger::onDemand);
     session.drag(1);
-    node.stop(); // and another one is told the scene as it was sent
+    node.stop(); // and another one gets the scene as it was sent
     node.start();
     EXPECT_FALSE(session.upToDate());
     node.requestUpdate();

@@ -1,4 +1,4 @@
-// What a worker tells its solver of the viewer.
+// What a worker passes on to its solver of the viewer.
 #include "radiosity/process/ViewerAttention.h"
 
 #include "tests/support/Scenes.h"

@@ -1,4 +1,4 @@
-// What is said of open work while somebody watches, and that it is true.
+// The dirty status that is published while somebody watches, and that it is true.
 #include "tests/support/LitNode.h"
 #include "tests/support/SteppedLink.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 using Kind = DirtyStatus::Kind;
 
-/// A room whose other side takes a step a frame.
+/// A room whose worker takes a step a frame.
 class WatchedRoom {
 public:
     void frame() {
@@ -31,7 +31,7 @@ public:
         }
         return false;
     }
-    /// Open work is said anew only now and then.
+    /// The dirty status is published anew only now and then.
     template <class Until>
     bool frameUntil(Until until) {
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
@@ -103,7 +103,7 @@ TEST(WatchedDirtySet, IsNotSaidIfNobodyWatches) {
     EXPECT_TRUE(watched.frameUntil([&] { return !watched.count().empty(); }));
     node.watchDirty(false);
     EXPECT_TRUE(node.dirtyBlocks().empty());
-    // What was said then is no answer to those who ask now.
+    // What was published then is no answer to those who ask now.
     node.watchDirty(true);
     node.update();
     EXPECT_TRUE(watched.count().empty());

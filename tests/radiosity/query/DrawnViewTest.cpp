@@ -13,7 +13,7 @@ namespace penumbra {
 
 namespace {
 
-/// A floor under a lamp, seen from above and from the side, with sky above its far edge.
+/// A floor under a light, seen from above and from the side, with sky above its far edge.
 struct SeenFloor {
     static Scene make() {
         Scene scene;

@@ -19,8 +19,8 @@ NodePtr lightAt(const std::string& name, double x, double y, double z, float nit
                   {std::make_shared<Light>("light", RectShape{0.4f, 0.4f}, Rgb(nits))});
 }
 
-/// A floor of 4 x 4 m, a lamp 3 m over its middle and another to the side. A board of 1 x 1 m hangs
-/// over the middle, one of 0.2 m deep over its right rim.
+/// A floor of 4 x 4 m, a light 3 m over its middle and another to the side. A board of 1 x 1 m
+/// hangs over the middle, one of 0.2 m deep over its right rim.
 Solution boardsOverFloor() {
     return Solution(
         sceneOf({object("floor", floorData(-2, 2, -2, 2, 0)), lightAt("lamp", 0, 0, 3, 100),
@@ -44,7 +44,7 @@ void expectNear(Rgb a, Rgb b, float allowed, const std::string& what) {
     EXPECT_LE(maxChannel(absolute(a - b)), allowed) << what << ": " << a.g << " " << b.g;
 }
 
-/// unoccluded = arrives + losses for every lamp, and what arrives is the direct light as drawn.
+/// unoccluded = arrives + losses for every light, and what arrives is the direct light as drawn.
 void expectAddsUp(const LitScene& lit, const DrawnHit& at) {
     Rgb arrives, drawn, most;
     for (const EmitterAccount& light : accountForLight(lit.patches(), lit.solver().direct(), at)) {
@@ -82,13 +82,14 @@ TEST(LightAccount, OfAnUmbraChargesAllToTheOneObjectInTheWay) {
     EXPECT_EQ(lights[0].arrives, Rgb());
     ASSERT_EQ(lights[0].losses.size(), 1u);
     EXPECT_EQ(nameOf(s, lights[0].losses[0]), "/board");
-    // 0.16 m^2 of 100 nits from 3 m: E = L A cos cos / d^2 = 1.78 lux; the lamp's extent takes 1 %.
+    // 0.16 m^2 of 100 nits from 3 m: E = L A cos cos / d^2 = 1.78 lux; the light's extent takes 1
+    // %.
     EXPECT_NEAR(lights[0].unoccluded.g, 16.0 / 9.0, 0.02);
     expectNear(lights[0].losses[0].lux, lights[0].unoccluded, 1e-5f, "the board's");
 }
 
 TEST(LightAccount, ChargesAWallWithALightBehindItThatHasNoEntries) {
-    // A ceiling over the floor, and the lamp above that.
+    // A ceiling over the floor, and the light above that.
     const Solution s(
         sceneOf({object("floor", floorData(-2, 2, -2, 2, 0)), lightAt("lamp", 0, 0, 3, 100),
                  object("ceiling", boxData({-6, -6, 1.5f}, {6, 6, 1.6f}, false))}),

@@ -11,7 +11,7 @@ namespace penumbra {
 
 namespace {
 
-/// A square floor, a square lamp of 1 m^2 and 100 nit at 2 m, facing down, a board between them.
+/// A square floor, a square light of 1 m^2 and 100 nit at 2 m, facing down, a board between them.
 struct DarkPlace {
     explicit DarkPlace(glm::dvec3 boardAt) {
         board->setMatrix(glm::scale(glm::translate(glm::dmat4(1.0), boardAt), glm::dvec3(0.25)));
@@ -45,7 +45,7 @@ TEST(LightProbe, UnderAFreeLightAllOfItsClosedFormArrives) {
 }
 
 TEST(LightProbe, NamesWhoStandsInTheLight) {
-    const DarkPlace place({0, 0, 1}); // hides all of a lamp of 1 m at 2 m
+    const DarkPlace place({0, 0, 1}); // hides all of a light of 1 m at 2 m
     const auto sources = place.probe({0, 0, 0});
     EXPECT_EQ(sources[0].arrives, Rgb());
     ASSERT_EQ(sources[0].losses.size(), 1u);

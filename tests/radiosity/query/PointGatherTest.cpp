@@ -66,7 +66,7 @@ TEST(PointGather, BehindABoardIsDark) {
     EXPECT_EQ(gather.indirect({{0.1f, 0.2f, 0.01f}, {0, 0, 1}}), Rgb());
 }
 
-/// A white board of 1 x 1 m, 2 cm thick, that hovers over the floor of a white room with a lamp.
+/// A white board of 1 x 1 m, 2 cm thick, that hovers over the floor of a white room with a light.
 Scene boardOverFloor(float gap, std::shared_ptr<Material> white) {
     return sceneOf(
         {object("room", boxData({-1, -1, 0}, {1, 1, 1}, true, white)),

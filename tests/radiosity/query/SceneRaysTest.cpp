@@ -11,7 +11,7 @@ namespace penumbra {
 
 namespace {
 
-/// A square floor, a movable square a metre above it, a lamp that faces down two metres above.
+/// A square floor, a movable square a metre above it, a light that faces down two metres above.
 struct Room {
     Room() {
         const auto up = [](double z) { return glm::translate(glm::dmat4(1.0), {0, 0, z}); };

@@ -1,4 +1,4 @@
-// What an edit changes in a row is found without looking at its entries.
+// What an edit changes in a row is found without reading its entries.
 #include "radiosity/rows/RowTable.h"
 
 #include <gmock/gmock.h>

@@ -242,7 +242,7 @@ TEST(Row, OfEntriesBlockedByOneTakesLessThanSixBytesAnEntry) {
 }
 
 TEST(Row, PenumbraOfOneBlockerTakesTenBytesMoreThanItsFormFactorAndVisibility) {
-    // A code, the visible samples of 64, the blocker's place; its samples are all the others.
+    // A code, the visible samples of 64, the blocker's index; its samples are all the others.
     std::vector<Draft> drafts(1);
     drafts[0].begin(0.01f);
     for (int k = 0; k < 40; ++k) drafts[0].block(5, k);

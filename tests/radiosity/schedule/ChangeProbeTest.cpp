@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t kBlock = PatchSet::kBlock;
 
-/// A floor of 4 x 4 m with a lamp over it, and a box that stands in its light.
+/// A floor of 4 x 4 m with a light over it, and a box in its light.
 struct Stage {
     Scene scene;
     std::shared_ptr<Transform> box = movable(
@@ -43,7 +43,7 @@ struct Outcome {
     double expected = 0, came = 0;
     double before = 0; ///< mean F V
     double share = 0;  ///< of the receivers, for which more than the least is expected
-    int stay = 0;      ///< receivers with an entry of which it was said that it stays,
+    int stay = 0;      ///< receivers with an entry that was expected to stay,
     int didNot = 0;    ///< and it did not
 };
 
@@ -63,7 +63,7 @@ double shareOf(const ExpectedFactors& expected, const RowBlock& row) {
     return double(many) / double(kBlock);
 }
 
-/// Moves the box, looks at every block of the lamp's row, and settles.
+/// Moves the box, probes every block of the emitter's row, and settles.
 std::vector<Outcome> outcomes(Stage& stage, const glm::dmat4& to) {
     LitScene lit(placeScene(stage.scene), {.patchSize = 0.5f, .elementSize = 0.0625f},
                  {.directOnly = true});

@@ -1,4 +1,4 @@
-// Groups of receivers that have to look again.
+// Groups of receivers that have to find again what they see.
 #include "radiosity/schedule/DirtyGroups.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ TEST(DirtyGroups, AreOpenedByWhatLeavesOrEntersWhatTheySee) {
     EXPECT_EQ(open(groups), (std::vector<std::uint32_t>{1, 3}));
     EXPECT_EQ(groups[1].moved, (std::vector<std::uint32_t>{7}));
     EXPECT_EQ(groups[1].anew, 0u);
-    groups.addMoved(7, cube(3), {}); // hidden before anybody looked: told once
+    groups.addMoved(7, cube(3), {}); // hidden before its group was updated: counts once
     EXPECT_EQ(open(groups), (std::vector<std::uint32_t>{1, 3}));
     EXPECT_EQ(groups[3].moved, (std::vector<std::uint32_t>{7}));
 }

@@ -1,4 +1,4 @@
-// The order of open work, what is put off, and what is said about it.
+// The order of dirty blocks, what is deferred, and the bound of that.
 #include "radiosity/schedule/DirtySet.h"
 
 #include <gmock/gmock.h>
@@ -104,7 +104,7 @@ TEST_F(DirtySetOfTwoRows, TakesNoMoreStepsThanItMay) {
     open(0, {block(0, 0.01f), block(1, 0.01f)});
     open(1, {block(2, 0.01f)});
     std::size_t steps = 1;
-    EXPECT_FALSE(work.take(1, steps)); // a row is looked through
+    EXPECT_FALSE(work.take(1, steps)); // a row is searched
     EXPECT_EQ(steps, 0u);
     EXPECT_TRUE(work.pending(1));
     EXPECT_THAT(takeAll(1), IsEmpty());
@@ -126,7 +126,7 @@ TEST_F(DirtySetOfTwoRows, SaysOfEachBlockWhatIsDirtyAndItsPriority) {
     EXPECT_NEAR(at[0].priority / at[1].priority, 0.4 * 8 / 0.02, 1) << "the largest of each";
     takeAll(0.1);
     EXPECT_EQ(work.atBlocks(0.1)[0].rows, 0u);
-    EXPECT_EQ(work.atBlocks(0.1)[1].small, 1u) << "put off, and still open";
+    EXPECT_EQ(work.atBlocks(0.1)[1].small, 1u) << "deferred, and still dirty";
     EXPECT_GT(work.atBlocks(0.1)[1].priority, 0);
 }
 
@@ -135,7 +135,7 @@ TEST_F(DirtySetOfTwoRows, IsNarrowedToSomeReceivers) {
     open(1, {block(0, 0.01f)});
     work.narrow(0, 0, 0b110);
     work.narrow(1, 0, 0);
-    work.narrow(1, 3, 0); // is not open
+    work.narrow(1, 3, 0); // is not dirty
     EXPECT_EQ(work.count(), 2u);
     EXPECT_FLOAT_EQ(float(work.light(0)), 0.4f) << "of the other row there is nothing left";
     std::size_t steps = 100;
@@ -180,7 +180,7 @@ TEST_F(DirtySetOfTwoRows, CanBePutInAnotherOrderAtAnyTime) {
     EXPECT_THAT(takeAll(0), ElementsAre(12, 1, 3));
 }
 
-/// Blocks are places, and the last one is the one that counts.
+/// Blocks are clusters, and the last one is the one that counts.
 class LastFirst : public SchedulingPolicy {
 public:
     WorkQueue::Task rank(const CandidateBlock& work) const override {
@@ -245,7 +245,8 @@ TEST_F(DirtySetOfTwoRows, ComesInPartsIfTheOrderLooks) {
     EXPECT_EQ(first->anew, 0b1000u);
     EXPECT_EQ(work.count(), 2u) << "the rest stays open";
     EXPECT_GT(work.bound(0), 0);
-    EXPECT_TRUE(work.next(0, steps)->probe) << "the other block may be worth more than the rest";
+    EXPECT_TRUE(work.next(0, steps)->probe)
+        << "the other block may have a higher priority than the rest";
     work.expect(0, 1, {});
     EXPECT_EQ(work.count(), 1u) << "nothing is to be done there";
     EXPECT_EQ(work.bound(1), 0);

@@ -38,7 +38,7 @@ TEST(KernelEstimate, PassesFromOneSideOfAnEdgeToTheOtherAboutAHalf) {
 
 TEST(KernelEstimate, DoesNotAskWhatFacesElsewhere) {
     std::vector<Receiver> receivers = rowOf(4);
-    receivers[1].normal = {0, 0, -1}; // the other side of a board
+    receivers[1].normal = {0, 0, -1}; // the back of a board
     const KernelEstimate share(receivers);
     EXPECT_NEAR(share.at(0, 0b0011, 0b0010), 0, 1e-5);
     EXPECT_NEAR(share.at(2, 0b1010, 0b0010), 0, 1e-5);

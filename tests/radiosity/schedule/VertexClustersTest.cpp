@@ -1,4 +1,4 @@
-// The blocks of vertices, as places that a viewer may look at.
+// The blocks of vertices, as clusters that a viewer may see.
 #include "radiosity/schedule/VertexClusters.h"
 
 #include "tests/support/Scenes.h"
@@ -11,7 +11,7 @@ namespace penumbra {
 
 namespace {
 
-/// A floor of 4 x 4 m with a lamp over it, and a box that can be moved.
+/// A floor of 4 x 4 m with a light over it, and a box that can be moved.
 struct Floor {
     Scene scene;
     std::shared_ptr<Transform> box = movable(
@@ -28,7 +28,7 @@ struct Floor {
 constexpr MeshingOptions kMeshing{.patchSize = 0.5f, .elementSize = 0.125f};
 constexpr SolverOptions kDirect{.directOnly = true};
 
-/// All places of an object.
+/// All clusters of an object.
 std::vector<std::uint32_t> clustersOf(const VertexClusters& clusters, const PatchSet& patches,
                                       const std::string& path) {
     std::vector<std::uint32_t> result;

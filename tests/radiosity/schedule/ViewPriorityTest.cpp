@@ -14,7 +14,7 @@ namespace penumbra {
 
 namespace {
 
-/// A floor under a lamp, and two boxes: `near` moves, `far` stands a long way from it.
+/// A floor under a light, and two boxes: `near` moves, `far` is a long way from it.
 struct Stage {
     Scene scene;
     std::shared_ptr<Transform> near = box("near"), far = box("far");
@@ -112,7 +112,7 @@ TEST(ViewPriority, PlacesAndTheirVerticesShareWhatWasFound) {
     const std::uint64_t rays = watched.seen.rays();
     const VertexClusters clusters(watched.lit.patches());
     for (std::uint32_t cluster = 0; cluster < clusters.size(); ++cluster)
-        EXPECT_GT(watched.seen.value(cluster).weight, 0) << "place " << cluster;
+        EXPECT_GT(watched.seen.value(cluster).weight, 0) << "cluster " << cluster;
     EXPECT_EQ(watched.seen.rays(), rays);
 }
 
@@ -169,12 +169,13 @@ TEST(ViewPriority, AThingTakenAwayShowsOfAPlaceWhatItHid) {
     EXPECT_GT(ofFarBox(away), 1.05 * ofFarBox(first)); // the near one is before its lower part
     const std::vector<double> again = to(3);
     for (std::size_t p = 0; p < first.size(); ++p)
-        EXPECT_NEAR(again[p], first[p], 1e-4 * first[p]) << "place " << p;
+        EXPECT_NEAR(again[p], first[p], 1e-4 * first[p]) << "cluster " << p;
 }
 
 TEST(ViewPriority, WhatLiesBesideTheEdgeOfAShadowToTheEyeIsPartlySeen) {
     // The boxes hide some of the floor behind them. What is drawn around a vertex that they hide,
-    // but not its neighbour, is seen in part: worth more than what is hidden all round.
+    // but not its neighbour, is seen in part: its priority is higher than that of what is hidden
+    // all round.
     const Stage stage;
     Watched watched(stage);
     Attention open = from(kEye);

@@ -1,4 +1,4 @@
-// What the certificate is worth beside the light that there is.
+// How large the certificate is beside the light that there is.
 #include "radiosity/transport/LitLevel.h"
 
 #include "tests/support/Scenes.h"

@@ -10,8 +10,8 @@ namespace {
 
 constexpr MeshingOptions kCoarse{.patchSize = 0.5f, .elementSize = 0.25f};
 
-/// Two closed rooms side by side, with a lamp in the first and a box in each. The box in the second
-/// can be moved.
+/// Two closed rooms side by side, with a light in the first and a box in each. The box in the
+/// second can be moved.
 Scene twoRooms(bool withDoor) {
     MeshData first;
     addBox(first, {0, 0, 0}, {2, 2, 2}, true, {0, 2, 3, 4, 5});

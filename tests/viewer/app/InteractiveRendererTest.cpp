@@ -63,7 +63,7 @@ TEST_F(InteractiveRendererTest, DrawsTheLuminancesThatTheFrameRendererDraws) {
 }
 
 TEST_F(InteractiveRendererTest, WhatIsNotLitYetIsSeenByHeadlightAndLights) {
-    // Head on: ambient / 2 + ambient / 2; a lamp of 9 cd at 3 m without area gives 1 lux.
+    // Head on: ambient / 2 + ambient / 2; a light of 9 cd at 3 m without area gives 1 lux.
     root.add(paintedSquare(kRho));
     preview.ambient = Rgb(10);
     preview.lights.push_back({{0, 0, 3}, {0, 0, -1}, Rgb(9), 0});
@@ -182,7 +182,7 @@ TEST_F(InteractiveRendererTest, WhatIsSavedIsWhatIsShown) {
 }
 
 TEST_F(InteractiveRendererTest, TheWindowIsExposedAsPicturesWithoutOpenGLAre) {
-    // A room with its lamp in view, metered on the graphics card and by rays.
+    // A room with its light in view, metered on the graphics card and by rays.
     Scene scene;
     scene.root->add(object("room", boxData({-2, -2, 0}, {2, 2, 3}, true)));
     scene.root->add(ceilingLight({0, 1, 2.9}, 1, 0.5f, Rgb(900, 800, 500)));

@@ -23,7 +23,7 @@ ReadyScene cornell() {
     return ready;
 }
 
-/// Records a while, longer than from one writing to the next; what was said of troubles.
+/// Records a while, longer than from one writing to the next; the messages about troubles.
 std::string walkAbout(Walkthrough& walk, SessionFile& session) {
     std::string said;
     walk.take(KeyEvent{.key = key('W'), .down = true}, {800, 600});

@@ -106,7 +106,7 @@ TEST_F(WalkLightTest, FirstEverythingIsListedUnlitAndThenLitAndNothingTwice) {
     Walkthrough walk(load(file()));
     WalkLight light(walk, coarse(), makeThreadLink());
     EXPECT_EQ(listOf(light, walk).items.size(), 0u);
-    EXPECT_EQ(listOf(light, walk).unlit.size(), 3u) << "floor, box and lamp, before any update";
+    EXPECT_EQ(listOf(light, walk).unlit.size(), 3u) << "floor, box and light, before any update";
     light.update(walk, viewOf(walk));
     const DrawList first = listOf(light, walk);
     EXPECT_EQ(first.items.size() + first.unlit.size(), 3u);
@@ -132,8 +132,8 @@ TEST_F(WalkLightTest, WhatIsInTheHandIsHeldBackUntilItIsLetGo) {
         light.update(walk, viewOf(walk));
     }
     ASSERT_TRUE(walk.inHand());
-    EXPECT_EQ(light.node().previewLights().size(), 1u) << "the lamp that matters to the box";
-    EXPECT_TRUE(light.preview().active()) << "is drawn live as soon as it moves";
+    EXPECT_EQ(light.node().previewLights().size(), 1u) << "the light that matters to the box";
+    EXPECT_TRUE(light.preview().active()) << "is previewed as soon as it moves";
     EXPECT_GT(light.state().held, 0u);
     EXPECT_EQ(light.state().updates, updates);
     walk.take(ButtonEvent{.button = MouseButton::left, .down = false, .position = {48, 24}},

@@ -117,7 +117,7 @@ TEST_F(RendererTest, EachTriangleHasItsOwnMaterial) {
 TEST_F(RendererTest, OnlyTheLightIsUploadedAgainWhenItChanges) {
     const auto node = litNode(litSquare());
     root.add(node);
-    root.add(placed(moved(3, 0, -3), node)); // the same node in a second place
+    root.add(placed(moved(3, 0, -3), node)); // a second instance of the same node
     render(viewFrom(1, 5, 5), 5, 5);
     EXPECT_EQ(renderer.statistics().uploads, 1u);
     render(viewFrom(1, 5, 5), 5, 5);

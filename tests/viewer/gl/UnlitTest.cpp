@@ -1,4 +1,4 @@
-// How a scene looks before radiosity: UnlitGeometry, UnlitLighting.
+// How a scene is drawn before radiosity: UnlitGeometry, UnlitLighting.
 #include "viewer/gl/UnlitGeometry.h"
 #include "viewer/gl/UnlitLighting.h"
 

@@ -73,7 +73,7 @@ TEST(Drag, AboveTheHorizonAndEdgeOnNothingFliesAway) {
     expectNear(glm::dvec3(moved[3]), {0.5, 0, 0});
 }
 
-/// A room of 4 m with a box of 1 m in it at a place.
+/// A room of 4 m with a box of 1 m in it.
 SupportPlane supportAt(glm::dvec3 place) {
     Scene scene;
     scene.upAxis = UpAxis::z;

@@ -19,7 +19,7 @@ TEST(Selection, IsTheObjectWithItsNodeItsPaintAndItsLights) {
     scene.root->add(square("Floor"));
     const PlacedScene placed = placeScene(scene);
     const SceneRays rays(placed);
-    // the lamp lies in the desk's top: aim beside it
+    // the light lies in the desk's top: aim beside it
     const auto touch = rays.touch({0.9, 0.9, 3}, {0, 0, -1}, 10);
     ASSERT_TRUE(touch);
     const Selection selection = selectionOf(scene, placed, *touch);

@@ -15,7 +15,7 @@ std::optional<Command> stroke(Key pressed, char letter = 0, Modifiers modifiers 
 }
 
 TEST(Shortcuts, LettersCountAsTheLayoutHasThem) {
-    // On a French keyboard the key at the place of Q is an A.
+    // On a French keyboard the key in the position of Q is an A.
     const auto quit = stroke(key('A'), 'Q', {.control = true});
     ASSERT_TRUE(quit);
     EXPECT_EQ(quit->action, Action::quit);

@@ -79,7 +79,7 @@ TEST(Walkthrough, TheMiddleButtonCirclesAroundWhatIsUnderThePointer) {
     EXPECT_GT(std::abs(walk.rig().pose().eye.x), 0.1);
 }
 
-/// Where a place of the scene is in the picture [pixel].
+/// Where a point of the scene is in the picture [pixel].
 glm::dvec2 pixelOf(const Walkthrough& walk, glm::dvec3 place) {
     const View view = walk.rig().view(kPicture.x, kPicture.y);
     const glm::dvec4 clip = view.worldToClip() * glm::dvec4(place, 1);
@@ -163,7 +163,7 @@ TEST(Walkthrough, NudgesAndTurnsWhatIsSelected) {
 TEST(Walkthrough, DimsAndSwitchesLights) {
     Walkthrough walk(field());
     const auto nits = [&] { return walk.placed().lights[0].node->luminance().r; };
-    walk.brighten(-1); // nothing is selected: all lamps
+    walk.brighten(-1); // nothing is selected: all lights
     EXPECT_FLOAT_EQ(nits(), 50);
     walk.advance(2);
     const auto touch = walk.rays().touch({-3, 4, 2}, {0, 0, 1}, 10);

@@ -90,7 +90,7 @@ TEST(OverlayViews, NothingIsKnownOfWorkThatNobodyWatches) {
     EXPECT_FALSE(noImportanceView().legend.title.empty());
 }
 
-/// 60 of 100 lux of one lamp are taken, 40 by a box and 20 by the walls; another one gives 100.
+/// 60 of 100 lux of one light are taken, 40 by a box and 20 by the walls; another one gives 100.
 std::vector<EmitterAccount> twoLights() {
     return {{"/ceiling/lamp", Rgb(100), Rgb(40), {{ObjectId{1}, Rgb(40)}, {ObjectId{0}, Rgb(20)}}},
             {"/desk/lamp", Rgb(100), Rgb(100), {}}};

@@ -39,7 +39,7 @@ public:
         renderer.drawScene(list, view, {}, kSize, kSize, blend.preview());
         return renderer.readLuminances();
     }
-    /// What is to be seen in the end: the published light, without fade or live lamps.
+    /// What is to be seen in the end: the published light, without fade or previewed lights.
     std::vector<Rgb> published() {
         const View view = PreviewRoom::viewInside(kSize);
         renderer.drawScene(listVisible(node().lit(), Frustum(view.worldToClip())), view, {}, kSize,
@@ -115,7 +115,7 @@ TEST_F(LightBlendTest, TheHandOverIsAFadeWithoutStepsThatEndsAtTheSolution) {
     }
     const std::vector<Rgb> exact = screen.published();
     EXPECT_LT(largestStep(screen.frame(), exact), 1e-5f);
-    // A pixel goes straight from what was drawn live to the solution, as smoothstep goes: 1.5 times
+    // A pixel goes straight from what was previewed to the solution, as smoothstep goes: 1.5 times
     // the mean speed at most, and no way that it has to go back.
     for (std::size_t p = 0; p < exact.size(); ++p) {
         const float whole = std::abs(exact[p].r - frames[0][p].r);

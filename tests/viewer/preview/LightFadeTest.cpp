@@ -150,7 +150,7 @@ TEST(LightFade, IndirectLightThatMayNotFadeYetFinishesItsFadeAndWaits) {
     surface.publish(0, 100, Known::exact, 40);
     EXPECT_EQ(show(1, false), 20);
     EXPECT_TRUE(surface.fade.changing());
-    EXPECT_EQ(show(2, true), 20) << "sets out";
+    EXPECT_EQ(show(2, true), 20) << "begins to fade";
     surface.publish(0, 100, Known::exact, 60);
     EXPECT_NEAR(show(2.125, false), 30, 1e-3f);
     EXPECT_EQ(show(2.25, false), 40);
@@ -220,9 +220,9 @@ TEST(LightFade, WhoIsNotReadyStaysBehindAndFollows) {
     EXPECT_FALSE(surface.fade.anyBehind());
 }
 
-/// Factors 0.5 before and 0.8 now, which the live light gives in full: with the share o of what was
-/// before in a vertex, f + o (0.8 - 0.5) is 0.8 whenever the vertex follows.
-/// \param light of all lamps now; before it was 100
+/// Factors 0.5 before and 0.8 now, which preview lighting gives in full: with the share o of what
+/// was before in a vertex, f + o (0.8 - 0.5) is 0.8 whenever the vertex follows. \param light of
+/// all previewed lights now; before it was 100
 void expectTheLightOfNow(float light) {
     Surface surface(3);
     const auto frame = [&](double time) {
@@ -357,7 +357,7 @@ TEST(LightFade, ACornerThatIsDrawnWithASharedVertexAgainWaitsForItsLight) {
 }
 
 TEST(LightFade, ACornerThatIsDrawnWithASharedVertexAgainFadesWithItEachTime) {
-    // Its light comes in two parts. Whoever goes on to the first one is dark in between.
+    // Its light comes in two parts. A vertex that takes the first one alone is dark in between.
     ReturnedCorner surface(0);
     surface.publish(0, 300), surface.publish(1, 0);
     surface.show(1), surface.show(2);
@@ -374,7 +374,7 @@ TEST(LightFade, ACornerThatIsDrawnWithASharedVertexAgainFadesWithItEachTime) {
 }
 
 TEST(LightFade, ACornerThatIsDrawnWithASharedVertexAgainKeepsNoLightOfLiveLights) {
-    // At both it is brought up to date to the same: 300 and 0.5 of the lamp's 100, 120 and 0.25.
+    // At both it is brought up to date to the same: 300 and 0.5 of the light's 100, 120 and 0.25.
     ReturnedCorner surface(1);
     const auto publish = [&](std::size_t block, float direct, float factor) {
         surface.geometry.setBlock(block, [&](LitMeshData& data, LightShares& shares) {
@@ -388,7 +388,7 @@ TEST(LightFade, ACornerThatIsDrawnWithASharedVertexAgainKeepsNoLightOfLiveLights
     surface.show(1), surface.show(2);
     surface.setLast(70);
     surface.show(3);
-    EXPECT_EQ(surface.corner(), 275) << "250 of other lamps, and what the vertex has of this one";
+    EXPECT_EQ(surface.corner(), 275) << "250 of other lights, and what the vertex has of this one";
     EXPECT_EQ(surface.fade.shown().factors.back()[0], 0.25f);
 }
 

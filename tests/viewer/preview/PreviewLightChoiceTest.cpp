@@ -1,4 +1,4 @@
-// Which lamps are drawn live, and which of them matter to a thing.
+// Which lights are previewed, and which of them matter to a thing.
 #include "viewer/preview/PreviewLightChoice.h"
 
 #include "tests/support/LitNode.h"
@@ -12,7 +12,7 @@ namespace {
 
 using Paths = std::vector<std::string>;
 
-/// A room with a box and a lamp of 100 nit below its ceiling, and two panels of one mesh.
+/// A room with a box and a light of 100 nit below its ceiling, and two panels of one mesh.
 struct PanelRoom : LitRoom {
     PanelRoom(Rgb one, Rgb other) : glow(paint(Rgb(), one)) {
         const auto right = one == other ? glow : paint(Rgb(), other);

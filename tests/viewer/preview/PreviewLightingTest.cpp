@@ -1,4 +1,4 @@
-// Lamps drawn live, by shadow maps (MapPreview, PreviewMaps) and by rays (RayPreview), against
+// Previewed lights, by shadow maps (MapPreview, PreviewMaps) and by rays (RayPreview), against
 // radiosity.
 #include "tests/viewer/preview/PreviewScenes.h"
 
@@ -28,7 +28,7 @@ protected:
         writePngBytes(std::string(folder) + "/" + name + ".png", kSize, kSize,
                       displayBytes(flipped, kSize));
     }
-    /// All light drawn live, from a lamp that was not there before, against the solution: relative
+    /// All light previewed, from a source that was not there before, against the solution: relative
     /// differences of pixels that lie in no shadow.
     std::vector<float> unshadowed(PreviewRoom& room, const std::string& name) {
         room.room.box->setMatrix(lifted());
@@ -43,8 +43,8 @@ protected:
         room.show([](const LitMeshData&, std::size_t) { return Rgb(); });
         const std::vector<Rgb> fast = room.draw(
             interactive, room.preview(now, std::make_shared<SceneState>(dark)), kSize, GetParam());
-        // Where shadows are: any vertex of the triangle sees less than all of the lamp, or is not
-        // in front of it: there the mesh cuts off light more coarsely than the lamp does.
+        // Where shadows are: any vertex of the triangle sees less than all of the light, or is not
+        // in front of it: there the mesh cuts off light more coarsely than the light does.
         room.show([](const LitMeshData&, std::size_t) { return Rgb(); });
         const Rgb exitance = room.room.light->luminance() * 3.14159265f;
         for (const LitObject& object : room.room.node->objects()) {
@@ -66,7 +66,7 @@ protected:
         EXPECT_GT(differences.size(), exact.size() / 4);
         return differences;
     }
-    /// Its light as it is, of which all that is direct is the lamp's.
+    /// Its light as it is, of which all that is direct is the light's.
     static void showWithFactors(PreviewRoom& room) {
         room.show(ownLight);
         for (auto& [geometry, light] : room.shown)
@@ -86,7 +86,7 @@ TEST_P(PreviewLightingTest, WhatLiesInNoShadowHasTheValueOfItsRadiosity) {
     EXPECT_LE(percentile(differences, 0.99), 1e-2f);
 }
 
-/// Elements of half the size as elsewhere: between vertices light is drawn linear, which a lamp so
+/// Elements of half the size as elsewhere: between vertices light is drawn linear, which a light so
 /// near to the walls is not. With 0.1 m that alone is 1.7 % and 1 % at the 99th percentile; it
 /// falls with the square of the size.
 RadiosityOptions finerRoom() {

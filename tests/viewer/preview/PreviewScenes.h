@@ -1,4 +1,4 @@
-// Lit scenes in which something moves, for the tests of what is drawn live.
+// Lit scenes in which something moves, for the tests of preview lighting.
 #pragma once
 
 #include "tests/viewer/gl/LitScenes.h"
@@ -56,7 +56,7 @@ public:
             to.revision = revision;
         }
     }
-    /// What the lamp gives to a vertex of an object when nothing is in the way, over its exitance.
+    /// What the light gives to a vertex of an object when nothing is in the way, over its exitance.
     float unoccluded(const LitObject& object, const SceneStatePtr& at, std::size_t vertex) const {
         const EmitterSender sender(at->lights[0].front(), 16, 16);
         const LitMeshData& data = object.geometry->data();
@@ -109,7 +109,7 @@ public:
     }
 
     LitRoom room;
-    std::string source = "/lamp/light"; ///< that is drawn live
+    std::string source = "/lamp/light"; ///< that is previewed
     std::map<const LitGeometry*, ShownLight> shown;
     std::uint64_t revision = 1;
 };

@@ -1,4 +1,4 @@
-// Light brought up to date by rays, corner by corner, against radiosity where things stand now.
+// Light brought up to date by rays, corner by corner, against radiosity of the scene as it is now.
 #include "viewer/preview/RayPreview.h"
 
 #include "tests/viewer/preview/PreviewScenes.h"
@@ -48,7 +48,7 @@ public:
     }
 };
 
-/// The same with a movable mesh that shines in place of the lamp.
+/// The same with a movable emissive mesh instead of the light.
 struct GlowingRoom : PosedRoom {
     GlowingRoom(const glm::dmat4& place, const glm::dmat4& panels) {
         const auto glow = paint(Rgb(), Rgb(40));

@@ -80,7 +80,7 @@ TEST(UsdStage, LayerOffsetsMapTheTimesOfSubLayers) {
                                         "z.timeSamples = { 0: 0, 48: 48 }\n}\n");
     const UsdStage stage = UsdStage::open(folder.write(
         "root.usda", kHeader + "(subLayers = [@mid.usda@ (offset = 100), @fast.usda@])\n"));
-    // outer = inner * 2 + 100: the sample of time 10 stands at 120.
+    // outer = inner * 2 + 100: the sample of time 10 is at 120.
     EXPECT_EQ(numbers(stage, "x", 120), Numbers{10});
     EXPECT_EQ(numbers(stage, "x", 110), Numbers{5});
     // 48 time codes a second become 24: a second is a second.

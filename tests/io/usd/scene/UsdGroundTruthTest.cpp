@@ -83,8 +83,8 @@ Rgb colourOf(const json& prim, const char* key, Rgb fallback) {
     return {prim[key][0], prim[key][1], prim[key][2]};
 }
 
-// Calls check(prim, node in its place, in file units) for each prim of each readable file that
-// has a node; returns how many.
+// Calls check(prim, node with its transform, in file units) for each prim of each readable file
+// that has a node; returns how many.
 template <class Check>
 std::size_t forEachPrim(const fs::path& shared, Check check) {
     std::size_t checked = 0;

@@ -98,7 +98,7 @@ TEST(UsdLight, ATubeSendsTheFluxOfItsCylinder) {
     EXPECT_NEAR(surfaceArea(*tube, glm::dmat4(1)), 2 * kPi * 0.5 * 1.2, 1e-5);
     EXPECT_EQ(tube->data().materials.at(0)->emission(), Rgb(7));
     EXPECT_EQ(tube->data().materials.at(0)->reflectance(), Rgb(0));
-    // Faces look outwards: the normal of the first one has a positive part along its own place.
+    // Faces look outwards: the normal of the first one has a positive part along its own position.
     const auto& p = tube->data().points;
     const auto& i = tube->data().faceVertexIndices;
     const glm::vec3 a = p[std::size_t(i[0])];

@@ -17,7 +17,7 @@ namespace penumbra {
 
 namespace {
 
-/// The file that a name stands for: penumbra-<process>-<file>-<random>.
+/// The file that a name denotes: penumbra-<process>-<file>-<random>.
 std::string pathOf(const std::string& name) {
     const std::size_t process = name.find('-') + 1, file = name.find('-', process) + 1;
     return "/proc/" + name.substr(process, file - process - 1) + "/fd/" +
@@ -48,7 +48,7 @@ TEST(SharedRegions, NobodyOpensThemAfterUnlinkAndTheMemoryStays) {
     region->bytes()[99] = std::byte(1);
 }
 
-// Else the other side ends by a bus error at its next look.
+// Else the peer ends by a bus error when it reads next.
 TEST(SharedRegions, NobodyCanMakeThemSmaller) {
     const auto regions = makeSharedRegions();
     const RegionPtr region = regions->create(100'000);
