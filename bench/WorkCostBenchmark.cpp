@@ -35,7 +35,12 @@ struct Room {
         for (const Emitter& emitter : set.emitters) emitters.emplace_back(emitter, 16, 64);
         for (const Vertex& vertex : set.vertices) vertices.push_back(vertex.receiver);
         for (std::uint32_t o = 0; o < set.objects.size() && moved.empty(); ++o)
-            if (set.objects[o].movable) moved.push_back({o, true, rays.bounds(ObjectId{o})});
+            if (set.objects[o].movable) moved.push_back({o, true, boundsOf(set.rayMeshes[o])});
+    }
+    static Bounds boundsOf(const RayMesh& mesh) {
+        Bounds bounds;
+        for (glm::vec3 vertex : mesh.vertices) bounds.add(vertex);
+        return bounds;
     }
     ReceiverBlock vertexBlock(std::size_t block) const {
         return {std::span(vertices).subspan(block * PatchSet::kBlock, PatchSet::kBlock), kAll, 0};

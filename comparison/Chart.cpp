@@ -166,17 +166,17 @@ std::string figure(double value) {
     return fmt::format("{:.3g}", value);
 }
 
-std::string lineChart(const std::vector<ChartSeries>& series, const ChartOptions& given) {
-    ChartOptions options = given;
+std::string lineChart(const std::vector<ChartSeries>& series, const ChartOptions& options) {
     const double legend = kLegendRow * double(series.size()) + 8;
-    options.height = std::max(options.height, int(kTop + kBottom + legend));
-    const Axes axes = axesOf(series, options);
+    ChartOptions fitting = options;
+    fitting.height = std::max(options.height, int(kTop + kBottom + legend));
+    const Axes axes = axesOf(series, fitting);
     std::string svg = fmt::format(
         "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "
         "font-family='sans-serif' font-size='12' role='img' aria-label='{2}'>\n"
         "<rect width='{0}' height='{1}' fill='#fff'/>\n"
         "<text x='{3}' y='20' font-size='14' font-weight='bold'>{2}</text>\n",
-        options.width, options.height, escaped(options.title), kLeft);
+        fitting.width, fitting.height, escaped(fitting.title), kLeft);
     drawGrid(svg, axes);
     for (std::size_t i = 0; i < series.size(); ++i) drawCurve(svg, series[i], i, axes);
     drawLegend(svg, series, axes);
@@ -184,8 +184,8 @@ std::string lineChart(const std::vector<ChartSeries>& series, const ChartOptions
                    "<text x='{:.1f}' y='{}' text-anchor='middle'>{}</text>\n"
                    "<text transform='translate(16 {:.1f}) rotate(-90)' "
                    "text-anchor='middle'>{}</text>\n</svg>\n",
-                   axes.left + axes.width / 2, options.height - 10, escaped(options.xLabel),
-                   axes.top + axes.height / 2, escaped(options.yLabel));
+                   axes.left + axes.width / 2, fitting.height - 10, escaped(fitting.xLabel),
+                   axes.top + axes.height / 2, escaped(fitting.yLabel));
     return svg;
 }
 

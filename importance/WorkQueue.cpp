@@ -18,12 +18,13 @@ bool WorkQueue::before(std::uint32_t a, std::uint32_t b) const {
 }
 
 /// At least the priority of any task of a cluster, also after rounding.
-double WorkQueue::boundOf(const Cluster& at) {
-    return at.tasks.empty() ? 0 : (1 + 1e-6) * priorityOf(at.value, at.mostChange, at.leastCost);
+double WorkQueue::boundOf(const Cluster& cluster) {
+    if (cluster.tasks.empty()) return 0;
+    return (1 + 1e-6) * priorityOf(cluster.value, cluster.mostChange, cluster.leastCost);
 }
 
-double WorkQueue::valueOf(const ClusterPriority& at, const TaskPriority& priority) {
-    return priorityOf(at, priority.change, double(priority.cost) / double(priority.share));
+double WorkQueue::valueOf(const ClusterPriority& cluster, const TaskPriority& priority) {
+    return priorityOf(cluster, priority.change, double(priority.cost) / double(priority.share));
 }
 
 double WorkQueue::value(Handle handle) const {
@@ -98,33 +99,33 @@ void WorkQueue::rekey(Value value) {
     for (std::size_t i = 0; i < heap_.size(); ++i) clusters_[heap_[i]].position = i;
 }
 
-void WorkQueue::rekey(std::uint32_t index, const ClusterPriority& value) {
-    Cluster& at = clusterAt(index);
+void WorkQueue::rekey(std::uint32_t cluster, const ClusterPriority& value) {
+    Cluster& at = clusterAt(cluster);
     at.value = value;
     at.ordered = false;
-    if (at.position != kOut) settle(index);
+    if (at.position != kOut) settle(cluster);
 }
 
 /// Ranks all tasks of a cluster, and finds its exact key and bounds.
-void WorkQueue::order(Cluster& at) {
-    std::erase_if(at.tasks, [&](const Ranked& ranked) { return stale(ranked); });
-    at.mostChange = 0;
-    at.leastCost = std::numeric_limits<float>::infinity();
-    for (Ranked& ranked : at.tasks) {
+void WorkQueue::order(Cluster& cluster) {
+    std::erase_if(cluster.tasks, [&](const Ranked& ranked) { return stale(ranked); });
+    cluster.mostChange = 0;
+    cluster.leastCost = std::numeric_limits<float>::infinity();
+    for (Ranked& ranked : cluster.tasks) {
         const TaskPriority& priority = slots_[ranked.slot].task.priority;
-        ranked.value = valueOf(at.value, priority);
-        at.mostChange = std::max(at.mostChange, priority.change);
-        at.leastCost = std::min(at.leastCost, priority.cost / priority.share);
+        ranked.value = valueOf(cluster.value, priority);
+        cluster.mostChange = std::max(cluster.mostChange, priority.change);
+        cluster.leastCost = std::min(cluster.leastCost, priority.cost / priority.share);
     }
-    std::make_heap(at.tasks.begin(), at.tasks.end());
-    at.ordered = true;
+    std::make_heap(cluster.tasks.begin(), cluster.tasks.end());
+    cluster.ordered = true;
 }
 
 /// Tasks that were removed or ranked anew leave their cluster's list only now.
-void WorkQueue::skipStale(Cluster& at) {
-    while (!at.tasks.empty() && stale(at.tasks.front())) {
-        std::pop_heap(at.tasks.begin(), at.tasks.end());
-        at.tasks.pop_back();
+void WorkQueue::skipStale(Cluster& cluster) {
+    while (!cluster.tasks.empty() && stale(cluster.tasks.front())) {
+        std::pop_heap(cluster.tasks.begin(), cluster.tasks.end());
+        cluster.tasks.pop_back();
     }
 }
 

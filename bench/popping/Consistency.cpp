@@ -34,7 +34,8 @@ public:
     Comparison(const std::string& scene, PreviewMethod by, float elementSize, glm::ivec2 size)
         : walk_(loadScene(scene)), by_(by), size_(size),
           renderer_({.samples = 1, .precision = HdrTarget::Precision::single}) {
-        options_.meshing = meshingOf(walk_.loaded().asked, elementSize);
+        options_ = optionsFor(walk_.loaded().asked);
+        options_.meshing.elementSize = elementSize;
         options_.trigger = Trigger::continuous;
         options_.solving.directOnly = true;
         node_ = std::make_shared<RadiosityNode>("lit", options_, makeThreadLink());

@@ -87,8 +87,8 @@ public:
 
 private:
     void makeLight() {
-        RadiosityOptions light;
-        light.meshing = meshingOf(walk_.loaded().asked, options_.elementSize);
+        RadiosityOptions light = optionsFor(walk_.loaded().asked);
+        light.meshing.elementSize = options_.elementSize;
         light.trigger = Trigger::implicit;
         light.solving.directOnly = !options_.indirect;
         light_ = std::make_unique<WalkLight>(walk_, light, makeThreadLink(), options_.blend);

@@ -44,8 +44,9 @@ using Clock = std::chrono::steady_clock;
 /// Pictures by the processor: what costs little on a graphics card counts there.
 bool drawnInSoftware(const Window& window) {
     const std::string name = window.renderer();
-    return name.find("llvmpipe") != name.npos || name.find("softpipe") != name.npos ||
-           name.find("SwiftShader") != name.npos;
+    return name.find("llvmpipe") != std::string::npos ||
+           name.find("softpipe") != std::string::npos ||
+           name.find("SwiftShader") != std::string::npos;
 }
 
 class Viewer {

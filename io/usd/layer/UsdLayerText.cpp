@@ -47,8 +47,8 @@ std::string usdText(glm::dvec4 v) {
     return tuple({usdText(v.x), usdText(v.y), usdText(v.z), usdText(v.w)});
 }
 
-std::string usdText(const glm::dmat4& m) {
-    return tuple({usdText(m[0]), usdText(m[1]), usdText(m[2]), usdText(m[3])});
+std::string usdText(const glm::dmat4& value) {
+    return tuple({usdText(value[0]), usdText(value[1]), usdText(value[2]), usdText(value[3])});
 }
 
 std::string usdQuoted(std::string_view text) {
@@ -66,9 +66,12 @@ UsdLayerText::Prim& UsdLayerText::at(const std::string& path) {
     std::istringstream names(path.substr(1));
     for (std::string name; std::getline(names, name, '/');) {
         auto found = std::find_if(prim->children.begin(), prim->children.end(),
-                                  [&](const auto& child) { return child.first == name; });
-        if (found == prim->children.end()) found = prim->children.insert(found, {name, Prim()});
-        prim = &found->second;
+                                  [&](const auto& child) { return child.name == name; });
+        if (found == prim->children.end()) {
+            found = prim->children.insert(found, Prim());
+            found->name = name;
+        }
+        prim = &*found;
     }
     return *prim;
 }
@@ -87,9 +90,10 @@ void UsdLayerText::write(std::string& out, const Prim& prim, std::size_t depth) 
         std::istringstream each(lines);
         for (std::string line; std::getline(each, line);) out += indent + line + "\n";
     }
-    for (const auto& [name, child] : prim.children) {
+    for (const Prim& child : prim.children) {
         if (out.back() == '\n' && !out.ends_with("{\n")) out += "\n";
-        out += indent + child.specifier + " \"" + name + "\"\n" + indent + "{\n";
+        out.append(indent).append(child.specifier).append(" \"").append(child.name);
+        out.append("\"\n").append(indent).append("{\n");
         write(out, child, depth + 1);
         out += indent + "}\n";
     }

@@ -38,9 +38,10 @@ public:
 
 private:
     struct Prim {
+        std::string name;
         std::string specifier = "over";
         std::vector<std::string> lines;
-        std::vector<std::pair<std::string, Prim>> children; ///< in the order of their first mention
+        std::vector<Prim> children; ///< in the order of their first mention
     };
     Prim& at(const std::string& path);
     static void write(std::string& out, const Prim& prim, std::size_t depth);

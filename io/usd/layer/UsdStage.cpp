@@ -37,7 +37,7 @@ UsdStage UsdStage::open(const std::filesystem::path& root, const UsdLayerLimits&
 
 std::vector<std::filesystem::path> UsdStage::files() const {
     std::vector<std::filesystem::path> files;
-    for (const UsdStackedLayer& stacked : layers_) files.push_back(stacked.layer->file);
+    for (const UsdStackedLayer& stacked : layers_) files.emplace_back(stacked.layer->file);
     files.insert(files.end(), unread_.begin(), unread_.end());
     return files;
 }
