@@ -13,7 +13,8 @@ namespace penumbra {
 namespace {
 
 constexpr int kRays = DetailHits::kRays;
-constexpr int kSweeps = 10; ///< light goes from gathering vertex to gathering vertex
+constexpr float kMostOfFar = 5; ///< of what nodes receive: what a far ray counts for
+constexpr int kSweeps = 10;     ///< light goes from gathering vertex to gathering vertex
 
 double smoothstep(double low, double high, double x) {
     const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
@@ -150,12 +151,13 @@ void DetailGather::gatherVertices(Sweep& sweep, std::size_t first, std::size_t l
                     received(sweep.sent, group, gatherer, sweep.nodeIndirect);
 }
 
-glm::dvec3 DetailGather::gathered(const Sent& sent, std::span<const std::uint32_t> hits,
-                                  bool slit) const {
+glm::dvec3 DetailGather::gathered(const Sent& sent, std::span<const std::uint32_t> hits, bool slit,
+                                  std::uint64_t bounded, float most) const {
     glm::dvec3 sum(0), returned(0);
     Light brightest;
     float second = 0; // brightest [lm/m^2]
-    for (const std::uint32_t hit : hits) {
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        const std::uint32_t hit = hits[i];
         if (hit == Element::kNone) continue;
         const std::uint32_t element = hit & ~DetailRays::kAcross;
         const bool returns = slit && isAcross(hit);
@@ -163,7 +165,9 @@ glm::dvec3 DetailGather::gathered(const Sent& sent, std::span<const std::uint32_
             const Rgb rho = patches_.materials[patches_.elements[element].material].reflectance;
             returned += glm::dvec3(rho.r, rho.g, rho.b);
         }
-        const Light& light = returns ? sent.direct[element] : sent.all[element];
+        Light light = returns ? sent.direct[element] : sent.all[element];
+        if ((bounded >> i & 1) && light.luminance > most)
+            light = {most / light.luminance * light.colour, most};
         sum += glm::dvec3(light.colour.r, light.colour.g, light.colour.b);
         if (light.luminance > brightest.luminance)
             second = brightest.luminance, brightest = light;
@@ -177,6 +181,21 @@ glm::dvec3 DetailGather::gathered(const Sent& sent, std::span<const std::uint32_
     return (sum - glm::dvec3(excess.r, excess.g, excess.b)) / (double(kRays) - returned);
 }
 
+/// How much more a vertex gathers than its nodes do. Both count what is far away only up to a few
+/// times what is `known` of the vertex: a single ray that happens to find something small and
+/// bright there would stand for a 64th of the hemisphere at one of them, and for nothing at the
+/// others.
+glm::dvec3 DetailGather::difference(const Sent& sent, std::span<const std::uint32_t> hits,
+                                    const DetailHits::Gatherer& gatherer, glm::dvec3 known) const {
+    const auto [patch, s, t] = patches_.vertexCoordinates[gatherer.vertex];
+    const Patch& p = patches_.patches[patch];
+    const float most = kMostOfFar * luminance(toRgb(glm::max(known, 0.0)));
+    return gathered(sent, hits, false, ~gatherer.near, most) -
+           interpolate<glm::dvec3>(p, s, t, [&](std::uint32_t n) {
+               return gathered(sent, hits_.nodeHits(n), false, ~hits_.nodeNear(n), most);
+           });
+}
+
 glm::dvec3 DetailGather::nodeValue(const Sent& sent, std::size_t node, glm::dvec3 known) const {
     return glm::mix(known, sent.nodes[node], shutNodeWeight(hits_.nodeOpenness(node)));
 }
@@ -188,12 +207,17 @@ Rgb DetailGather::received(const Sent& sent, std::size_t group,
     const auto [patch, s, t] = patches_.vertexCoordinates[gatherer.vertex];
     const Patch& p = patches_.patches[patch];
     const auto hits = hits_.hits(group, gatherer);
-    const glm::dvec3 own = gathered(sent, hits, gatherer.slit && inSlit(hits));
-    const glm::dvec3 known = interpolate<glm::dvec3>(
-        p, s, t, [&](std::uint32_t n) { return nodeValue(sent, n, nodeIndirect[n]); });
-    const glm::dvec3 expected = interpolateNodes<glm::dvec3>(p, s, t, sent.nodes);
-    const glm::dvec3 corrected = known + double(gatherer.detail) * (own - expected);
-    return toRgb(glm::max(glm::mix(corrected, own, double(gatherer.shut)), 0.0));
+    glm::dvec3 light(0);
+    if (gatherer.shut < 1) {
+        light = interpolate<glm::dvec3>(
+            p, s, t, [&](std::uint32_t n) { return nodeValue(sent, n, nodeIndirect[n]); });
+        if (gatherer.detail > 0)
+            light += double(gatherer.detail) * difference(sent, hits, gatherer, light);
+    }
+    if (gatherer.shut > 0)
+        light = glm::mix(light, gathered(sent, hits, gatherer.slit && inSlit(hits)),
+                         double(gatherer.shut));
+    return toRgb(glm::max(light, 0.0));
 }
 
 void DetailGather::correct(std::uint32_t block, std::span<const glm::dvec3> nodeIndirect,

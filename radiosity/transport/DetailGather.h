@@ -87,7 +87,11 @@ private:
         std::vector<glm::dvec3> nodes;  ///< [lux]
     };
     struct Sweep;
-    glm::dvec3 gathered(const Sent& sent, std::span<const std::uint32_t> hits, bool slit) const;
+    /// \param bounded bits: rays that count for a luminance of `most` [lm/m^2] at the most
+    glm::dvec3 gathered(const Sent& sent, std::span<const std::uint32_t> hits, bool slit,
+                        std::uint64_t bounded = 0, float most = 0) const;
+    glm::dvec3 difference(const Sent& sent, std::span<const std::uint32_t> hits,
+                          const DetailHits::Gatherer& gatherer, glm::dvec3 known) const;
     glm::dvec3 nodeValue(const Sent& sent, std::size_t node, glm::dvec3 known) const;
     Rgb received(const Sent& sent, std::size_t group, const DetailHits::Gatherer& gatherer,
                  std::span<const glm::dvec3> nodeIndirect) const;

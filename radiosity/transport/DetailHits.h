@@ -71,6 +71,8 @@ public:
     std::span<const std::uint32_t> nodeHits(std::size_t node) const {
         return std::span(nodeHits_).subspan(node * kRays, kRays);
     }
+    /// Bits: rays of a node that meet something nearer than a patch's size.
+    std::uint64_t nodeNear(std::size_t node) const { return nodeNear_[node]; }
     double nodeOpenness(std::size_t node) const { return nodeOpenness_[node]; }
 
     std::size_t vertexCount() const; ///< that gather

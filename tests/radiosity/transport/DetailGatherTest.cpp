@@ -1,6 +1,7 @@
 // Indirect light that varies faster than patches can tell.
 #include "radiosity/transport/DetailGather.h"
 #include "base/Parallel.h"
+#include "radiosity/query/LitSurface.h"
 #include "tests/support/Scenes.h"
 
 #include <gtest/gtest.h>
@@ -81,6 +82,26 @@ TEST(DetailGather, LeavesAnEvenlyLitRoomAsItIs) {
                 onWall(solution, raw, {-1, 0, 0}, 0.5f), 0.01);
     for (std::size_t v = 0; v < raw.direct.size(); ++v)
         EXPECT_EQ(raw.direct[v], solution.lighting.direct[v]);
+}
+
+TEST(DetailGather, AFarBrightSpotLeavesNoBlotchBesideABox) {
+    // A lamp close above the floor makes a small bright spot there. A black box under the ceiling
+    // can only take light from the ceiling around it, whichever single rays meet the spot.
+    const NodePtr light = ceilingLight({0.5f, 0.3f, -0.95f}, 0.05f, 0.05f);
+    const MeshData box = boxData({-0.3f, -0.3f, 0.9f}, {0.3f, 0.3f, 1}, false, paint(Rgb(0)));
+    const Solution with(sceneOf({room(0.5f), light, object("box", box)}), kMeshing);
+    const Solution without(sceneOf({room(0.5f), light}), kMeshing, {.detail = false});
+    const LitSurface lit(with.patches(), with.lighting), free(without.patches(), without.lighting);
+    float most = 0;
+    for (float x = -0.85f; x < 0.9f; x += 0.05f)
+        for (float y = -0.85f; y < 0.9f; y += 0.05f) {
+            if (std::max(std::abs(x), std::abs(y)) < 0.35f) continue;
+            const auto here = lit.under({x, y, 1}, {0, 0, -1});
+            const auto alone = free.under({x, y, 1}, {0, 0, -1});
+            ASSERT_TRUE(here && alone);
+            most = std::max(most, here->indirect.r / alone->indirect.r);
+        }
+    EXPECT_LT(most, 1.1f);
 }
 
 TEST(DetailGather, BlocksThatAreAskedForAreThoseOfTheWhole) {
