@@ -85,7 +85,7 @@ TEST(DetailGather, LeavesAnEvenlyLitRoomAsItIs) {
 }
 
 TEST(DetailGather, AFarBrightSpotLeavesNoBlotchBesideABox) {
-    // A lamp close above the floor makes a small bright spot there. A black box under the ceiling
+    // A light close above the floor makes a small bright spot there. A black box under the ceiling
     // can only take light from the ceiling around it, whichever single rays meet the spot.
     const NodePtr light = ceilingLight({0.5f, 0.3f, -0.95f}, 0.05f, 0.05f);
     const MeshData box = boxData({-0.3f, -0.3f, 0.9f}, {0.3f, 0.3f, 1}, false, paint(Rgb(0)));
