@@ -39,9 +39,10 @@ ContactResolver::Result ContactResolver::examine(const Element& element) const {
         if (cornerFree[i]) anchor = corner[i], result.free = true;
     for (int i = 0; !result.free && i < kGrid * kGrid;
          ++i) { // a slit between things that lie on it
-        const glm::vec3 p = over(
-            pointOf(element, (float(i % kGrid) + 0.5f) / kGrid, (float(i / kGrid) + 0.5f) / kGrid),
-            frame.normal);
+        const int column = i % kGrid, row = i / kGrid;
+        const glm::vec3 p =
+            over(pointOf(element, (float(column) + 0.5f) / kGrid, (float(row) + 0.5f) / kGrid),
+                 frame.normal);
         if (isFree(p, frame.normal, cover)) anchor = p, result.free = true;
     }
     if (!result.free) return result;

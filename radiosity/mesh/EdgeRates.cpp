@@ -20,7 +20,7 @@ int scaled(int rate, double factor) {
 double pieces(const std::vector<int>& rates) {
     if (rates.size() == 4)
         return double(std::max(rates[0], rates[2])) * double(std::max(rates[1], rates[3]));
-    const double half = (*std::max_element(rates.begin(), rates.end()) + 1) / 2;
+    const int half = (*std::max_element(rates.begin(), rates.end()) + 1) / 2;
     return double(rates.size()) * half * half;
 }
 

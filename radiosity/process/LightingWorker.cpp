@@ -51,8 +51,8 @@ void LightingWorker::run() {
     }
 }
 
-void LightingWorker::wait(double time) {
-    waitForRing(control_.doorbell, heard_, time);
+void LightingWorker::wait(double seconds) {
+    waitForRing(control_.doorbell, heard_, seconds);
 }
 
 LightingWorker::Turn LightingWorker::turn(double budget) {
@@ -131,11 +131,11 @@ void LightingWorker::take(MessageKind kind, ByteReader& message) {
     }
 }
 
-void LightingWorker::takeScene(const std::string& name) {
-    const RegionPtr region = regions_.open(name);
-    if (!region) senseless("the name of a scene");
-    region->unlink();
-    ByteReader reader(region->bytes());
+void LightingWorker::takeScene(const std::string& region) {
+    const RegionPtr opened = regions_.open(region);
+    if (!opened) senseless("the name of a scene");
+    opened->unlink();
+    ByteReader reader(opened->bytes());
     task_ = readLightingTask(reader);
     if (!task_) senseless("a scene");
     viewer_.setPolicy(task_->solving.policy);

@@ -33,13 +33,13 @@ struct RadiosityNode::Impl {
     void writeTask(ByteWriter& out) const;
     void diff();
     void place(const Group& root);
-    void send(std::vector<GraphEdit> edits);
+    void send(const std::vector<GraphEdit>& edits);
     void takeLight();
     void showObjects(Group& lit, bool moved);
     void rebuildBranch(Group& lit);
     void takeIn(bool allTaken);
     LitObjects::Lights lights() const { return {previewSet, previewLights.size()}; }
-    LitMaterial colourOf(const LitMeshMaterial& material) const;
+    LitMaterial colourOf(const LitMeshMaterial& source) const;
 
     RadiosityOptions options;
     SceneDiff table;
@@ -102,7 +102,7 @@ void RadiosityNode::Impl::place(const Group& root) {
     for (std::size_t o = 0; o < placed.objects.size(); ++o) byPath[placed.objects[o].path] = o;
 }
 
-void RadiosityNode::Impl::send(std::vector<GraphEdit> edits) {
+void RadiosityNode::Impl::send(const std::vector<GraphEdit>& edits) {
     for (const GraphEdit& edit : edits) {
         table.report(edit);
         client.send(edit);

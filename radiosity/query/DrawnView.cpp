@@ -19,8 +19,9 @@ DrawnView::DrawnView(const PatchSet& patches, const View& view, int width, int h
     };
     parallelFor(std::size_t(height), 4, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first * std::size_t(width); i < last * std::size_t(width); ++i) {
-            const double x = 2 * (double(i % std::size_t(width)) + 0.5) / width - 1;
-            const double y = 1 - 2 * (double(i / std::size_t(width)) + 0.5) / height;
+            const std::size_t column = i % std::size_t(width), row = i / std::size_t(width);
+            const double x = 2 * (double(column) + 0.5) / width - 1;
+            const double y = 1 - 2 * (double(row) + 0.5) / height;
             const glm::dvec3 from = unprojected(x, y, -1);
             const glm::vec3 direction(glm::normalize(unprojected(x, y, 1) - from));
             const DrawnHit hit = surface.nearest(glm::vec3(from), direction, 1e30f);
@@ -68,10 +69,10 @@ std::vector<float> DrawnView::metered(const Lighting& light) const {
     std::vector<MeterCell> cells(std::size_t(MeterGrid::kColumns * MeterGrid::kRows));
     for (int y = 0; y < kDown; ++y)
         for (int x = 0; x < kAcross; ++x) {
-            const int column = (2 * x + 1) * width_ / (2 * kAcross);
-            const int row = (2 * y + 1) * height_ / (2 * kDown);
-            meterPoint(pixels_[std::size_t(row * width_ + column)], light,
-                       cells[std::size_t(y / kSide * MeterGrid::kColumns + x / kSide)]);
+            const auto column = std::size_t((2 * x + 1) * width_ / (2 * kAcross));
+            const auto row = std::size_t((2 * y + 1) * height_ / (2 * kDown));
+            const auto cell = std::size_t(y / kSide) * MeterGrid::kColumns + std::size_t(x / kSide);
+            meterPoint(pixels_[row * std::size_t(width_) + column], light, cells[cell]);
         }
     return meteredLuminances(cells);
 }

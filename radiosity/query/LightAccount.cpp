@@ -67,11 +67,11 @@ Factors factorsOf(const PatchSet& patches, const DirectLight& light, std::size_t
 void add(EmitterAccount& light, const Factors& factors, Rgb exitance) {
     light.unoccluded += float(factors.unoccluded) * exitance;
     light.arrives += float(factors.arrives) * exitance;
-    for (const auto& [object, factor] : factors.losses) {
+    for (const auto& [taker, factor] : factors.losses) {
+        const ObjectId object{taker};
         auto loss = std::find_if(light.losses.begin(), light.losses.end(),
-                                 [&](const LightLoss& l) { return l.object == ObjectId{object}; });
-        if (loss == light.losses.end())
-            loss = light.losses.insert(loss, LightLoss{{object}, Rgb()});
+                                 [&](const LightLoss& l) { return l.object == object; });
+        if (loss == light.losses.end()) loss = light.losses.insert(loss, LightLoss{object, Rgb()});
         loss->lux += float(factor) * exitance;
     }
 }

@@ -206,12 +206,12 @@ void UsdRecording::Impl::sample(double code, const glm::dmat4& cameraToWorld, co
     clipping.put(code, usdText(glm::vec2(lens.clippingRange) / unit));
 }
 
-UsdRecording::UsdRecording(const LoadedScene& loaded, std::filesystem::path file)
+UsdRecording::UsdRecording(const LoadedScene& scene, std::filesystem::path file)
     : impl_(std::make_unique<Impl>()) {
-    const UsdAddresses& addresses = loaded.addresses;
+    const UsdAddresses& addresses = scene.addresses;
     impl_->file = std::move(file);
-    impl_->scene = loaded.scene;
-    impl_->animated = loaded.animation != nullptr;
+    impl_->scene = scene.scene;
+    impl_->animated = scene.animation != nullptr;
     impl_->defaultPrim = addresses.defaultPrim;
     impl_->ownCamera = addresses.eyes.empty();
     impl_->camera = impl_->ownCamera ? "/SessionCamera" : addresses.eyes.front().prim;

@@ -36,8 +36,8 @@ public:
     /// one counts. \param cameraToWorld [m] \param lens clipping range in metres
     void sample(double seconds, const glm::dmat4& cameraToWorld, const Lens& lens);
 
-    /// The layer so far, as it is to be written to the file `layer`.
-    std::string text(const std::filesystem::path& layer) const;
+    /// The layer so far, as it is to be written to the file `path`.
+    std::string text(const std::filesystem::path& path) const;
     /// Writes it, whole or not at all. \throws Error
     void write(const std::filesystem::path& layer) const;
 

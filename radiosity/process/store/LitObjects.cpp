@@ -36,7 +36,8 @@ std::vector<EmissiveMesh> emissiveOf(std::vector<LitMeshEmitter> emitters) {
              ++end)
             alike &= emitters[end].material == emitters[first].material;
         if (!alike) continue;
-        EmissiveMesh& mesh = emissive.emplace_back(std::move(emitters[first].path));
+        EmissiveMesh& mesh = emissive.emplace_back();
+        mesh.path = std::move(emitters[first].path);
         for (std::size_t e = first; e < end; ++e) {
             Emitter& emitter = mesh.emitters.emplace_back();
             emitter.path = mesh.path;
