@@ -11,7 +11,6 @@
 
 #include <charconv>
 #include <cstdio>
-#include <tuple>
 #include <utility>
 
 namespace penumbra {
@@ -111,14 +110,11 @@ RadiosityOptions resolvedOptions(const SolveSettings& settings, const LoadedScen
 FrameRange frameRange(const std::string& text) {
     FrameRange range;
     const char* const end = text.data() + text.size();
-    auto [at, error] = std::from_chars(text.data(), end, range.first);
+    std::from_chars_result read = std::from_chars(text.data(), end, range.first);
     range.last = range.first;
-    if (error == std::errc() && at != end && *at == ':')
-        std::tie(at, error) = [&] {
-            const auto result = std::from_chars(at + 1, end, range.last);
-            return std::pair(result.ptr, result.ec);
-        }();
-    if (error != std::errc() || at != end || range.last < range.first)
+    if (read.ec == std::errc() && read.ptr != end && *read.ptr == ':')
+        read = std::from_chars(read.ptr + 1, end, range.last);
+    if (read.ec != std::errc() || read.ptr != end || range.last < range.first)
         throw CLI::ValidationError("--frames", fmt::format("'{}' is not A:B with A <= B", text));
     if (range.first < -kFarthestFrame || range.last > kFarthestFrame ||
         range.last - range.first >= kMostFrames)

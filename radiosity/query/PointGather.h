@@ -26,7 +26,7 @@ public:
     Rgb indirect(const Receiver& receiver) const; ///< [lux]
 
 private:
-    float patchVisibility(std::uint32_t patch, const Receiver& receiver) const;
+    float patchVisibility(std::uint32_t index, const Receiver& receiver) const;
     bool somethingNear(const Receiver& receiver) const;
     Rgb indirectByForm(const Receiver& receiver) const;
     Rgb indirectByPaths(const Receiver& receiver) const;

@@ -78,7 +78,8 @@ public:
         float met = 0;
         Rgb emission;
         for (int i = 0; i < count; ++i) {
-            const double dx = (i % side + 0.5) / side, dy = (i / side + 0.5) / side;
+            const int column = i % side, row = i / side;
+            const double dx = (column + 0.5) / side, dy = (row + 0.5) / side;
             const RaySample sample = trace(x + dx, y + dy, i * shadows % kShadowSamples, shadows);
             if (options.tone)
                 frame.shown[at] += options.tone(sample.emission + sample.direct + sample.indirect) *

@@ -43,12 +43,12 @@ public:
     /// [lux]
     ReceiverCluster atVertex(std::size_t vertex, Rgb light) const;
     /// A cluster as it is now. \param light illuminance of the vertices [lux]
-    ReceiverCluster at(std::uint32_t cluster, std::span<const Rgb> light) const;
+    ReceiverCluster at(std::uint32_t index, std::span<const Rgb> light) const;
     /// Up to about eight vertices, spread evenly over a cluster.
     std::vector<std::size_t> spread(std::uint32_t cluster) const;
 
 private:
-    void locate(std::uint32_t cluster);
+    void locate(std::uint32_t index);
     template <class Visit>
     void forSome(std::uint32_t cluster, std::size_t most, Visit visit) const;
 

@@ -51,7 +51,7 @@ private:
         std::uint32_t view = 0;
         std::array<ClusterPriority, 64> of;
     };
-    ViewSample sample(std::uint32_t cluster) override;
+    ViewSample sample(std::uint32_t index) override;
     void sampleClosely(std::uint32_t block, std::uint64_t which,
                        std::span<ClusterPriority> values) override;
     void evaluate(std::uint32_t block, std::uint64_t which, Values& values);
@@ -59,7 +59,7 @@ private:
     float pixelsSeen(std::uint32_t cluster);
     void ask(std::uint32_t block, std::uint64_t which, SeenVertices& sample);
     void forgetSeen(std::span<const ObjectId> objects, const Bounds& before, const Bounds& now);
-    ReceiverCluster clusterNow(std::uint32_t cluster) const;
+    ReceiverCluster clusterNow(std::uint32_t index) const;
     double adaptationTo(const Viewpoint& viewpoint) const;
 
     const PatchSet& patches_;

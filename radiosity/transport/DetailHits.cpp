@@ -192,9 +192,9 @@ DetailHits::Outcome DetailHits::traceNodes(std::uint32_t group) {
         outcome.ways.add(hits.ways);
         std::copy(hits.elements.begin(), hits.elements.end(), known.begin());
         nodeNear_[n] = hits.near;
-        const double open_ = openness(hits.near, kRays);
-        if (open_ != nodeOpenness_[n]) outcome.changed |= 1u << i;
-        nodeOpenness_[n] = open_;
+        const double free = openness(hits.near, kRays);
+        if (free != nodeOpenness_[n]) outcome.changed |= 1u << i;
+        nodeOpenness_[n] = free;
     }
     return outcome;
 }

@@ -99,7 +99,7 @@ private:
     Bounds boxOf(std::uint32_t object) const;
     DetailRays::Moved movedOf(const DirtyGroups::Open& open) const;
     bool isThere(ObjectId object) const { return patches_.objects[object.value].present; }
-    void revisit(std::uint32_t patch, bool slitsOnly);
+    void revisit(std::uint32_t index, bool slitsOnly);
     bool workOnNodes(std::size_t effort);
     bool workOnVertices(std::size_t effort);
     template <class Trace>

@@ -88,7 +88,7 @@ private:
     bool sumBlocks(std::size_t effort);
     bool averagePatches(std::size_t effort);
     void sumBlock(std::uint32_t block);
-    void average(std::uint32_t patch);
+    void average(std::uint32_t index);
 
     const PatchSet& set_;
     int samples_;

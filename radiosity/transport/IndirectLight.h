@@ -53,7 +53,7 @@ public:
     /// Indirect illuminance at the nodes, the ambient term included [lux].
     std::vector<glm::dvec3> nodes() const;
     /// What a patch sends if nothing is owed any more: rho * H [lm/m^2].
-    glm::dvec3 reflected(std::uint32_t patch) const;
+    glm::dvec3 reflected(std::uint32_t index) const;
 
     /// See DirtySet.
     void setPolicy(std::shared_ptr<SchedulingPolicy> policy) {
@@ -135,10 +135,10 @@ private:
     void residualsChanged();
     void updateResiduals();
     void coloursChanged();
-    glm::dvec3 node(std::uint32_t node) const;
+    glm::dvec3 node(std::uint32_t index) const;
     template <class Value, class AtNode>
     Value mean(const Patch& patch, AtNode atNode) const;
-    double openAt(std::uint32_t node) const;
+    double openAt(std::uint32_t index) const;
     glm::dvec3 ambient() const;
 
     const PatchSet& set_;

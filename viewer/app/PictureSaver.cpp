@@ -22,7 +22,7 @@ std::string freeStem(const std::string& name) {
     for (int number = 1;; ++number) {
         char digits[16];
         std::snprintf(digits, sizeof digits, "-%04d", number);
-        const std::string stem = name + digits;
+        std::string stem = name + digits;
         std::error_code unknown; // writing will say what is wrong
         if (!std::filesystem::exists(stem + ".exr", unknown) &&
             !std::filesystem::exists(stem + ".png", unknown))
