@@ -34,8 +34,12 @@ struct Room {
           patches(set, 0) {
         for (const Emitter& emitter : set.emitters) emitters.emplace_back(emitter, 16, 64);
         for (const Vertex& vertex : set.vertices) vertices.push_back(vertex.receiver);
-        for (std::uint32_t o = 0; o < set.objects.size() && moved.empty(); ++o)
-            if (set.objects[o].movable) moved.push_back({o, true, boundsOf(set.rayMeshes[o])});
+        for (std::uint32_t o = 0; o < set.objects.size() && moved.empty(); ++o) {
+            if (!set.objects[o].movable) continue;
+            moved.push_back({o, true, boundsOf(set.rayMeshes[o])});
+            rays.move(ObjectId{o}, set.rayMeshes[o].vertices); // to where it is: from now on
+            rays.commit();                                     // it can be traced alone
+        }
     }
     static Bounds boundsOf(const RayMesh& mesh) {
         Bounds bounds;
