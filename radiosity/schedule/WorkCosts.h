@@ -6,7 +6,7 @@
 /// In the time of one visibility ray that is traced with fifteen others [rays]. Priorities, the
 /// size of pieces and aging count in it; none of it changes what comes out. Measured by
 ///
-///     build/release/bench/penumbra_bench --benchmark_filter=work_cost
+///     build/release/penumbra_bench --benchmark_filter=work_cost
 ///
 /// which prints each beside the constant (row searches, sums, means and fine shadows have no case
 /// there). It visits and probes blocks anywhere in a room, of which most have nothing to do with
