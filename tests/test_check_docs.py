@@ -1,25 +1,16 @@
 #!/usr/bin/env python3
 """check_docs.py must pass what is there and name what is not."""
-import pathlib
-import subprocess
-import sys
-import tempfile
 import unittest
 
-CHECK = pathlib.Path(__file__).with_name("check_docs.py")
+from check_project import run_check
+
 SOURCES = {"io/Camera.h": "class Camera {\n    void frame();\n    int sumBlock;\n};", "tests/CameraTest.cpp": "TEST(Frames, Once)",
            "io/Other.h": "void zoom();"}
 
 
 def check(line, document="README.md"):
     """Exit status and output of the check on a project with one line of text."""
-    with tempfile.TemporaryDirectory() as root:
-        for name, text in {**SOURCES, document: line}.items():
-            path = pathlib.Path(root, name)
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text + "\n", encoding="utf-8")
-        done = subprocess.run([sys.executable, CHECK, root], capture_output=True, text=True)
-        return done.returncode, done.stdout.strip()
+    return run_check("check_docs.py", {**SOURCES, document: line})
 
 
 class CheckDocs(unittest.TestCase):

@@ -1,23 +1,13 @@
 #!/usr/bin/env python3
 """check_layers.py must pass what is allowed and name what is not."""
-import pathlib
-import subprocess
-import sys
-import tempfile
 import unittest
 
-CHECK = pathlib.Path(__file__).with_name("check_layers.py")
+from check_project import run_check
 
 
 def check(files):
     """Exit status and output of the check on a project made of these files."""
-    with tempfile.TemporaryDirectory() as root:
-        for name, text in files.items():
-            path = pathlib.Path(root, name)
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text + "\n", encoding="utf-8")
-        done = subprocess.run([sys.executable, CHECK, root], capture_output=True, text=True)
-        return done.returncode, done.stdout.strip()
+    return run_check("check_layers.py", files)
 
 
 class CheckLayers(unittest.TestCase):

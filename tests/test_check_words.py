@@ -1,22 +1,13 @@
 #!/usr/bin/env python3
 """check_words.py must name replaced words in code and in prose, and pass plain English."""
-import pathlib
-import subprocess
-import sys
-import tempfile
 import unittest
 
-CHECK = pathlib.Path(__file__).with_name("check_words.py")
+from check_project import run_check
 
 
 def check(name, text):
     """Exit status and output of the check on a project of one file."""
-    with tempfile.TemporaryDirectory() as root:
-        path = pathlib.Path(root, name)
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text + "\n", encoding="utf-8")
-        done = subprocess.run([sys.executable, CHECK, root], capture_output=True, text=True)
-        return done.returncode, done.stdout.strip()
+    return run_check("check_words.py", {name: text})
 
 
 class CheckWords(unittest.TestCase):
