@@ -186,7 +186,7 @@ def main():
     viewer.add_argument("--cut", action="store_true", help="look elsewhere at first")
     viewer.add_argument("--pan", default="0", metavar="DEGREES", help="turn meanwhile")
     parser.add_argument("--dirty", default="shafts", choices=["shafts", "perfect"])
-    parser.add_argument("--looks", default="1.15")
+    parser.add_argument("--sample-growth", default="1.15")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("orders"))
     parser.add_argument("--json", type=pathlib.Path, help="all means, for scripts/performance_tables")
     args = parser.parse_args()
@@ -198,7 +198,7 @@ def main():
         report = args.out / f"{args.scene}-{camera}.html"
         command = [args.program, "compare", scene, "--frames", f"1:{len(MOVES[args.scene][1])}",
                    "--camera", "/World/Judge", "--element-size", args.element_size,
-                   "--orders", args.orders, "--looks", args.looks, "--width", "320", "-o", report,
+                   "--orders", args.orders, "--sample-growth", args.sample_growth, "--width", "320", "-o", report,
                    "--dirty", args.dirty, "--quiet"]
         command += [] if args.all_light else ["--direct-only"]
         command += ["--cut-from", "/World/Before"] if args.cut else ["--pan", args.pan]

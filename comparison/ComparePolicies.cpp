@@ -166,7 +166,7 @@ std::vector<PolicyUnderTest> allPolicies() {
     std::vector<PolicyUnderTest> policies = usualPolicies();
     const std::pair<const char*, bool PriorityFactors::*> factors[] = {
         {"no-change", &PriorityFactors::change},
-        {"no-look", &PriorityFactors::probe},
+        {"no-probe", &PriorityFactors::probe},
         {"no-contrast", &PriorityFactors::contrast},
         {"no-size", &PriorityFactors::size},
         {"no-frustum", &PriorityFactors::frustum},

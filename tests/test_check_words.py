@@ -23,6 +23,10 @@ class CheckWords(unittest.TestCase):
         self.assertEqual(check("tools/Help.cpp", 'say("An order of work");')[0], 1)
         self.assertEqual(check("tools/Help.cpp", 'say("5 lamps");')[0], 1)
 
+    def test_names_an_identifier_of_a_shader(self):
+        self.assertEqual(check("viewer/gl/Shaders.cpp", 'auto s = R"(\nuniform int lampCount;\n)";'),
+                         (1, "viewer/gl/Shaders.cpp:2: lampCount: write light (in the scene), emitter (in the solver)"))
+
     def test_names_a_document(self):
         self.assertEqual(check("docs/radiosity.md", "What is put\noff comes last."),
                          (1, "docs/radiosity.md:1: put off: write deferred"))

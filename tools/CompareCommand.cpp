@@ -212,7 +212,7 @@ void addPolicyOptions(CLI::App& compare, CompareCommand& command) {
     compare.add_option(
         "--orders", command.policies,
         "Policies to compare, with commas: plain, importance, random (random2 ... random5),\n"
-        "bound, geometry, oracle, or importance without one of its factors: no-change, no-look,\n"
+        "bound, geometry, oracle, or importance without one of its factors: no-change, no-probe,\n"
         "no-contrast, no-size, no-frustum, no-occlusion, no-eccentricity, no-proximity\n"
         "(default: plain,importance,random,bound,oracle)");
     compare
@@ -228,7 +228,7 @@ void addReportOptions(CLI::App& compare, CompareCommand& command) {
     compare.add_option("--json", command.json,
                        "All figures as JSON (default: beside the HTML file)");
     compare
-        .add_option("--looks", command.growth,
+        .add_option("--sample-growth", command.growth,
                     "The picture is sampled each time the work has grown by this factor")
         ->capture_default_str()
         ->check(CLI::Range(1.01, 10.0));

@@ -14,6 +14,7 @@
 #include "viewer/preview/RayPreview.h"
 #include "viewer/preview/SceneStates.h"
 #include "viewer/preview/ShownLight.h"
+#include "viewer/shadowmaps/MapPreview.h"
 
 #include <algorithm>
 #include <chrono>
@@ -91,23 +92,26 @@ private:
             to.indirect.assign(vertices, Rgb());
             to.factors.assign(vertices, LightFactors());
             to.behind.assign(vertices, 0);
-            to.blockRevisions.assign(objects[o].geometry->blockRevisions().size(), ++revision_);
             to.revision = revision_;
+            to.blockRevisions.assign(objects[o].geometry->blockRevisions().size(), 0);
+            for (std::size_t b = 0; b < to.blockRevisions.size(); ++b) to.touch(b);
+            revision_ = to.revision;
         }
     }
     std::vector<Rgb> draw(const PreviewLighting& preview) {
         const View view = walk_.rig().view(size_.x, size_.y);
         DrawList list = listVisible(node_->lit(), Frustum(view.worldToClip()));
-        RayPreview vertices(options_.solving.samples, [this] { return node_->patches(); });
-        const bool rays = by_ == PreviewMethod::rays && preview.active();
-        if (rays)
-            vertices.update(preview,
-                            [&](const LitGeometry& geometry) { return &shown_[&geometry]; });
-        for (DrawItem& item : list.items) {
-            const ShownLight* const brought = rays ? vertices.shown(*item.geometry) : nullptr;
-            item.shown = brought ? brought : &shown_[item.geometry];
-        }
-        renderer_.drawScene(list, view, {}, size_.x, size_.y, rays ? PreviewLighting() : preview);
+        RayPreview rays(options_.solving.samples, [this] { return node_->patches(); });
+        MapPreview maps;
+        Preview& way = by_ == PreviewMethod::rays ? static_cast<Preview&>(rays) : maps;
+        if (preview.active())
+            way.update(
+                preview, [&](const LitGeometry& geometry) { return &shown_[&geometry]; }, nullptr);
+        for (DrawItem& item : list.items) item.shown = &shown_[item.geometry];
+        renderer_.drawScene(list, view, {}, size_.x, size_.y, &maps);
+        way.takeBack();
+        for (const auto& [geometry, light] : shown_)
+            revision_ = std::max(revision_, light.revision);
         return renderer_.readLuminances();
     }
     Rgb exitance(std::size_t source) const { return exitanceOf(node_->placed(), group_[source]); }

@@ -108,8 +108,8 @@ private:
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
     }
-    void draw(const DrawList& list, const PreviewLighting& preview = {}) {
-        renderer_.drawScene(list, view(), {}, options_.size.x, options_.size.y, preview);
+    void draw(const DrawList& list, MapPreview* maps = nullptr) {
+        renderer_.drawScene(list, view(), {}, options_.size.x, options_.size.y, maps);
     }
     std::vector<float> drawn() {
         std::vector<float> luminances;
@@ -131,7 +131,7 @@ private:
         walk_.advance(kFrame);
         light_->update(walk_, view());
         const Frustum frustum(view().worldToClip());
-        draw(light_->listVisible(frustum), light_->preview());
+        draw(light_->listVisible(frustum), light_->maps());
         glFinish();
         if (times) times->add(since(begin), double(std::clock() - worked) / CLOCKS_PER_SEC);
         result_.frames.push_back({drawn(), {}});
@@ -167,7 +167,7 @@ private:
         return int(std::lround(255 * std::pow(shown, 1 / 2.2)));
     }
     void compareFromScratch() {
-        draw(light_->listVisible(Frustum(view().worldToClip())), light_->preview());
+        draw(light_->listVisible(Frustum(view().worldToClip())), light_->maps());
         const std::vector<float> after = drawn();
         light_.reset();
         makeLight();

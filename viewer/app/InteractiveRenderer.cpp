@@ -37,10 +37,10 @@ void setPreviewLighting(const ShaderProgram& program, const UnlitLighting& light
         axes.emplace_back(glm::vec3(axis), 0);
         intensities.emplace_back(source.intensity.r, source.intensity.g, source.intensity.b, 0);
     }
-    program.set("lampCount", int(lighting.lights.size()));
-    program.set("lampPlaces", places);
-    program.set("lampAxes", axes);
-    program.set("lampIntensities", intensities);
+    program.set("lightCount", int(lighting.lights.size()));
+    program.set("lightPositions", places);
+    program.set("lightAxes", axes);
+    program.set("lightIntensities", intensities);
     program.set("ambient", lighting.ambient);
 }
 
@@ -51,8 +51,8 @@ struct InteractiveRenderer::Impl {
 
     void requireTarget(int width, int height);
     void drawLit(const std::vector<LitItem>& items);
-    void drawPreviewed(const std::vector<LitItem>& items);
-    void setMaterial(const LitItem& item, const MaterialRange& range);
+    void drawPreviewed(const std::vector<LitItem>& items, MapPreview& maps);
+    void setMaterial(const LitItem& item, const MaterialRange& range) const;
     void drawUnlit(const std::vector<UnlitItem>& items, const View& view,
                    const UnlitLighting& lighting);
     void drawUnlitItem(const UnlitItem& item, const View& view);
@@ -62,7 +62,6 @@ struct InteractiveRenderer::Impl {
     bool reversed = canReverseDepth();
     ShaderProgram litProgram{kLitVertexShader, kScreenFragmentShader};
     ShaderProgram previewProgram{kPreviewVertexShader, kPreviewFragmentShader};
-    std::optional<MapPreview> mapPreview; ///< when it is needed first
     GeometryCache litCache;
     UnlitCache previewCache;
     std::optional<HdrTarget> target;
@@ -81,7 +80,7 @@ void InteractiveRenderer::Impl::requireTarget(int width, int height) {
     target.emplace(width, height, options.samples, options.precision);
 }
 
-void InteractiveRenderer::Impl::setMaterial(const LitItem& item, const MaterialRange& range) {
+void InteractiveRenderer::Impl::setMaterial(const LitItem& item, const MaterialRange& range) const {
     const LitMaterial& material = item.geometry->data().materials[range.material];
     litProgram.set("reflectance", material.reflectance);
     litProgram.set("emission", material.emission);
@@ -100,7 +99,7 @@ void InteractiveRenderer::Impl::drawLit(const std::vector<LitItem>& items) {
 }
 
 /// The same, but triangles that a previewed change may reach are drawn by the preview pass.
-void InteractiveRenderer::Impl::drawPreviewed(const std::vector<LitItem>& items) {
+void InteractiveRenderer::Impl::drawPreviewed(const std::vector<LitItem>& items, MapPreview& maps) {
     std::vector<MapPreview::Runs> preview;
     litProgram.use();
     for (std::size_t i = 0; i < items.size(); ++i) {
@@ -108,7 +107,7 @@ void InteractiveRenderer::Impl::drawPreviewed(const std::vector<LitItem>& items)
         std::vector<IndexRuns> plain(item.gpu->ranges().size());
         std::map<std::pair<std::size_t, unsigned>, IndexRuns> reached; // by range and lights
         for (const TriangleChunk& chunk : item.gpu->chunks()) {
-            const unsigned lights = mapPreview->reaching(item, chunk);
+            const unsigned lights = maps.reaching(item, chunk);
             IndexRuns& runs = lights == 0 ? plain[chunk.range] : reached[{chunk.range, lights}];
             runs.add(chunk.firstIndex, chunk.indexCount);
         }
@@ -122,7 +121,7 @@ void InteractiveRenderer::Impl::drawPreviewed(const std::vector<LitItem>& items)
             plain[r].draw();
         }
     }
-    mapPreview->draw(items, preview);
+    maps.draw(items, preview);
 }
 
 void InteractiveRenderer::Impl::drawUnlit(const std::vector<UnlitItem>& items, const View& view,
@@ -167,7 +166,7 @@ InteractiveRenderer::~InteractiveRenderer() = default;
 
 void InteractiveRenderer::drawScene(const DrawList& list, const View& view,
                                     const UnlitLighting& unlit, int width, int height,
-                                    const PreviewLighting& preview) {
+                                    MapPreview* maps) {
     assert(width > 0 && height > 0);
     Impl& impl = *impl_;
     impl.requireTarget(width, height);
@@ -177,16 +176,15 @@ void InteractiveRenderer::drawScene(const DrawList& list, const View& view,
     impl.previewCache.dropDead();
     const std::size_t uploads = impl.litCache.uploads();
     const std::size_t lightUploads = impl.litCache.lightUploads();
+    impl.litCache.needFactors(maps != nullptr);
     const std::vector<LitItem> lit = prepareLit(list, view, impl.reversed, impl.litCache);
-    if (preview.active()) {
-        if (!impl.mapPreview) impl.mapPreview.emplace();
-        impl.mapPreview->prepare(preview, impl.litCache);
-    }
+    if (maps && !maps->active()) maps = nullptr;
+    const std::size_t mapsDrawn = maps ? maps->prepare(impl.litCache) : 0;
     {
         const DrawState state(impl.reversed);
         impl.target->begin(state.clearDepth());
-        if (preview.active())
-            impl.drawPreviewed(lit);
+        if (maps)
+            impl.drawPreviewed(lit, *maps);
         else
             impl.drawLit(lit);
         impl.drawUnlit(list.unlit, view, unlit);
@@ -200,7 +198,7 @@ void InteractiveRenderer::drawScene(const DrawList& list, const View& view,
                        impl.litCache.uploads() - uploads,
                        impl.litCache.lightUploads() - lightUploads,
                        impl.litCache.lightBytes() - lightBytes,
-                       preview.active() ? impl.mapPreview->statistics().maps : 0};
+                       mapsDrawn};
 }
 
 void InteractiveRenderer::setOverlay(OverlayPicture overlay) {

@@ -8,7 +8,6 @@
 #include "viewer/gl/UnlitLighting.h"
 #include "viewer/overlay/Overlay.h"
 #include "viewer/preview/DrawList.h"
-#include "viewer/preview/PreviewLighting.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,6 +21,8 @@ struct InteractiveOptions {
     int samples = 4; ///< a pixel
     HdrTarget::Precision precision = HdrTarget::Precision::half;
 };
+
+class MapPreview;
 
 /// A picture as the screen shows it.
 struct DisplayedPicture {
@@ -47,9 +48,9 @@ public:
 
     /// \param list         what is in view, see listVisible()
     /// \param width,height [pixel], at least 1 \throws Error if the driver can't
-    /// \param preview      lights that the shader brings up to date
+    /// \param maps         previewed lights that the shader brings up to date; null: none
     void drawScene(const DrawList& list, const View& view, const UnlitLighting& unlit, int width,
-                   int height, const PreviewLighting& preview = {});
+                   int height, MapPreview* maps = nullptr);
 
     /// What show() lays over the lit surfaces of the pictures that drawScene() draws from now on.
     void setOverlay(OverlayPicture overlay);

@@ -28,7 +28,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
-#include <thread>
 #include <utility>
 
 namespace penumbra {
@@ -203,9 +202,7 @@ void Viewer::lightScene() {
     if (state_.elementSize > 0) asked.elementSize = state_.elementSize;
     const RadiosityOptions how = optionsFor(asked.orElse(fromFile_), options_.light);
     light_.reset();
-    light_.emplace(
-        *walk_, how, makeProcessLink(),
-        BlendOptions{.by = bestPreviewMethod(software_, std::thread::hardware_concurrency())});
+    light_.emplace(*walk_, how, makeProcessLink(), BlendOptions{.software = software_});
 }
 
 void Viewer::reload() {
@@ -429,8 +426,7 @@ void Viewer::draw(double seconds) {
     state_.legend = std::move(overlay.legend);
     renderer_.setOverlay(std::move(overlay.picture));
     renderer_.drawScene(light_ ? light_->listVisible(frustum) : listVisible(nothing_, frustum),
-                        view, preview_, size.x, size.y,
-                        light_ ? light_->preview() : PreviewLighting());
+                        view, preview_, size.x, size.y, light_ ? light_->maps() : nullptr);
     if (const auto luminances = renderer_.luminances(!state_.exposure.measured() && walk_))
         state_.exposure.measure(*luminances);
     state_.exposure.advance(seconds, light_ && light_->fading());

@@ -1,6 +1,8 @@
 #include "viewer/app/WalkLight.h"
 
+#include "base/Clock.h"
 #include "viewer/input/Walkthrough.h"
+#include "viewer/preview/RayPreview.h"
 
 #include <algorithm>
 #include <unordered_set>
@@ -12,12 +14,10 @@ WalkLight::WalkLight(const Walkthrough& walk, const RadiosityOptions& options,
                      std::unique_ptr<LightingLink> link, const BlendOptions& blend)
     : scene_(*walk.scene().root),
       node_(std::make_shared<RadiosityNode>("lit", options, std::move(link))), blend_(blend),
-      by_(blend.by), limits_(previewLimits(blend.by)), trigger_(options.trigger),
-      policy_(options.solving.policy) {
-    limits_.most = std::min(limits_.most, blend.lights);
+      by_(blend.by), choice_(blend.software, blend.inTime), samples_(options.solving.samples),
+      mostLights_(blend.lights), trigger_(options.trigger), policy_(options.solving.policy) {
     node_->add(walk.scene().root);
-    if (blend.by == PreviewMethod::rays)
-        vertices_.emplace(options.solving.samples, [this] { return node_->patches(); });
+    choosePreview();
 }
 
 WalkLight::~WalkLight() = default;
@@ -26,35 +26,60 @@ void WalkLight::setTrigger(Trigger trigger) {
     if (std::exchange(trigger_, trigger) != trigger) node_->setTrigger(trigger);
 }
 
+/// The other way is taken when nothing moves and the lights that are previewed are those for it.
+void WalkLight::choosePreview() {
+    const PreviewMethod wanted = wantedMethod();
+    if (preview_ && preview_->method() == wanted) return;
+    if (preview_ && (lightsBy_ != wanted || !blend_.hasWanted() || blend_.preview().active()))
+        return;
+    if (preview_) preview_->takeBack();
+    if (wanted == PreviewMethod::maps) {
+        auto maps = std::make_unique<MapPreview>();
+        maps_ = maps.get();
+        preview_ = std::move(maps);
+    } else {
+        maps_ = nullptr;
+        preview_ = std::make_unique<RayPreview>(samples_, [this] { return node_->patches(); });
+    }
+}
+
 /// Those of the selected thing: their rows are there when a drag begins.
 void WalkLight::chooseLights(const Walkthrough& walk) {
     const auto& selection = walk.selection();
     if (!selection || !selection->movable()) return; // what was selected may be moved by undo
-    if (lightsFor_ == selection->object && lightsOf_ == walk.revision() && lightsLit_ == complete())
+    const PreviewMethod by = wantedMethod();
+    if (lightsFor_ == selection->object && lightsOf_ == walk.revision() &&
+        lightsLit_ == complete() && lightsBy_ == by)
         return; // emissive meshes are known when they are lit
     const bool inHand = lightsFor_ == selection->object && walk.inHand();
     if (inHand) return; // no other lights in the middle of a move
     lightsFor_ = selection->object;
     lightsOf_ = walk.revision();
     lightsLit_ = complete();
+    lightsBy_ = by;
+    PreviewLimits limits = previewLimits(by);
+    limits.most = std::min(limits.most, mostLights_);
     // The node's objects are the walkthrough's; its paths begin at the node.
     blend_.want(
-        lightsThatMatter(previewableLights(*node_, by_), walk.rays(), selection->object, limits_));
+        lightsThatMatter(previewableLights(*node_, by), walk.rays(), selection->object, limits));
 }
 
-/// By rays: brings the light of vertices up to date while something moves, and is ready for that
-/// when something may.
-void WalkLight::updateVertices(const Walkthrough& walk, const View& view) {
+/// Brings the shown light up to date while something moves, and is ready for that when something
+/// may.
+void WalkLight::updatePreview(const Walkthrough& walk, const View& view) {
     const auto shown = [&](const LitGeometry& geometry) { return blend_.shown(geometry); };
     const auto& selection = walk.selection();
     const std::vector<Object>& objects = node_->placed().objects; // as the walkthrough has them
-    if (blend_.preview().active())
-        vertices_->update(blend_.preview(), shown, &view);
-    else if (selection && selection->movable() && selection->object.value < objects.size())
-        vertices_->rest(blend_.expecting(*node_, objects[selection->object.value].path), shown,
-                        &view);
-    else
-        vertices_->rest({}, shown);
+    if (blend_.preview().active()) {
+        const double begun = steadySeconds();
+        preview_->update(blend_.preview(), shown, &view);
+        if (!maps_) choice_.note(steadySeconds() - begun);
+    } else if (selection && selection->movable() && selection->object.value < objects.size()) {
+        preview_->rest(blend_.expecting(*node_, objects[selection->object.value].path), shown,
+                       &view);
+    } else {
+        preview_->rest({}, shown, nullptr);
+    }
 }
 
 void WalkLight::setPolicy(PolicyKind policy) {
@@ -72,9 +97,11 @@ bool WalkLight::update(const Walkthrough& walk, const View& view) {
     if (std::exchange(seenFrom_, seenFrom) != seenFrom) node_->setCamera(view);
     node_->update();
     chooseLights(walk);
+    choosePreview();
+    preview_->takeBack();
     blend_.advance(*node_, walk.time());
     ages_.advance(node_->objects(), walk.time());
-    if (vertices_) updateVertices(walk, view);
+    updatePreview(walk, view);
     const RadiosityState& state = node_->state();
     const bool news = blend_.changing() || blocks_ != state.blocksTaken || phase_ != state.phase ||
                       solution_ != state.solution || unlit_ != node_->unlit().size();
@@ -91,10 +118,7 @@ bool WalkLight::complete() const {
 
 DrawList WalkLight::listVisible(const Frustum& frustum) const {
     DrawList list = penumbra::listVisible(node_->lit(), frustum);
-    for (DrawItem& item : list.items) {
-        const ShownLight* const preview = vertices_ ? vertices_->shown(*item.geometry) : nullptr;
-        item.shown = preview ? preview : blend_.shown(*item.geometry);
-    }
+    for (DrawItem& item : list.items) item.shown = blend_.shown(*item.geometry);
     if (complete()) return list;
     std::unordered_set<std::string> litPaths;
     for (const LitObject& object : node_->objects())

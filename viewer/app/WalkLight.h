@@ -7,8 +7,9 @@
 #include "viewer/overlay/BlockAges.h"
 #include "viewer/preview/DrawList.h"
 #include "viewer/preview/LightBlend.h"
+#include "viewer/preview/Preview.h"
 #include "viewer/preview/PreviewLightChoice.h"
-#include "viewer/preview/RayPreview.h"
+#include "viewer/shadowmaps/MapPreview.h"
 
 #include <memory>
 #include <optional>
@@ -46,9 +47,10 @@ public:
     /// What is to be drawn in a view: the lit surfaces, and the meshes and lights of objects that
     /// have no light yet.
     DrawList listVisible(const Frustum& frustum) const;
-    /// Lights for the renderer to preview: those that matter to what is selected, while it moves.
-    /// None with PreviewMethod::rays, when listVisible() has their light.
-    const PreviewLighting& preview() const { return vertices_ ? none_ : blend_.preview(); }
+    /// For the renderer to draw what moves by shadow maps; null: listVisible() has its light. Its
+    /// context has to be current when this ends.
+    MapPreview* maps() { return maps_; }
+    PreviewMethod previewMethod() const { return preview_->method(); }
     std::size_t lightsPreviewed() const { return blend_.preview().lights.size(); }
     /// Whether direct light is on its way on the screen.
     bool fading() const { return blend_.fading(); }
@@ -69,17 +71,22 @@ public:
     std::vector<std::string> takeMessages() { return node_->takeMessages(); }
 
 private:
+    void choosePreview();
     void chooseLights(const Walkthrough& walk);
-    void updateVertices(const Walkthrough& walk, const View& view);
+    void updatePreview(const Walkthrough& walk, const View& view);
+    PreviewMethod wantedMethod() const { return by_.value_or(choice_.method()); }
 
     const Group& scene_;
     std::shared_ptr<RadiosityNode> node_;
     LightBlend blend_;
     BlockAges ages_;
-    std::optional<RayPreview> vertices_; ///< with PreviewMethod::rays
-    PreviewLighting none_;
-    PreviewMethod by_;
-    PreviewLimits limits_;
+    std::optional<PreviewMethod> by_; ///< none: by choice_
+    PreviewChoice choice_;
+    std::unique_ptr<Preview> preview_;
+    MapPreview* maps_ = nullptr; ///< preview_, if it is that
+    int samples_;                ///< of the light, and of its preview by rays
+    std::size_t mostLights_;     ///< emitters previewed at most
+    PreviewMethod lightsBy_{};   ///< that previewed lights were chosen for
     bool lightsLit_ = false;     ///< lightsFor_ was answered when all was lit
     std::uint64_t lightsOf_ = 0; ///< revision of the walkthrough, and
     ObjectId lightsFor_;         ///< the object, that previewed lights were chosen for

@@ -2,7 +2,6 @@
 
 #include "scenegraph/LitGeometry.h"
 #include "viewer/gl/Shaders.h"
-#include "viewer/preview/ShownLight.h"
 
 #include <epoxy/gl.h>
 
@@ -23,6 +22,7 @@ GlObject attributeBuffer(LitAttribute attribute, const std::vector<T>& values, G
                          std::size_t room = 0) {
     GlObject buffer = makeBuffer();
     glBindBuffer(GL_ARRAY_BUFFER, buffer.name());
+    constexpr std::size_t kFloat = sizeof(float);
     const auto bytes = GLsizeiptr(values.size() * sizeof(T));
     if (room > values.size()) {
         glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(room * sizeof(T)), nullptr, usage);
@@ -30,8 +30,7 @@ GlObject attributeBuffer(LitAttribute attribute, const std::vector<T>& values, G
     } else {
         glBufferData(GL_ARRAY_BUFFER, bytes, values.data(), usage);
     }
-    glVertexAttribPointer(attribute, GLint(sizeof(T) / sizeof(float)), GL_FLOAT, GL_FALSE, 0,
-                          nullptr);
+    glVertexAttribPointer(attribute, GLint(sizeof(T) / kFloat), GL_FLOAT, GL_FALSE, 0, nullptr);
     glEnableVertexAttribArray(attribute);
     return buffer;
 }
@@ -119,7 +118,7 @@ const std::vector<std::uint64_t>& blockRevisionsOf(const LitGeometry& geometry,
 
 } // namespace
 
-GpuGeometry::GpuGeometry(const LitGeometry& geometry, const ShownLight* shown)
+GpuGeometry::GpuGeometry(const LitGeometry& geometry, const ShownLight* shown, bool factors)
     : vertexArray_(makeVertexArray()), shown_(shown), revision_(revisionOf(geometry, shown)),
       topologyRevision_(geometry.topologyRevision()),
       blockRevisions_(blockRevisionsOf(geometry, shown)) {
@@ -135,15 +134,15 @@ GpuGeometry::GpuGeometry(const LitGeometry& geometry, const ShownLight* shown)
                  indices.data(), GL_STATIC_DRAW);
     glBindVertexArray(0);
     chunks_ = cutIntoChunks(indices, ranges_, mesh.positions);
-    if (shown) requireFactors(*shown);
-    redraw(geometry, shown);
+    requireFactors(shown, factors);
+    if (shown) splitCorners(geometry, shown->corners);
 }
 
 /// Fills buffers of vertices with the geometry and its light, and some room behind that for copies
 /// of vertices, if there are any.
 void GpuGeometry::makeBuffers(const LitGeometry& geometry, const ShownLight* shown) {
     const LitMeshData& mesh = geometry.data();
-    const std::size_t copies = shown ? shown->copies.size() : 0;
+    const std::size_t copies = shown ? shown->corners.copies.size() : 0;
     assert(!shown || shown->direct.size() == mesh.positions.size() + copies);
     room_ = mesh.positions.size() + (copies > 0 ? 2 * copies + LitGeometry::kBlock : 0);
     glBindVertexArray(vertexArray_.name());
@@ -152,8 +151,8 @@ void GpuGeometry::makeBuffers(const LitGeometry& geometry, const ShownLight* sho
     direct_ = attributeBuffer(kDirect, shown ? shown->direct : mesh.direct, GL_DYNAMIC_DRAW, room_);
     indirect_ =
         attributeBuffer(kIndirect, shown ? shown->indirect : mesh.indirect, GL_DYNAMIC_DRAW, room_);
-    dropFactors();        // they have no room for copies
-    redrawnRevision_ = 0; // copies have no slots yet
+    dropFactors();           // they have no room for copies
+    corners_.copies.clear(); // they have no slots yet
     glBindVertexArray(0);
 }
 
@@ -174,32 +173,24 @@ std::size_t GpuGeometry::writeEntry(std::uint32_t entry, std::uint32_t vertex) {
 
 /// Draws corners with copies of vertices, as the light wants it, and no others; returns how many
 /// bytes are copied.
-std::size_t GpuGeometry::redraw(const LitGeometry& geometry, const ShownLight* shown) {
-    const bool any = shown && !shown->copies.empty();
-    if (!any && redrawn_.empty()) return 0;
-    if (any && std::exchange(redrawnRevision_, shown->redrawnRevision) == shown->redrawnRevision)
-        return 0;
+std::size_t GpuGeometry::splitCorners(const LitGeometry& geometry, const SplitCorners& corners) {
+    if (corners == corners_) return 0;
     const LitMeshData& mesh = geometry.data();
     placeEntries(mesh);
     glBindVertexArray(vertexArray_.name()); // has the index buffer
     std::size_t bytes = 0;
-    for (const std::uint32_t entry : std::exchange(redrawn_, {}))
+    for (const auto& [entry, copy] : corners_.entries)
         bytes += writeEntry(entry, mesh.indices[entry]);
-    if (any) {
-        const auto first = std::uint32_t(mesh.positions.size());
-        for (const auto& [entry, copy] : shown->redrawn) {
-            bytes += writeEntry(entry, first + copy);
-            redrawn_.push_back(entry);
-        }
-        std::vector<glm::vec3> points, normals;
-        for (const std::uint32_t v : shown->copies) {
-            points.push_back(mesh.positions[v]);
-            normals.push_back(mesh.normals[v]);
-        }
-        bytes += writeValues(positions_, points, first) + writeValues(normals_, normals, first);
-    } else {
-        redrawnRevision_ = 0;
+    corners_ = corners;
+    const std::size_t first = mesh.positions.size();
+    for (const auto& [entry, copy] : corners_.entries)
+        bytes += writeEntry(entry, std::uint32_t(first + copy));
+    std::vector<glm::vec3> points, normals;
+    for (const std::uint32_t v : corners_.copies) {
+        points.push_back(mesh.positions[v]);
+        normals.push_back(mesh.normals[v]);
     }
+    bytes += writeValues(positions_, points, first) + writeValues(normals_, normals, first);
     glBindVertexArray(0);
     return bytes;
 }
@@ -212,14 +203,15 @@ void GpuGeometry::dropFactors() {
 }
 
 /// Makes room for the factors of previewed lights, or removes it.
-void GpuGeometry::requireFactors(const ShownLight& shown) {
-    if (shown.factors.empty() == (factors_.name() == 0)) return;
+void GpuGeometry::requireFactors(const ShownLight* shown, bool wanted) {
+    const bool has = factors_.name() != 0, needs = wanted && shown && !shown->factors.empty();
+    if (has == needs) return;
     glBindVertexArray(vertexArray_.name());
-    if (shown.factors.empty()) {
-        dropFactors();
+    if (needs) {
+        factors_ = attributeBuffer(kFactors, forMaps(shown->factors), GL_DYNAMIC_DRAW, room_);
+        behind_ = attributeBuffer(kBehind, shown->behind, GL_DYNAMIC_DRAW, room_);
     } else {
-        factors_ = attributeBuffer(kFactors, forMaps(shown.factors), GL_DYNAMIC_DRAW, room_);
-        behind_ = attributeBuffer(kBehind, shown.behind, GL_DYNAMIC_DRAW, room_);
+        dropFactors();
     }
     glBindVertexArray(0);
 }
@@ -235,19 +227,21 @@ std::size_t GpuGeometry::copyOthers(const ShownLight* shown, const LitGeometry& 
                                     std::size_t first, std::size_t count) {
     std::size_t bytes =
         replaceValues(direct_, shown ? shown->direct : geometry.data().direct, first, count);
-    if (shown && !shown->factors.empty())
+    if (factors_.name() != 0)
         bytes +=
             writeValues(factors_, forMaps(std::span(shown->factors).subspan(first, count)), first) +
             replaceValues(behind_, shown->behind, first, count);
     return bytes;
 }
 
-std::size_t GpuGeometry::refresh(const LitGeometry& geometry, const ShownLight* shown) {
+std::size_t GpuGeometry::refresh(const LitGeometry& geometry, const ShownLight* shown,
+                                 bool factors) {
+    requireFactors(shown, factors);
     const std::uint64_t newest = revisionOf(geometry, shown);
     const bool otherLight = std::exchange(shown_, shown) != shown;
     if (std::exchange(revision_, newest) == newest && !otherLight) return 0;
     const std::vector<std::uint64_t>& latest = blockRevisionsOf(geometry, shown);
-    if (otherLight) blockRevisions_.clear(), redrawnRevision_ = 0;
+    if (otherLight) blockRevisions_.clear();
     blockRevisions_.resize(latest.size(), 0);
     const std::size_t vertices = shown ? shown->direct.size() : geometry.data().direct.size();
     std::size_t bytes = 0;
@@ -256,8 +250,8 @@ std::size_t GpuGeometry::refresh(const LitGeometry& geometry, const ShownLight* 
         blockRevisions_ = latest;
         bytes += vertices * (2 * sizeof(Rgb) + 2 * sizeof(glm::vec3));
     }
-    if (shown) requireFactors(*shown);
-    bytes += redraw(geometry, shown);
+    requireFactors(shown, factors);
+    bytes += splitCorners(geometry, shown ? shown->corners : SplitCorners());
     const auto copyRuns = [&](auto changed, auto copy) {
         for (std::size_t block = 0; block < latest.size(); ++block) {
             const std::size_t begin = block;
@@ -308,13 +302,13 @@ const GpuGeometry& GeometryCache::get(const LitGeometry& geometry, const ShownLi
     if (found != entries_.end() && !found->second.gpu.sameTopology(geometry)) {
         entries_.erase(found);
     } else if (found != entries_.end()) {
-        const std::size_t bytes = found->second.gpu.refresh(geometry, shown);
+        const std::size_t bytes = found->second.gpu.refresh(geometry, shown, factors_);
         lightUploads_ += bytes > 0;
         lightBytes_ += bytes;
         return found->second.gpu;
     }
     ++uploads_;
-    Entry entry{owner, GpuGeometry(geometry, shown)};
+    Entry entry{owner, GpuGeometry(geometry, shown, factors_)};
     return entries_.emplace(&geometry, std::move(entry)).first->second.gpu;
 }
 

@@ -7,6 +7,7 @@
 #include "scenegraph/Node.h"
 #include "viewer/gl/GlObject.h"
 #include "viewer/preview/DrawList.h"
+#include "viewer/preview/ShownLight.h"
 
 #include <glm/glm.hpp>
 
@@ -31,11 +32,12 @@ struct TriangleChunk {
 /// One LitGeometry, ready to be drawn.
 class GpuGeometry {
 public:
-    /// \param shown its light as it is to be shown; null: its own
-    GpuGeometry(const LitGeometry& geometry, const ShownLight* shown);
+    /// \param shown its light as it is to be shown; null: its own \param factors with the factors
+    /// of previewed lights, if they are known
+    GpuGeometry(const LitGeometry& geometry, const ShownLight* shown, bool factors);
 
     /// Copies the light of those blocks again that were edited since; returns how many bytes.
-    std::size_t refresh(const LitGeometry& geometry, const ShownLight* shown);
+    std::size_t refresh(const LitGeometry& geometry, const ShownLight* shown, bool factors);
 
     /// Whether its triangles are still those of the geometry.
     bool sameTopology(const LitGeometry& geometry) const;
@@ -51,11 +53,11 @@ private:
                              std::size_t first, std::size_t count);
     std::size_t copyOthers(const ShownLight* shown, const LitGeometry& geometry, std::size_t first,
                            std::size_t count);
-    std::size_t redraw(const LitGeometry& geometry, const ShownLight* shown);
+    std::size_t splitCorners(const LitGeometry& geometry, const SplitCorners& corners);
     void placeEntries(const LitMeshData& mesh);
     std::size_t writeEntry(std::uint32_t entry, std::uint32_t vertex);
     void dropFactors();
-    void requireFactors(const ShownLight& shown);
+    void requireFactors(const ShownLight* shown, bool wanted);
 
     GlObject vertexArray_, positions_, normals_, direct_, indirect_, indices_;
     GlObject factors_, behind_; ///< of previewed lights, when there first are any
@@ -63,8 +65,7 @@ private:
     std::vector<MaterialRange> ranges_;
     std::vector<TriangleChunk> chunks_;
     std::vector<std::uint32_t> trianglePlaces_; ///< in indices_; empty: not needed so far
-    std::vector<std::uint32_t> redrawn_;        ///< see ShownLight
-    std::uint64_t redrawnRevision_ = 0;
+    SplitCorners corners_;                      ///< that are in the buffers
     const ShownLight* shown_ = nullptr; ///< what light is in the buffers; only to be compared
     std::uint64_t revision_ = 0, topologyRevision_ = 0;
     std::vector<std::uint64_t> blockRevisions_; ///< of the light that is in the buffers
@@ -77,6 +78,8 @@ class GeometryCache {
 public:
     /// Drops what no longer exists.
     void dropDead();
+    /// Whether what is got from now on has the factors of previewed lights, for MapPreview.
+    void needFactors(bool needed) { factors_ = needed; }
 
     /// The geometry with its present light.
     const GpuGeometry& get(const DrawItem& item);
@@ -98,6 +101,7 @@ private:
     };
 
     std::unordered_map<const LitGeometry*, Entry> entries_;
+    bool factors_ = false;
     std::size_t uploads_ = 0;
     std::size_t lightUploads_ = 0;
     std::size_t lightBytes_ = 0;

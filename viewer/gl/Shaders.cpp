@@ -88,8 +88,8 @@ const float kMost = 65000.0;             // nit; 16-bit floats end at 65504
 
 void main() {
     vec3 reflected = reflectance * kInversePi * (surfaceDirect + surfaceIndirect);
-    float shines = max(max(emission.r, emission.g), emission.b);
-    beauty = vec4(min(reflected + emission, kMost), shines > 0.0 ? 0.0 : 1.0);
+    float emitted = max(max(emission.r, emission.g), emission.b);
+    beauty = vec4(min(reflected + emission, kMost), emitted > 0.0 ? 0.0 : 1.0);
 }
 )";
 
@@ -112,10 +112,10 @@ in vec3 eyePosition;
 
 uniform vec3 reflectance;
 uniform vec3 emission;                   // nit
-uniform int lampCount;
-uniform vec4 lampPlaces[16];             // position [m], area [m^2]
-uniform vec4 lampAxes[16];               // unit; zero: emits all round
-uniform vec4 lampIntensities[16];        // cd
+uniform int lightCount;
+uniform vec4 lightPositions[16];         // position [m], area [m^2]
+uniform vec4 lightAxes[16];              // unit; zero: emits all round
+uniform vec4 lightIntensities[16];       // cd
 uniform vec3 ambient;                    // lux
 
 layout(location = 0) out vec4 beauty;
@@ -126,15 +126,15 @@ const float kMost = 65000.0;
 vec3 illuminance(vec3 normal) {
     float headOn = abs(dot(normal, normalize(eyePosition)));
     vec3 sum = ambient * (0.5 + 0.5 * headOn);
-    for (int i = 0; i < lampCount; ++i) {
-        vec3 way = lampPlaces[i].xyz - eyePosition;
+    for (int i = 0; i < lightCount; ++i) {
+        vec3 way = lightPositions[i].xyz - eyePosition;
         float distance2 = max(dot(way, way), 1e-8);
         vec3 towards = way * inversesqrt(distance2);
-        vec3 axis = lampAxes[i].xyz;
+        vec3 axis = lightAxes[i].xyz;
         float shape = dot(axis, axis) > 0.0 ? max(-dot(towards, axis), 0.0) : 1.0;
         float facing = max(dot(normal, towards), 0.0);
-        sum += lampIntensities[i].rgb *
-               (shape * facing / (distance2 + lampPlaces[i].w * kInversePi));
+        sum += lightIntensities[i].rgb *
+               (shape * facing / (distance2 + lightPositions[i].w * kInversePi));
     }
     return sum;
 }
@@ -142,8 +142,8 @@ vec3 illuminance(vec3 normal) {
 void main() {
     vec3 normal = normalize(cross(dFdx(eyePosition), dFdy(eyePosition))); // towards the eye
     vec3 reflected = reflectance * kInversePi * illuminance(normal);
-    float shines = max(max(emission.r, emission.g), emission.b);
-    beauty = vec4(min(reflected + emission, kMost), shines > 0.0 ? 0.0 : 1.0);
+    float emitted = max(max(emission.r, emission.g), emission.b);
+    beauty = vec4(min(reflected + emission, kMost), emitted > 0.0 ? 0.0 : 1.0);
 }
 )";
 

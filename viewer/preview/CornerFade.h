@@ -35,7 +35,7 @@ public:
 
     /// An entry has come to be drawn with this vertex, and showed so much more than that does.
     void put(std::uint32_t entry, std::uint32_t vertex, const Over& over);
-    void clear();
+    void clear() { corners_.clear(); }
 
     /// When the last fade of a vertex began; none: it waits for its light.
     using FadeStart = std::function<std::optional<double>(std::uint32_t vertex)>;
@@ -44,8 +44,8 @@ public:
 
     /// Adds copies, their light and what is drawn with them. \pre there are none
     void show(ShownLight& shown) const;
-    /// Removes what show() added. \param vertices of the geometry
-    static void hide(ShownLight& shown, std::size_t vertices);
+    /// Removes what show() added.
+    static void hide(ShownLight& shown);
 
 private:
     struct Corner {
@@ -56,7 +56,6 @@ private:
     static constexpr double kWaits = -1e30;
 
     std::map<std::uint32_t, Corner> corners_; ///< by entry
-    std::uint64_t revision_ = 0;              ///< of which ones there are
 };
 
 } // namespace penumbra

@@ -218,4 +218,9 @@ const ShownLight* LightBlend::shown(const LitGeometry& geometry) const {
     return found == byGeometry_.end() ? nullptr : &found->second->shown();
 }
 
+ShownLight* LightBlend::shown(const LitGeometry& geometry) {
+    const auto found = byGeometry_.find(&geometry);
+    return found == byGeometry_.end() ? nullptr : &found->second->shown();
+}
+
 } // namespace penumbra

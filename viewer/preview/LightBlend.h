@@ -2,9 +2,10 @@
 #pragma once
 
 #include "viewer/preview/LightFade.h"
-#include "viewer/preview/PreviewLighting.h"
+#include "viewer/preview/Preview.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -14,25 +15,12 @@ namespace penumbra {
 class RadiosityNode;
 struct RadiosityState;
 
-/// How it is found what previewed lights reach.
-enum class PreviewMethod {
-    maps, ///< by shadow maps, in the vertex shader: MapPreview
-    rays  ///< by radiosity's rays, vertex by vertex: RayPreview
-};
-
-/// What is best: rays are radiosity's own, so that the fast shadow is the soft one, and maps cost a
-/// graphics card next to nothing.
-/// \param software the processor draws: then rays are faster, too
-/// \param threads  that the processor has: from 8 on it traces a frame's rays in the time of one or
-///                 two frames
-inline PreviewMethod bestPreviewMethod(bool software, unsigned threads) {
-    return software || threads >= 8 ? PreviewMethod::rays : PreviewMethod::maps;
-}
-
 struct BlendOptions {
     double seconds = 0.25; ///< that a vertex takes from one light to the next; 0: it jumps
-    int points = 16;       ///< of a light for its fast shadows, at most 16
-    PreviewMethod by = PreviewMethod::maps;
+    int points = 16;       ///< of a light for its shadow maps, at most 16
+    std::optional<PreviewMethod> by{};   ///< the preview; none: see PreviewChoice
+    bool software = false;               ///< the processor draws
+    double inTime = 1.0 / 120;           ///< that rays of a frame may take, see PreviewChoice [s]
     std::size_t lights = kMostPreviewed; ///< emitters previewed at most, see PreviewLimits
 };
 
@@ -61,11 +49,16 @@ public:
     /// kMostPreviewed. Takes effect when nothing is on its way.
     void want(std::vector<std::string> lights);
 
+    /// Whether they are those that were wanted last.
+    bool hasWanted() const { return wanted_ == lights_; }
+
     /// To be called after each update() of the node. \param time that only grows [s]
     void advance(RadiosityNode& node, double time);
 
     /// What is shown of a geometry of the node; null: it is not known.
     const ShownLight* shown(const LitGeometry& geometry) const;
+    /// The same for a Preview, which takes back what it changes before the next advance().
+    ShownLight* shown(const LitGeometry& geometry);
     /// The preview lighting, for the renderer.
     const PreviewLighting& preview() const { return preview_; }
     /// What it would be of if an object began to move now; without anchors. \param object its path,
@@ -102,7 +95,7 @@ private:
     BlendOptions options_;
     std::vector<std::string> wanted_, lights_;
     std::vector<Entry> entries_;
-    std::unordered_map<const LitGeometry*, const LightFade*> byGeometry_;
+    std::unordered_map<const LitGeometry*, LightFade*> byGeometry_;
     SceneStatePtr now_, sent_;
     SceneStatePtr rest_, next_; ///< rest_ fades to next_, if there is one
     SceneStatePtr behind_;      ///< what some vertices are left with

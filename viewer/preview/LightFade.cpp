@@ -37,7 +37,6 @@ bool unseen(Rgb a, Rgb b) {
 } // namespace
 
 LightFade::LightFade(const PublishedGeometry& geometry) {
-    shown_.blockRevisions = geometry.blockRevisions();
     followTopology(geometry);
     seen_ = geometry.blockRevisions();
     revision_ = geometry.revision();
@@ -115,7 +114,7 @@ void LightFade::beginWith(std::uint32_t vertex, const Light& light) {
     Flight& flight = flightOf(vertex / kBlock);
     flight.direct[vertex % kBlock] = {};
     flight.indirect[vertex % kBlock] = {};
-    ++shown_.blockRevisions[vertex / kBlock];
+    shown_.touch(vertex / kBlock);
 }
 
 /// How much more light that is than what a vertex shows, without that of previewed lights: it is
@@ -160,8 +159,7 @@ void LightFade::setLights(std::size_t lights) {
     shown_.behind.assign(vertices, 0);
     for (auto& [block, flight] : flights_)
         for (auto& way : flight.direct) way.from.factors = way.target.factors = LightFactors();
-    for (std::uint64_t& revision : shown_.blockRevisions) ++revision;
-    ++shown_.revision;
+    for (std::size_t b = 0; b < shown_.blockRevisions.size(); ++b) shown_.touch(b);
     std::fill(seen_.begin(), seen_.end(), 0); // all are checked again
     revision_ = 0;
 }
@@ -306,13 +304,14 @@ bool LightFade::advanceIndirect(const LitMeshData& data, std::size_t vertex, Way
     return way.start == kNever;
 }
 
-/// The next revision of a block differs from this one in indirect light alone.
-void LightFade::noteIndirectChange(std::size_t block) {
+/// Nothing of the block has changed but its indirect light.
+void LightFade::touchIndirect(std::size_t block) {
     if (shown_.indirectRuns.size() <= block) shown_.indirectRuns.resize(block + 1);
     ShownLight::IndirectRun& run = shown_.indirectRuns[block];
-    const std::uint64_t now = shown_.blockRevisions[block];
-    if (run.to != now) run.from = now;
-    run.to = now + 1;
+    const std::uint64_t before = shown_.blockRevisions[block];
+    shown_.touch(block);
+    if (run.to != before) run.from = before;
+    run.to = shown_.blockRevisions[block];
 }
 
 /// \return whether all of the block has come to rest at what the geometry carries
@@ -324,11 +323,10 @@ bool LightFade::advanceBlock(const PublishedGeometry& geometry, std::size_t bloc
         done &= advanceDirect(geometry, block * kBlock + i, flight.direct[i], frame);
         done &= advanceIndirect(geometry.data(), block * kBlock + i, flight.indirect[i], frame);
     }
-    if (directChanged_ || indirectChanged_) {
-        if (!directChanged_) noteIndirectChange(block);
-        ++shown_.blockRevisions[block];
-        ++shown_.revision;
-    }
+    if (directChanged_)
+        shown_.touch(block);
+    else if (indirectChanged_)
+        touchIndirect(block);
     return done;
 }
 
@@ -344,7 +342,7 @@ void LightFade::advanceCorners(const PublishedGeometry& geometry, const Frame& f
 }
 
 void LightFade::advance(const PublishedGeometry& geometry, const Frame& frame) {
-    CornerFade::hide(shown_, vertices_);
+    CornerFade::hide(shown_);
     followTopology(geometry);
     if (revision_ != geometry.revision()) {
         revision_ = geometry.revision();
@@ -378,9 +376,8 @@ bool LightFade::leaveBehind(const PublishedGeometry& geometry, const Frame& fram
         Way<Direct>& way = flight.direct[v % kBlock];
         way.from.old = way.target.old = 1;
         setBehind(v, 1);
-        ++shown_.blockRevisions[v / kBlock];
+        shown_.touch(v / kBlock);
     }
-    ++shown_.revision;
     return behind_ > 0;
 }
 

@@ -61,6 +61,8 @@ public:
     void takeOver(const LightFade& before);
 
     const ShownLight& shown() const { return shown_; }
+    /// For a Preview, which takes back what it changes before the next advance().
+    ShownLight& shown() { return shown_; }
     /// Something is on its way, or waits.
     bool changing() const { return !flights_.empty() || !cornerFade_.empty(); }
     bool fading() const { return fading_; }   ///< direct light is on its way
@@ -107,7 +109,7 @@ private:
     CornerFade::Over beyond(const PublishedGeometry& geometry, std::uint32_t vertex,
                             const Light& light) const;
     Flight& flightOf(std::size_t block);
-    void noteIndirectChange(std::size_t block);
+    void touchIndirect(std::size_t block);
     bool advanceBlock(const PublishedGeometry& geometry, std::size_t block, Flight& flight,
                       const Frame& frame);
     void advanceCorners(const PublishedGeometry& geometry, const Frame& frame);

@@ -4,13 +4,15 @@
 #include "radiosity/mesh/PatchSet.h"
 #include "radiosity/query/SceneRays.h"
 #include "scenegraph/Objects.h"
-#include "viewer/preview/LightBlend.h"
+#include "viewer/preview/Preview.h"
 
 #include <cstddef>
 #include <string>
 #include <vector>
 
 namespace penumbra {
+
+class RadiosityNode;
 
 /// A light or an emissive mesh.
 struct PreviewLight {

@@ -1,14 +1,15 @@
 // The light of previewed lights at vertices, by rays.
 #pragma once
 
-#include "viewer/preview/PreviewLighting.h"
+#include "viewer/preview/Preview.h"
 #include "viewer/preview/PreviewRows.h"
 #include "viewer/preview/ShownLight.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <functional>
 #include <span>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -16,52 +17,52 @@ namespace penumbra {
 
 /// Brings the light that vertices carry up to date, as PreviewLighting says, before it is drawn:
 /// with visibility by rays (PreviewRows) instead of shadow maps. As the rays are radiosity's own,
-/// the fast shadow is the soft one: nobody sees when it becomes exact. See
-/// bestPreviewMethod().
-class RayPreview {
+/// the fast shadow is the soft one: nobody sees when it becomes exact.
+class RayPreview : public Preview {
 public:
     /// \param samples as SolverOptions::samples \param patches see PreviewRows
     RayPreview(int samples, PreviewRows::PatchesOf patches) : rows_(samples, std::move(patches)) {}
 
-    using ShownOf = PreviewRows::ShownOf;
-    /// Once a frame. \param shown what is shown without previewed lights \param view see
-    /// PreviewRows
-    void update(const PreviewLighting& light, const ShownOf& shown, const View* view = nullptr);
-    /// The same while nothing moves. \param expected see LightBlend::expecting(): is made ready, so
-    /// that the first frame of a move need not
-    void rest(const PreviewLighting& expected, const ShownOf& shown, const View* view = nullptr);
-
-    /// What is shown of a geometry; null: what is shown without previewed lights.
-    const ShownLight* shown(const LitGeometry& geometry) const;
+    PreviewMethod method() const override { return PreviewMethod::rays; }
+    void takeBack() override;
+    void update(const PreviewLighting& light, const ShownOf& shown, const View* view) override;
+    void rest(const PreviewLighting& expected, const ShownOf& shown, const View* view) override;
 
 private:
-    struct Copy {
-        std::uint32_t object = 0;
-        std::size_t vertices = 0; ///< with copies that there are already; more are behind them
-        ShownLight light;
-        std::vector<std::uint64_t> seen;    ///< block revisions of what is copied
-        std::vector<std::uint32_t> preview; ///< blocks that differ from that
-        std::vector<std::uint8_t> touched;  ///< one a block
+    /// A block that is reached, and the light that its vertices carry without previewed lights.
+    struct Block {
+        ShownLight* light = nullptr; ///< null: is not changed
+        std::size_t block = 0;
+        std::array<Rgb, LitGeometry::kBlock> before{};
+
+        void keep();
+        void restore() const;
     };
-    void follow(Copy& copy, const ShownLight& from);
-    void restore(Copy& copy, const ShownLight& from, std::uint32_t block);
+    /// A surface with blocks that are reached, and its copies without previewed lights.
+    struct Surface {
+        ShownLight* light = nullptr;
+        std::uint32_t object = 0;
+        SplitCorners corners;
+        std::vector<Rgb> copies; ///< direct light
+    };
     using Then = std::array<const PreviewRows::Factors*, 3>; ///< by anchor
     Then thenOf(const PreviewLighting& light, std::size_t at, std::size_t source) const;
     template <class Unoccluded>
-    static float change(const PreviewLighting& light, const ShownLight& from, const Then& then,
+    static float change(const PreviewLighting& light, const ShownLight& shown, const Then& then,
                         std::size_t source, std::size_t vertex, float now,
                         const Unoccluded& unoccluded);
-    bool bringUpToDate(Copy& copy, const PreviewLighting& light, const ShownLight& from,
-                       std::size_t reached) const;
-    void bringAllUpToDate(const PreviewLighting& light, const ShownOf& shown);
-    static void bringCopiesUpToDate(Copy& copy, const ShownLight& from);
-    void drawTouched(Copy& copy, std::span<const PreviewRows::Touched> touched,
-                     const PreviewLighting& light, const ShownLight& from);
-    void drawAllTouched(const PreviewLighting& light, const ShownOf& shown);
+    void listReached(const PreviewLighting& light, const ShownOf& shown);
+    bool bringUpToDate(const PreviewLighting& light, std::size_t reached);
+    void bringAllUpToDate(const PreviewLighting& light);
+    static void bringCopiesUpToDate(const Surface& surface, const std::vector<Rgb>& over);
+    void splitTouched(const Surface& surface, std::span<const PreviewRows::Touched> touched,
+                      const PreviewLighting& light);
+    void splitAllTouched(const PreviewLighting& light);
+    Rgb before(const Surface& surface, const PreviewRows::Touched& corner, std::size_t drawn) const;
 
     PreviewRows rows_;
-    std::unordered_map<const LitGeometry*, Copy> copies_;
-    std::uint64_t revision_ = 1; ///< never the same twice
+    std::vector<Block> blocks_; ///< as reached()
+    std::vector<Surface> surfaces_;
 };
 
 } // namespace penumbra

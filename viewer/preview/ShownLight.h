@@ -29,9 +29,23 @@ struct AdoptedVertex {
     std::uint32_t vertex = 0, from = 0;
 };
 
-/// Instead of what a LitGeometry carries: the same vertices, in the same blocks.
+/// Corners of triangles that are drawn with light of their own, by copies of vertices. A value:
+/// who draws them compares it with the one that was drawn.
+struct SplitCorners {
+    std::vector<std::uint32_t> copies; ///< the vertices that they are copies of
+    /// Entries of LitMeshData::indices, and the copies that they are drawn with; of several for one
+    /// entry the last holds.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> entries;
+
+    bool empty() const { return copies.empty(); }
+    friend bool operator==(const SplitCorners&, const SplitCorners&) = default;
+};
+
+/// Instead of what a LitGeometry carries: the same vertices, in the same blocks. There is one for a
+/// geometry: LightFade goes on with it, RayPreview adds what moves and takes that back, and
+/// GpuGeometry has what it is.
 struct ShownLight {
-    std::vector<Rgb> direct, indirect; ///< [lux]
+    std::vector<Rgb> direct, indirect; ///< [lux]; of vertices, then of the copies in `corners`
     /// Of the previewed lights, that direct contains. Empty: there are none.
     std::vector<LightFactors> factors;
     /// Share of the light that is of the scene state which most vertices have left behind, in
@@ -40,16 +54,9 @@ struct ShownLight {
 
     /// From the last time that triangles changed their vertices.
     std::vector<AdoptedVertex> adopted;
+    SplitCorners corners;
 
-    /// Corners of triangles that are drawn with light of their own: the arrays above go on,
-    /// behind the vertices of the geometry, with copies of these vertices,
-    std::vector<std::uint32_t> copies;
-    /// and these entries of LitMeshData::indices are drawn with those, counted from the first one
-    /// of the geometry.
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> redrawn;
-    std::uint64_t redrawnRevision = 0; ///< rises when copies or redrawn change
-
-    std::vector<std::uint64_t> blockRevisions; ///< one a block, rises when any of this changes
+    std::vector<std::uint64_t> blockRevisions; ///< one a block, changes when any of this does
     /// From the revision `from` of a block to `to` nothing of it changed but its indirect light.
     struct IndirectRun {
         std::uint64_t from = 0, to = 0;
@@ -61,6 +68,12 @@ struct ShownLight {
                indirectRuns[block].from <= copied;
     }
     std::uint64_t revision = 1; ///< rises when any of these does
+
+    std::size_t vertices() const { return direct.size() - corners.copies.size(); }
+    /// To be called when something of a block has changed; no revision comes twice.
+    void touch(std::size_t block) { blockRevisions[block] = ++revision; }
+    /// Makes as many blocks as the light needs, and touches those in which copies lie.
+    void touchCopies();
 };
 
 } // namespace penumbra

@@ -14,13 +14,13 @@ namespace penumbra {
 
 namespace {
 
-constexpr std::array<const char*, kPreviewSlots> kPlaceNames{"livePlaces[0]", "livePlaces[1]",
-                                                             "livePlaces[2]", "livePlaces[3]"};
-constexpr std::array<const char*, kPreviewSlots> kNormalNames{"liveNormals[0]", "liveNormals[1]",
-                                                              "liveNormals[2]", "liveNormals[3]"};
+constexpr std::array<const char*, kPreviewSlots> kPoseNames{"posesInMaps[0]", "posesInMaps[1]",
+                                                            "posesInMaps[2]", "posesInMaps[3]"};
+constexpr std::array<const char*, kPreviewSlots> kNormalNames{
+    "normalsInMaps[0]", "normalsInMaps[1]", "normalsInMaps[2]", "normalsInMaps[3]"};
 
-constexpr std::array<const char*, kMostPreviewedByMaps> kLightNames{"lampList[0]", "lampList[1]",
-                                                                    "lampList[2]", "lampList[3]"};
+constexpr std::array<const char*, kMostPreviewedByMaps> kLightNames{"lightList[0]", "lightList[1]",
+                                                                    "lightList[2]", "lightList[3]"};
 
 } // namespace
 
@@ -28,7 +28,7 @@ struct MapPreview::Impl {
     Impl() : program(previewVertexShader().c_str(), kScreenFragmentShader) {}
 
     void setPlaces(const LitItem& item);
-    void setLights(unsigned mask);
+    void setLights(unsigned mask) const;
     bool moves(const LitItem& item) const {
         const std::uint32_t object = item.geometry->object().value;
         return object < light.objects.size() && light.objects[object].moves &&
@@ -37,8 +37,7 @@ struct MapPreview::Impl {
 
     ShaderProgram program;
     PreviewMaps maps;
-    PreviewLighting light;
-    PreviewStatistics statistics;
+    PreviewLighting light; ///< that the maps are of
 };
 
 /// The item's poses now and in the anchors, in the frame of the maps.
@@ -50,19 +49,27 @@ void MapPreview::Impl::setPlaces(const LitItem& item) {
         if (s > 0 && own)
             place = light.anchors[s - 1].sceneState->objects[item.geometry->object().value].toWorld;
         place[3] -= glm::dvec4(maps.origin(), 0);
-        program.set(kPlaceNames[s], glm::mat4(place));
+        program.set(kPoseNames[s], glm::mat4(place));
         program.set(kNormalNames[s], glm::mat3(glm::inverseTranspose(glm::dmat3(place))));
     }
 }
 
-MapPreview::MapPreview() : impl_(std::make_unique<Impl>()) {}
+MapPreview::MapPreview() = default;
 
 MapPreview::~MapPreview() = default;
 
-void MapPreview::prepare(const PreviewLighting& light, GeometryCache& cache) {
-    impl_->light = light;
-    impl_->statistics = {};
-    impl_->statistics.maps = impl_->maps.prepare(light, cache);
+void MapPreview::update(const PreviewLighting& light, const ShownOf&, const View*) {
+    light_ = light;
+}
+
+void MapPreview::rest(const PreviewLighting&, const ShownOf&, const View*) {
+    light_ = {};
+}
+
+std::size_t MapPreview::prepare(GeometryCache& cache) {
+    if (!impl_) impl_ = std::make_unique<Impl>();
+    impl_->light = light_;
+    return impl_->maps.prepare(light_, cache);
 }
 
 unsigned MapPreview::reaching(const LitItem& item, const TriangleChunk& chunk) const {
@@ -78,11 +85,11 @@ unsigned MapPreview::reaching(const LitItem& item, const TriangleChunk& chunk) c
 }
 
 /// The lights of a mask, one after the other.
-void MapPreview::Impl::setLights(unsigned mask) {
+void MapPreview::Impl::setLights(unsigned mask) const {
     int count = 0;
     for (int l = 0; l < int(kMostPreviewedByMaps); ++l)
         if (mask >> l & 1) program.set(kLightNames[std::size_t(count++)], l);
-    program.set("liveLamps", count);
+    program.set("previewedLights", count);
 }
 
 void MapPreview::draw(const std::vector<LitItem>& items, const std::vector<Runs>& runs) {
@@ -90,12 +97,12 @@ void MapPreview::draw(const std::vector<LitItem>& items, const std::vector<Runs>
     const PreviewLighting& light = impl_->light;
     program.use();
     impl_->maps.bind(program);
-    program.set("liveAnchors", int(light.anchors.size()));
+    program.set("anchorCount", int(light.anchors.size()));
     std::vector<glm::vec4> exitances, shares(1);
     for (const auto& source : light.lights)
         exitances.emplace_back(source.exitance.r, source.exitance.g, source.exitance.b, 0);
     for (const auto& anchor : light.anchors) shares.emplace_back(anchor.rest, anchor.behind, 0, 0);
-    program.set("liveExitances", exitances);
+    program.set("exitances", exitances);
     program.set("anchorShares", shares);
     glVertexAttrib4f(kFactors, -1, -1, -1, -1); // of surfaces that have none
     glVertexAttrib1f(kBehind, 0);
@@ -121,10 +128,6 @@ void MapPreview::draw(const std::vector<LitItem>& items, const std::vector<Runs>
     }
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, 0);
-}
-
-const PreviewStatistics& MapPreview::statistics() const {
-    return impl_->statistics;
 }
 
 } // namespace penumbra

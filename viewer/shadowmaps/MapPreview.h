@@ -4,7 +4,7 @@
 #include "viewer/gl/GeometryCache.h"
 #include "viewer/gl/LitItem.h"
 #include "viewer/gl/ShaderProgram.h"
-#include "viewer/preview/PreviewLighting.h"
+#include "viewer/preview/Preview.h"
 #include "viewer/shadowmaps/IndexRuns.h"
 
 #include <cstddef>
@@ -13,23 +13,25 @@
 
 namespace penumbra {
 
-/// What the last prepare() did.
-struct PreviewStatistics {
-    std::size_t maps = 0; ///< shadow maps drawn
-};
-
-/// The renderer's part of PreviewLighting: shadow maps of what moves, tight around it, and of what
+/// PreviewLighting by the graphics card: shadow maps of what moves, tight around it, and of what
 /// is in the same light, for each scene state; and a program that adds the change of the light
 /// to what vertices carry. It is used for those triangles alone that a change may reach: whose
 /// shaft to a light meets what moves; all others are drawn as ever.
-class MapPreview {
+class MapPreview : public Preview {
 public:
     MapPreview();
-    ~MapPreview();
+    ~MapPreview() override;
 
-    /// Draws the shadow maps that are not there yet. Leaves no framebuffer bound.
-    /// \param light with PreviewLighting::active()
-    void prepare(const PreviewLighting& light, GeometryCache& cache);
+    PreviewMethod method() const override { return PreviewMethod::maps; }
+    void takeBack() override {} ///< nothing: the shader adds what it does
+    void update(const PreviewLighting& light, const ShownOf& shown, const View* view) override;
+    void rest(const PreviewLighting& expected, const ShownOf& shown, const View* view) override;
+
+    /// Whether there is anything to be drawn by draw().
+    bool active() const { return light_.active(); }
+    /// Draws the shadow maps that are not there yet, in a context that is current from now on until
+    /// the end. Leaves no framebuffer bound. \pre active() \return how many it drew
+    std::size_t prepare(GeometryCache& cache);
 
     /// Which lights' change may reach a triangle of a chunk, a bit a light. After prepare(), before
     /// the next.
@@ -44,11 +46,11 @@ public:
     /// \param runs by item
     void draw(const std::vector<LitItem>& items, const std::vector<Runs>& runs);
 
-    const PreviewStatistics& statistics() const;
-
 private:
     struct Impl;
-    std::unique_ptr<Impl> impl_;
+
+    PreviewLighting light_;
+    std::unique_ptr<Impl> impl_; ///< when it is needed first: may belong to no context yet
 };
 
 } // namespace penumbra

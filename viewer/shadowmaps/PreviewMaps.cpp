@@ -264,10 +264,10 @@ std::size_t PreviewMaps::prepare(const PreviewLighting& light, GeometryCache& ca
 }
 
 void PreviewMaps::bind(const ShaderProgram& program) const {
-    program.set("liveTable", 0);
+    program.set("previewTable", 0);
     program.set("movedMaps", 1);
     program.set("fixedMaps", 2);
-    program.set("livePoints", points_);
+    program.set("tightPoints", points_);
     program.set("cubePoints", kCubePoints);
     program.set("tightTile", float(moved_.tileSize(kTightTiles)));
     program.set("cubeTile", float(fixed_.tileSize(kCubeTiles)));

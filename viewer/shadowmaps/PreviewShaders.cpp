@@ -9,9 +9,9 @@ namespace {
 const char* const kFormFactors = R"(
 const float kPi = 3.14159265359;
 
-uniform sampler2D liveTable;
+uniform sampler2D previewTable;
 
-vec4 entry(int row, int i) { return texelFetch(liveTable, ivec2(i, row), 0); }
+vec4 entry(int row, int i) { return texelFetch(previewTable, ivec2(i, row), 0); }
 
 vec3 unit(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-30)); }
 
@@ -123,15 +123,15 @@ float formFactor(int row, vec3 p, vec3 n) {
 
 const char* const kShadows = R"(
 uniform sampler2DArray movedMaps, fixedMaps;
-uniform int livePoints;
+uniform int tightPoints;
 uniform float tightTile, cubeTile;       // texels
 uniform int cubePoints;
 
 // Whether anything of the sphere of what moves may be seen in front of the sphere of the light.
-bool inShadowCone(vec3 p, vec4 lamp, vec4 thing) {
-    vec3 l = lamp.xyz - p, t = thing.xyz - p;
+bool inShadowCone(vec3 p, vec4 light, vec4 thing) {
+    vec3 l = light.xyz - p, t = thing.xyz - p;
     float l2 = dot(l, l), t2 = dot(t, t);
-    float sl = lamp.w * inversesqrt(l2), st = thing.w * inversesqrt(t2);
+    float sl = light.w * inversesqrt(l2), st = thing.w * inversesqrt(t2);
     if (sl >= 1.0 || st >= 1.0) return true;
     float both = sqrt((1.0 - sl * sl) * (1.0 - st * st)) - sl * st;
     return sl + st >= 1.0 || dot(l, t) * inversesqrt(l2 * t2) >= both;
@@ -142,8 +142,26 @@ int mostOf(vec3 v) {
     return a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
 }
 
-// How much of a light a point does not see because of what moves (of: own, or cube views, because of
-// anything at all): of its points, weighed by cos cos / d^2 as radiosity weighs its samples.
+// How a tile of a map looks at the scene.
+struct MapView {
+    vec3 right, up, axis;
+    int tile;
+};
+
+// The view from point k of a light along d: of a cube, the face that d goes through.
+MapView viewTo(vec3 d, int row, int k, bool cube) {
+    if (!cube) return MapView(entry(row, 7).xyz, entry(row, 8).xyz, entry(row, 9).xyz, k);
+    int i = mostOf(d);
+    bool back = d[i] < 0.0;
+    MapView view = MapView(vec3(0.0), vec3(0.0), vec3(0.0), 6 * k + 2 * i + (back ? 1 : 0));
+    view.axis[i] = back ? -1.0 : 1.0;
+    view.right[(i + 1) % 3] = 1.0;
+    view.up[(i + 2) % 3] = 1.0;
+    return view;
+}
+
+// How much of a light a point does not see because of what moves (of: own, or cube views, because
+// of anything at all): of its points, weighed by cos cos / d^2 as radiosity weighs its samples.
 //
 // A map is compared with the receiver's plane at the middle of the texel: a plane casts no shadow
 // on itself, however coarse the map, and the margin can be less than a texel is wide. A point that
@@ -151,42 +169,33 @@ int mostOf(vec3 v) {
 // and a map can't tell it from what is in front of it.
 float hidden(int row, vec3 p, vec3 n, bool own) {
     bool cube = entry(row, 0).y > 0.5;
-    vec4 across = entry(row, 9), lampNormal = entry(row, 10), ranges = entry(row, 11);
-    vec3 right = entry(row, 7).xyz, up = entry(row, 8).xyz, axis = across.xyz;
-    float layer = lampNormal.w, size = cube ? cubeTile : tightTile;
+    float grain = entry(row, 9).w, size = cube ? cubeTile : tightTile;
+    vec4 lightNormal = entry(row, 10), ranges = entry(row, 11);
     int tiles = cube ? 5 : 4;
     int count = cube ? cubePoints
-              : inShadowCone(p, entry(row, 5), entry(row, 6)) ? livePoints : 0;
+              : inShadowCone(p, entry(row, 5), entry(row, 6)) ? tightPoints : 0;
     float total = 0.0, dark = 0.0;
     for (int k = 0; k < count; ++k) {
         vec4 from = entry(row, 12 + 2 * k), window = entry(row, 13 + 2 * k);
         vec3 d = p - from.xyz;
-        int tile = k;
-        if (cube) {
-            int i = mostOf(d);
-            bool back = d[i] < 0.0;
-            axis = right = up = vec3(0.0);
-            axis[i] = back ? -1.0 : 1.0;
-            right[(i + 1) % 3] = 1.0;
-            up[(i + 2) % 3] = 1.0;
-            tile = 6 * k + 2 * i + (back ? 1 : 0);
-        }
+        MapView view = viewTo(d, row, k, cube);
         vec2 scale = vec2(from.w, window.x), offset = window.yz;
         float here = -dot(n, d), d2 = dot(d, d);
-        float there = lampNormal.xyz == vec3(0.0) ? sqrt(d2) : dot(lampNormal.xyz, d);
+        float there = lightNormal.xyz == vec3(0.0) ? sqrt(d2) : dot(lightNormal.xyz, d);
         float weight = max(here, 0.0) * max(there, 0.0) / (d2 * d2);
         total += weight;
-        float z = dot(d, axis);
-        vec2 at = vec2(dot(d, right), dot(d, up)) / z * scale + offset;
+        float z = dot(d, view.axis);
+        vec2 at = vec2(dot(d, view.right), dot(d, view.up)) / z * scale + offset;
         bool covered = z > 0.0 && all(greaterThan(at, vec2(0.0))) && all(lessThan(at, vec2(1.0)));
         vec2 texel = clamp(floor(at * size), vec2(0.0), vec2(size - 1.0));
         vec2 middle = ((texel + 0.5) / size - offset) / scale;
-        float inverse = dot(n, axis + right * middle.x + up * middle.y) / min(-here, -1e-6);
+        vec3 across = view.axis + view.right * middle.x + view.up * middle.y;
+        float inverse = dot(n, across) / min(-here, -1e-6);
         bool tells = inverse > 0.8 / z && inverse < 1.25 / z;
         inverse = clamp(inverse, 0.8 / z, 1.25 / z);
-        inverse += (1e-3 + across.w * z) * inverse * inverse;
-        ivec3 place = ivec3(ivec2(texel) + ivec2(tile % tiles, tile / tiles) * int(size),
-                            int(layer));
+        inverse += (1e-3 + grain * z) * inverse * inverse;
+        ivec3 place = ivec3(ivec2(texel) + ivec2(view.tile % tiles, view.tile / tiles) * int(size),
+                            int(lightNormal.w));
         float fixedDepth = texelFetch(fixedMaps, place, 0).r;
         float movedDepth = texelFetch(movedMaps, place, 0).r;
         bool byFixed = fixedDepth < 1.0 && fixedDepth < ranges.z - ranges.w * inverse;
@@ -199,26 +208,26 @@ float hidden(int row, vec3 p, vec3 n, bool own) {
 )";
 
 const char* const kChange = R"(
-uniform int liveLamps, liveAnchors;
-uniform int lampList[4];                 // those that reach what is drawn
-uniform vec4 liveExitances[4];           // lm/m^2
+uniform int previewedLights, anchorCount;
+uniform int lightList[4];                // those that reach what is drawn
+uniform vec4 exitances[4];               // lm/m^2
 uniform vec4 anchorShares[4];            // of anchor 1 ... 3: x of rest, y of what is left behind
-uniform mat4 livePlaces[4];              // of the geometry, then and now
-uniform mat3 liveNormals[4];
+uniform mat4 posesInMaps[4];             // of the geometry, then and now
+uniform mat3 normalsInMaps[4];
 uniform int ownMoves;
 
-vec3 liveChange(vec3 position, vec3 normal, vec4 held, float behind) {
+vec3 lightChange(vec3 position, vec3 normal, vec4 held, float behind) {
     vec3 sum = vec3(0.0);
-    vec3 p = vec3(livePlaces[0] * vec4(position, 1.0)), n = unit(liveNormals[0] * normal);
-    for (int i = 0; i < liveLamps; ++i) {
-        int lamp = lampList[i];
-        float most = formFactor(lamp, p, n);
-        float now = most * (1.0 - hidden(lamp, p, n, ownMoves != 0));
-        float f = held[lamp], change = 0.0, mostThen = most;
-        for (int s = 1; s <= liveAnchors; ++s) {
-            int row = 4 * s + lamp;
-            vec3 then = vec3(livePlaces[s] * vec4(position, 1.0));
-            vec3 up = unit(liveNormals[s] * normal);
+    vec3 p = vec3(posesInMaps[0] * vec4(position, 1.0)), n = unit(normalsInMaps[0] * normal);
+    for (int i = 0; i < previewedLights; ++i) {
+        int light = lightList[i];
+        float most = formFactor(light, p, n);
+        float now = most * (1.0 - hidden(light, p, n, ownMoves != 0));
+        float f = held[light], change = 0.0, mostThen = most;
+        for (int s = 1; s <= anchorCount; ++s) {
+            int row = 4 * s + light;
+            vec3 then = vec3(posesInMaps[s] * vec4(position, 1.0));
+            vec3 up = unit(normalsInMaps[s] * normal);
             float share = mix(anchorShares[s].x, anchorShares[s].y, behind);
             float most1 = formFactor(row, then, up);
             change += share * (now - most1 * (1.0 - hidden(row, then, up, ownMoves != 0)));
@@ -226,7 +235,7 @@ vec3 liveChange(vec3 position, vec3 normal, vec4 held, float behind) {
         }
         if (f >= 0.0)
             change = clamp(f + change, 0.0, most + max(0.0, f - mostThen)) - f;
-        sum += change * liveExitances[lamp].rgb;
+        sum += change * exitances[light].rgb;
     }
     return sum;
 }
@@ -249,7 +258,7 @@ centroid out vec3 surfaceIndirect;
 
 void main() {
     gl_Position = localToClip * vec4(position, 1.0);
-    surfaceDirect = max(direct + liveChange(position, normal, factors, behind), 0.0);
+    surfaceDirect = max(direct + lightChange(position, normal, factors, behind), 0.0);
     surfaceIndirect = indirect;
 }
 )";

@@ -133,13 +133,43 @@ TEST_F(WalkLightTest, WhatIsInTheHandIsHeldBackUntilItIsLetGo) {
     }
     ASSERT_TRUE(walk.inHand());
     EXPECT_EQ(light.node().previewLights().size(), 1u) << "the light that matters to the box";
-    EXPECT_TRUE(light.preview().active()) << "is previewed as soon as it moves";
+    EXPECT_GT(light.lightsPreviewed(), 0u) << "as soon as it moves";
     EXPECT_GT(light.state().held, 0u);
     EXPECT_EQ(light.state().updates, updates);
     walk.take(ButtonEvent{.button = MouseButton::left, .down = false, .position = {48, 24}},
               kPicture);
     settle(light, walk);
     EXPECT_GT(light.state().updates, updates);
+}
+
+TEST_F(WalkLightTest, WhereRaysComeTooLateTheNextMoveIsDrawnByShadowMaps) {
+    Walkthrough walk(load(file()));
+    WalkLight light(walk, coarse(), makeThreadLink(), {.inTime = 0});
+    settle(light, walk);
+    EXPECT_EQ(light.previewMethod(), PreviewMethod::rays);
+    const auto drag = [&](double from) {
+        walk.take(ButtonEvent{.button = MouseButton::left, .down = true, .position = {from, 24}},
+                  kPicture);
+        for (int i = 1; i <= 12; ++i) {
+            walk.take(MoveEvent{.position = {from + i, 24}, .moved = {1, 0}}, kPicture);
+            light.update(walk, viewOf(walk));
+        }
+        EXPECT_GT(light.lightsPreviewed(), 0u);
+        const PreviewMethod by = light.previewMethod();
+        walk.take(
+            ButtonEvent{.button = MouseButton::left, .down = false, .position = {from + 12, 24}},
+            kPicture);
+        for (int i = 0; i < 1000 && (light.fading() || light.waiting()); ++i) {
+            walk.advance(0.02);
+            settle(light, walk);
+        }
+        light.update(walk, viewOf(walk));
+        return by;
+    };
+    EXPECT_EQ(drag(30), PreviewMethod::rays);
+    EXPECT_EQ(light.previewMethod(), PreviewMethod::maps);
+    EXPECT_NE(light.maps(), nullptr);
+    EXPECT_EQ(drag(42), PreviewMethod::maps);
 }
 
 TEST_F(WalkLightTest, ARecordedSessionIsThereWhenItEndsAndPlaysAgain) {

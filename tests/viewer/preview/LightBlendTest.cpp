@@ -36,7 +36,8 @@ public:
         const View view = PreviewRoom::viewInside(kSize);
         DrawList list = listVisible(node().lit(), Frustum(view.worldToClip()));
         for (DrawItem& item : list.items) item.shown = blend.shown(*item.geometry);
-        renderer.drawScene(list, view, {}, kSize, kSize, blend.preview());
+        maps.update(blend.preview(), nullptr, nullptr);
+        renderer.drawScene(list, view, {}, kSize, kSize, &maps);
         return renderer.readLuminances();
     }
     /// What is to be seen in the end: the published light, without fade or previewed lights.
@@ -71,6 +72,7 @@ public:
     PreviewRoom room;
     LightBlend blend;
     InteractiveRenderer renderer{{.samples = 1, .precision = HdrTarget::Precision::single}};
+    MapPreview maps;
     double time = 0;
 };
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace penumbra {
 
@@ -161,11 +162,14 @@ TEST(LightFade, IndirectLightThatMayNotFadeYetFinishesItsFadeAndWaits) {
 
 TEST(LightFade, IndirectLightThatChangesByLessThanCanBeSeenIsUploadedOnce) {
     Surface surface;
-    const std::vector<std::uint64_t> before = surface.fade.shown().blockRevisions;
+    std::set<std::uint64_t> revisions{surface.fade.shown().blockRevisions[0]};
     surface.publish(0, 100, Known::exact, 20.01f); // 20 lux before
-    for (double t = 1; t < 2; t += 0.05) surface.show(t);
+    for (double t = 1; t < 2; t += 0.05) {
+        surface.show(t);
+        revisions.insert(surface.fade.shown().blockRevisions[0]);
+    }
     EXPECT_EQ(surface.fade.shown().indirect[5].r, 20.01f);
-    EXPECT_EQ(surface.fade.shown().blockRevisions[0], before[0] + 1);
+    EXPECT_EQ(revisions.size(), 2u) << "before and after";
 }
 
 TEST(LightFade, IndirectLightOnItsWayHasNothingElseUploaded) {
@@ -311,7 +315,7 @@ struct ReturnedCorner : Surface {
     float corner() const {
         const ShownLight& shown = fade.shown();
         const auto last = std::uint32_t(geometry.data().indices.size() - 1);
-        for (const auto& [entry, copy] : shown.redrawn)
+        for (const auto& [entry, copy] : shown.corners.entries)
             if (entry == last) return shown.direct[geometry.data().positions.size() + copy].r;
         return shown.direct[geometry.data().indices.back()].r;
     }
@@ -325,8 +329,8 @@ TEST(LightFade, ACornerThatIsDrawnWithASharedVertexAgainGoesToItsLightWithoutAJu
     surface.show(3);
     EXPECT_EQ(surface.corner(), 300) << "what was shown there";
     EXPECT_EQ(surface.direct(70), 500) << "others have it as it is";
-    ASSERT_EQ(surface.fade.shown().copies.size(), 1u);
-    EXPECT_EQ(surface.fade.shown().copies[0], 70u);
+    ASSERT_EQ(surface.fade.shown().corners.copies.size(), 1u);
+    EXPECT_EQ(surface.fade.shown().corners.copies[0], 70u);
     surface.show(3.125);
     EXPECT_NEAR(surface.corner(), 400, 1e-3f);
     EXPECT_TRUE(surface.fade.changing());
@@ -335,7 +339,7 @@ TEST(LightFade, ACornerThatIsDrawnWithASharedVertexAgainGoesToItsLightWithoutAJu
     EXPECT_NEAR(surface.corner(), 400, 1e-3f);
     surface.show(3.375);
     EXPECT_EQ(surface.corner(), 300);
-    EXPECT_TRUE(surface.fade.shown().copies.empty());
+    EXPECT_TRUE(surface.fade.shown().corners.empty());
     EXPECT_FALSE(surface.fade.changing());
 }
 

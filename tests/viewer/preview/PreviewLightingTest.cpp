@@ -144,9 +144,7 @@ TEST_P(PreviewLightingTest, AMovedThingTakesItsShadowAlong) {
     room.show(ownLight);
     const std::vector<Rgb> exact = room.draw(interactive, {}, kSize);
     room.shown = old;
-    for (auto& [geometry, light] : room.shown)
-        light.blockRevisions.assign(light.blockRevisions.size(), ++room.revision),
-            light.revision = room.revision;
+    for (auto& [geometry, light] : room.shown) room.showAnew(light);
     const std::vector<Rgb> fast =
         room.draw(interactive, room.preview(room.sceneState(), then), kSize, GetParam());
     const std::vector<Rgb> stale = room.draw(interactive, {}, kSize);
@@ -178,16 +176,14 @@ TEST_P(PreviewLightingTest, ACopyOfAVertexIsBroughtUpToDateAsThatIs) {
     for (auto& [geometry, light] : room.shown) {
         const std::vector<std::uint32_t>& indices = geometry->data().indices;
         for (std::uint32_t i = 0; i < indices.size(); ++i) { // every corner has its own
-            light.copies.push_back(indices[i]);
-            light.redrawn.emplace_back(i, i);
+            light.corners.copies.push_back(indices[i]);
+            light.corners.entries.emplace_back(i, i);
             light.direct.push_back(Rgb(light.direct[indices[i]]));
             light.indirect.push_back(Rgb(light.indirect[indices[i]]));
             light.factors.push_back(LightFactors(light.factors[indices[i]]));
             light.behind.push_back(0);
         }
-        const std::size_t blocks = (light.direct.size() + 63) / LitGeometry::kBlock;
-        light.blockRevisions.assign(blocks, ++room.revision);
-        light.revision = light.redrawnRevision = room.revision;
+        room.showAnew(light);
     }
     const std::vector<Rgb> copied = room.draw(interactive, preview, kSize, GetParam());
     for (std::size_t i = 0; i < with.size(); ++i)

@@ -12,6 +12,7 @@
 #include "viewer/preview/RayPreview.h"
 #include "viewer/preview/SceneStates.h"
 #include "viewer/preview/ShownLight.h"
+#include "viewer/shadowmaps/MapPreview.h"
 
 #include <algorithm>
 #include <map>
@@ -52,9 +53,15 @@ public:
             to.indirect.assign(data.positions.size(), Rgb());
             to.factors.assign(data.positions.size(), LightFactors());
             to.behind.assign(data.positions.size(), 0);
-            to.blockRevisions.assign(object.geometry->blockRevisions().size(), ++revision);
-            to.revision = revision;
+            showAnew(to);
         }
+    }
+    /// Has all of it uploaded: no revision was there before.
+    void showAnew(ShownLight& light) {
+        light.revision = revision;
+        light.blockRevisions.assign((light.direct.size() + 63) / LitGeometry::kBlock, 0);
+        for (std::size_t b = 0; b < light.blockRevisions.size(); ++b) light.touch(b);
+        revision = light.revision;
     }
     /// What the light gives to a vertex of an object when nothing is in the way, over its exitance.
     float unoccluded(const LitObject& object, const SceneStatePtr& at, std::size_t vertex) const {
@@ -86,16 +93,15 @@ public:
         const View view = viewInside(size);
         DrawList list = listVisible(room.node->lit(), Frustum(view.worldToClip()));
         for (DrawItem& item : list.items) item.shown = &shown[item.geometry];
-        RayPreview vertices(fineRoom().solving.samples, [this] { return room.node->patches(); });
-        if (by == PreviewMethod::rays) {
-            vertices.update(preview,
-                            [&](const LitGeometry& geometry) { return &shown[&geometry]; });
-            for (DrawItem& item : list.items)
-                if (const ShownLight* const brought = vertices.shown(*item.geometry))
-                    item.shown = brought;
-        }
-        renderer.drawScene(list, view, {}, size, size,
-                           by == PreviewMethod::rays ? PreviewLighting() : preview);
+        RayPreview rays(fineRoom().solving.samples, [this] { return room.node->patches(); });
+        MapPreview maps;
+        Preview& way = by == PreviewMethod::rays ? static_cast<Preview&>(rays) : maps;
+        if (preview.active())
+            way.update(
+                preview, [&](const LitGeometry& geometry) { return &shown[&geometry]; }, nullptr);
+        renderer.drawScene(list, view, {}, size, size, &maps);
+        way.takeBack();
+        for (const auto& [geometry, light] : shown) revision = std::max(revision, light.revision);
         return renderer.readLuminances();
     }
     static View viewInside(int size) {

@@ -69,7 +69,7 @@ std::vector<float> drawnLight(const LitGeometry& geometry, const ShownLight* bro
     const LitMeshData& data = geometry.data();
     std::vector<std::uint32_t> indices = data.indices;
     if (brought)
-        for (const auto& [entry, copy] : brought->redrawn)
+        for (const auto& [entry, copy] : brought->corners.entries)
             indices[entry] = std::uint32_t(data.positions.size()) + copy;
     std::vector<float> light;
     for (const std::uint32_t v : indices)
@@ -81,12 +81,12 @@ std::vector<float> drawnLight(const LitGeometry& geometry, const ShownLight* bro
 /// radiosity has there.
 std::size_t differing(PosedRoom& before, PosedRoom& after, SceneStatePtr then = nullptr) {
     if (!then) then = before.sceneState();
-    before.vertices.update(before.preview(after.sceneState(), then), before.shownOf());
+    before.vertices.update(before.preview(after.sceneState(), then), before.shownOf(), nullptr);
     std::size_t wrong = 0;
     const auto objects = before.room.node->objects();
     for (std::size_t o = 0; o < objects.size(); ++o) {
         const LitGeometry& geometry = *objects[o].geometry;
-        const std::vector<float> is = drawnLight(geometry, before.vertices.shown(geometry));
+        const std::vector<float> is = drawnLight(geometry, &before.shown.at(&geometry));
         const std::vector<float> shouldBe =
             drawnLight(*after.room.node->objects()[o].geometry, nullptr);
         EXPECT_EQ(is.size(), shouldBe.size());
@@ -131,7 +131,7 @@ TEST(RayPreview, AThingThatIsDraggedAlongLeavesNoTrace) {
                     posed(0.3 - 0.83 * way, 0.2 + 0.41 * way, 0.3 + 0.5 * way) *
                     before.room.node->objects()[o].toObject;
         before.vertices.update(before.preview(std::make_shared<SceneState>(now), then),
-                               before.shownOf());
+                               before.shownOf(), nullptr);
     }
     EXPECT_EQ(differing(before, after), 0u);
 }
@@ -156,7 +156,7 @@ TEST(RayPreview, AMoveGoesOnFromWhatWasMadeReadyAtRest) {
     expected.anchors.clear();
     for (std::size_t o = 0; o < expected.objects.size(); ++o)
         expected.objects[o].moves = before.room.node->objects()[o].path == "/box";
-    before.vertices.rest(expected, before.shownOf());
+    before.vertices.rest(expected, before.shownOf(), nullptr);
     EXPECT_EQ(differing(before, after, then), 0u);
 }
 
