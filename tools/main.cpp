@@ -9,14 +9,13 @@
 #include <cstdio>
 #include <exception>
 #include <span>
+#include <string>
 #include <system_error>
 
-int main(int argc, char** argv) {
-    // A full disk or a closed pipe is reported by the failing write, not by a signal.
-    std::signal(SIGXFSZ, SIG_IGN);
-    std::signal(SIGPIPE, SIG_IGN);
-    penumbra::removeUnfinishedFilesOnSignals();
-    penumbra::spareAddressSpaceIfLimited();
+namespace {
+
+/// \return the exit code; what a command could not do is thrown
+int run(int argc, char** argv) {
     CLI::App app{
         "Penumbra: soft, physically right light for scenes in which things move.\n"
         "Reads USD text (.usda), solves radiosity, shows it in a window or writes lit frames.\n",
@@ -44,15 +43,26 @@ int main(int argc, char** argv) {
         else
             std::fprintf(stderr, "%s\n", unknown.c_str());
         return 2;
-    } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "%s\n", penumbra::MemoryError("for the scene").what());
-        return 1;
-    } catch (const std::system_error&) { // of std::thread: files throw Error
-        std::fprintf(stderr, "%s\n", penumbra::MemoryError("for another thread").what());
-        return 1;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "%s\n", error.what());
-        return 1;
     }
     return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    // A full disk or a closed pipe is reported by the failing write, not by a signal.
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
+    penumbra::removeUnfinishedFilesOnSignals();
+    penumbra::spareAddressSpaceIfLimited();
+    try {
+        return run(argc, argv);
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr, "%s\n", penumbra::MemoryError("for the scene").what());
+    } catch (const std::system_error&) { // of std::thread: files throw Error
+        std::fprintf(stderr, "%s\n", penumbra::MemoryError("for another thread").what());
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+    }
+    return 1;
 }
