@@ -434,7 +434,7 @@ void Viewer::draw(double seconds) {
     if (std::exchange(state_.wantsSave, false)) save(view);
     renderer_.show(0, state_.exposure.middleGrey(), state_.tone);
     drawPanelsOver();
-    window_.swap();
+    window_.show();
     stale_ = std::max(0, stale_ - 1);
 }
 

@@ -9,7 +9,7 @@ namespace penumbra {
 namespace {
 
 constexpr int kWidth = MeterGrid::kColumns, kHeight = MeterGrid::kRows;
-constexpr std::size_t kCells = std::size_t(kWidth * kHeight);
+constexpr std::size_t kCells = std::size_t(kWidth) * std::size_t(kHeight);
 static_assert(MeterGrid::kSide == 4, "the shader takes 4 x 4 points of a cell");
 static_assert(sizeof(MeterCell) == 4 * sizeof(float), "a texel is a cell");
 

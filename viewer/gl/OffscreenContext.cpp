@@ -32,7 +32,8 @@ void requireLibrary(std::initializer_list<const char*> anyOf) {
 
 bool listed(const char* extensions, std::string_view name) {
     const std::string_view all = extensions ? extensions : "";
-    for (std::size_t at = all.find(name); at != all.npos; at = all.find(name, at + 1)) {
+    for (std::size_t at = all.find(name); at != std::string_view::npos;
+         at = all.find(name, at + 1)) {
         const std::size_t end = at + name.size();
         if ((at == 0 || all[at - 1] == ' ') && (end == all.size() || all[end] == ' ')) return true;
     }

@@ -98,7 +98,7 @@ bool EditHistory::undo() {
     last_ = kNever;
     if (made_ == 0) return false;
     const Step& step = steps_[--made_];
-    for (auto edit = step.rbegin(); edit != step.rend(); ++edit) takeBack(*edit);
+    std::for_each(step.rbegin(), step.rend(), takeBack);
     return true;
 }
 

@@ -103,7 +103,7 @@ struct Window::Impl {
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    void listen();
+    static void listen(GLFWwindow* window);
     glm::dvec2 inPixels(double x, double y) const;
     void moveTo(double x, double y);
 
@@ -143,7 +143,7 @@ Window::Impl::Impl(const WindowOptions& options) {
                     std::to_string(epoxy_gl_version() % 10) + kHint);
     glfwSwapInterval(options.vsync ? 1 : 0);
     glfwSetWindowUserPointer(window, this);
-    listen();
+    listen(window);
 }
 
 glm::dvec2 Window::Impl::inPixels(double x, double y) const {
@@ -160,7 +160,7 @@ void Window::Impl::moveTo(double x, double y) {
     pointerKnown = true;
 }
 
-void Window::Impl::listen() {
+void Window::Impl::listen(GLFWwindow* window) {
     glfwSetKeyCallback(window, [](GLFWwindow* w, int code, int scan, int action, int mods) {
         of(w).events.push_back(KeyEvent{keyOf(code), action != GLFW_RELEASE, action == GLFW_REPEAT,
                                         modifiersOf(mods), letterOf(code, scan)});
@@ -210,7 +210,7 @@ std::vector<InputEvent> Window::takeEvents() {
     return std::exchange(impl_->events, {});
 }
 
-void Window::swap() {
+void Window::show() {
     glfwSwapBuffers(impl_->window);
     if (contextLost())
         throw Error(std::string("the graphics card was reset and the window is lost; start again") +

@@ -36,7 +36,7 @@ public:
     std::vector<InputEvent> takeEvents();
 
     /// Shows what was drawn. \throws Error if the graphics card was reset and the context is gone
-    void swap();
+    void show();
 
     bool closing() const;
     void setTitle(const std::string& title);
