@@ -83,7 +83,7 @@ void EmitterSender::sphereGroup(const Receiver& receiver, int first, SampleGroup
     const glm::vec3 v = glm::cross(disk.axis, u);
     group.rays.used = 0;
     for (int i = 0; i < 16; ++i) {
-        const auto k = std::size_t(first + i);
+        const std::size_t k = std::size_t(first) + std::size_t(i);
         const glm::vec3 q = disk.centre + x_[k] * u + y_[k] * v;
         const glm::vec3 d = q - p;
         const float d2 = glm::dot(d, d);

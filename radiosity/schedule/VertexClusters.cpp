@@ -36,8 +36,7 @@ void VertexClusters::measure() {
     for (ReceiverCluster& cluster : clusters_.clusters) cluster.area = cluster.reflectance = 0;
     area_.assign(patches_.firstPrivate, 0);
     reflectance_.assign(patches_.firstPrivate, 0);
-    for (std::size_t e = 0; e < patches_.uncoveredElements.size(); ++e) {
-        const Element& element = patches_.uncoveredElements[e];
+    for (const Element& element : patches_.uncoveredElements) {
         if (element.patch == Element::kNone) continue;
         const std::uint32_t block = element.vertices[0] / kBlock; // its corners are mostly in one
         if (block >= clusters_.clusterOf.size()) continue;

@@ -30,8 +30,7 @@ DirectLight::DirectLight(const PatchSet& set, const RayScene& rays, int samples)
       patchLit_(set.patches.size()) {
     for (const Emitter& emitter : set.emitters) emitters_.push_back(sender(emitter, samples));
     blockPatches_.resize(set.firstPrivate / kBlock);
-    for (std::uint32_t e = 0; e < set.uncoveredElements.size(); ++e) {
-        const Element& element = set.uncoveredElements[e];
+    for (const Element& element : set.uncoveredElements) {
         if (element.patch == Element::kNone) continue;
         for (std::uint32_t v : element.vertices) {
             std::vector<std::uint32_t>& patches = blockPatches_[v / kBlock];
