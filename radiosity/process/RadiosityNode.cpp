@@ -86,13 +86,13 @@ void RadiosityNode::Impl::diff() {
             std::holds_alternative<SetMaterial>(edit) || std::holds_alternative<SetLuminance>(edit);
         gate.add(std::move(edit));
     }
-    std::vector<GraphEdit> due = gate.takeDue();
+    const std::vector<GraphEdit> due = gate.takeDue();
     if (change.structure) {
         for (const GraphEdit& edit : due) table.report(edit);
         client.sendScene();
         ++updates;
     } else {
-        send(std::move(due));
+        send(due);
     }
 }
 
