@@ -63,13 +63,13 @@ public:
 
     void run() {
         watch_ = Stopwatch(); // meshing and the first light are not counted
-        const double before = lit_.solver().direct().updates().open().taken();
+        const double before = lit_.solver().direct().updates().dirty().taken();
         while (watch_.wall() < kDrag) {
             if (done_ || pace_.mayTake(watch_.wall())) edit();
             const double end = kFrame * std::ceil((watch_.wall() + 1e-3) / kFrame);
             work(end);
         }
-        raysPerSecond = (lit_.solver().direct().updates().open().taken() - before) / kDrag;
+        raysPerSecond = (lit_.solver().direct().updates().dirty().taken() - before) / kDrag;
     }
 
     double longest = 0, longestRays = 0; ///< [s], [rays]
@@ -103,12 +103,12 @@ private:
         }
     }
     void look() {
-        const DirtySet& open = lit_.solver().direct().updates().open();
-        const std::optional<double> oldest = open.oldest();
-        clock_.note(open.taken(), watch_.wall(), !oldest);
+        const DirtySet& dirty = lit_.solver().direct().updates().dirty();
+        const std::optional<double> oldest = dirty.oldest();
+        clock_.note(dirty.taken(), watch_.wall(), !oldest);
         if (!oldest) return;
         longest = std::max(longest, watch_.wall() - clock_.when(*oldest));
-        longestRays = std::max(longestRays, open.taken() - *oldest);
+        longestRays = std::max(longestRays, dirty.taken() - *oldest);
     }
 
     MovedScene scene_;

@@ -140,10 +140,10 @@ public:
         const std::size_t blocks = room_.vertices.size() / PatchSet::kBlock;
         DirtySet dirty(room_.emitters.size(), {cost::kDirectVisit, cost::kDirectEntry});
         dirty.setReceivers(std::vector<DirtySet::Receivers>(blocks));
-        std::vector<DirtyBlock> open;
+        std::vector<DirtyBlock> marked;
         for (std::uint32_t b = 0; b < blocks; ++b)
-            open.push_back({.block = b, .factor = 0.1f + 0.001f * float(b % 13)});
-        for (std::uint32_t row = 0; row < room_.emitters.size(); ++row) dirty.open(row, open);
+            marked.push_back({.block = b, .factor = 0.1f + 0.001f * float(b % 13)});
+        for (std::uint32_t row = 0; row < room_.emitters.size(); ++row) dirty.mark(row, marked);
         std::size_t steps = 2 * dirty.count();
         note("take", timed(dirty.count(), [&](std::size_t) { dirty.take(0, steps); }), cost::kTake);
     }

@@ -249,7 +249,7 @@ bool LightingWorker::work(double budget) {
         shown_ |= published;
     }
     if (marked_ && publisher_->staleShown()) status_.marked = followed();
-    if (publisher_->hasStore() && mesh_.empty() && publisher_->open() == 0) stateSolution();
+    if (publisher_->hasStore() && mesh_.empty() && publisher_->left() == 0) stateSolution();
     return worked;
 }
 
@@ -309,7 +309,7 @@ void LightingWorker::report() {
             status_.litIlluminance = lit_->solver().litIlluminance();
         status_.certificate = certificate;
     }
-    status_.dirtyBlocks = publisher_ ? std::uint32_t(publisher_->open()) : 0;
+    status_.dirtyBlocks = publisher_ ? std::uint32_t(publisher_->left()) : 0;
     control_.status.write(status_);
 }
 

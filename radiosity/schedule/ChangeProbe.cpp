@@ -64,9 +64,9 @@ ExpectedFactors ChangeProbe::at(const EmitterSender& sender, const ReceiverBlock
         const Receiver& receiver = receivers.receivers[r];
         if (!(receivers.some >> r & 1) || (isPadding(receiver) && !(anew >> r & 1))) continue;
         float& rays = expected.rays[r];
-        const bool open = anew >> r & 1 ? probeAnew(sender, receivers, r, rays)
-                                        : probeStored(sender, receiver, r, moved, rays);
-        expected.open |= std::uint64_t(open) << r;
+        const bool dirty = anew >> r & 1 ? probeAnew(sender, receivers, r, rays)
+                                         : probeStored(sender, receiver, r, moved, rays);
+        expected.dirty |= std::uint64_t(dirty) << r;
     }
     trace(alone_, moved);
     trace(whole_, {});

@@ -21,7 +21,7 @@ public:
     static constexpr std::uint32_t kSize = 16;
     static constexpr std::uint32_t kAll = (1u << kSize) - 1;
 
-    struct Open {
+    struct Dirty {
         std::vector<std::uint32_t> moved; ///< objects that may be or have been in its rays' ways
         std::uint32_t anew = 0;           ///< bits: receivers of which nothing is known
         bool judge = false;               ///< even if all of them see what they saw
@@ -29,18 +29,18 @@ public:
 
     /// New groups are wholly dirty.
     void resize(std::size_t receivers) {
-        for (std::size_t g = open_.size(); g < receivers / kSize; ++g) {
-            open_.emplace_back();
+        for (std::size_t g = groups_.size(); g < receivers / kSize; ++g) {
+            groups_.emplace_back();
             queued_.push_back(0);
             ways_.append({});
             add(std::uint32_t(g), kAll);
         }
     }
-    std::size_t size() const { return open_.size(); }
+    std::size_t size() const { return groups_.size(); }
 
     void add(std::uint32_t group, std::uint32_t anew) {
-        open_[group].anew |= anew;
-        open_[group].judge = true;
+        groups_[group].anew |= anew;
+        groups_[group].judge = true;
         enqueue(group);
     }
     void addAll(Range receivers) {
@@ -50,7 +50,7 @@ public:
     /// An object has been in one box and is in another [m, world].
     void addMoved(std::uint32_t object, const Bounds& before, const Bounds& now) {
         find(before, now, [&](std::uint32_t group) {
-            auto& moved = open_[group].moved;
+            auto& moved = groups_[group].moved;
             if (std::find(moved.begin(), moved.end(), object) == moved.end())
                 moved.push_back(object);
             enqueue(group);
@@ -62,26 +62,26 @@ public:
 
     bool done() const { return next_ == queue_.size(); }
     std::size_t left() const { return queue_.size() - next_; }
-    const Open& operator[](std::uint32_t group) const { return open_[group]; }
+    const Dirty& operator[](std::uint32_t group) const { return groups_[group]; }
     /// The next groups, of about `effort` rays. Valid until something is added.
     /// \param rays that a receiver of which nothing is known takes, about
     std::span<const std::uint32_t> next(std::size_t effort, std::size_t rays) const {
         std::size_t count = 0;
         for (std::size_t sum = 0; sum < effort && next_ + count < queue_.size(); ++count) {
-            const Open& open = open_[queue_[next_ + count]];
-            sum += 8 + std::size_t(std::popcount(open.anew)) * rays + 64 * open.moved.size();
+            const Dirty& dirty = groups_[queue_[next_ + count]];
+            sum += 8 + std::size_t(std::popcount(dirty.anew)) * rays + 64 * dirty.moved.size();
         }
         return std::span(queue_).subspan(next_, count);
     }
     /// The first `groups` of these are done.
     /// \param ways one a group: around what was followed
-    void close(std::span<const Bounds> ways) {
+    void clean(std::span<const Bounds> ways) {
         for (const Bounds& way : ways) {
             const std::uint32_t group = queue_[next_++];
-            Bounds all = open_[group].anew == kAll ? Bounds() : ways_[group];
+            Bounds all = groups_[group].anew == kAll ? Bounds() : ways_[group];
             all.add(way);
             ways_.set(group, all);
-            open_[group] = {};
+            groups_[group] = {};
             queued_[group] = 0;
         }
         if (!done()) return;
@@ -104,7 +104,7 @@ private:
     }
 
     BoundsTree ways_;
-    std::vector<Open> open_;
+    std::vector<Dirty> groups_;
     std::vector<std::uint8_t> queued_;
     std::vector<std::uint32_t> queue_;
     std::size_t next_ = 0;

@@ -33,7 +33,7 @@ void DirtySet::setPolicy(std::shared_ptr<SchedulingPolicy> policy) {
     for (std::uint32_t row = 0; row < rows_.size(); ++row) {
         for (Entry& entry : rows_[row].entries) {
             entry.handle = kDeferred;
-            if (!entry.open) continue;
+            if (!entry.dirty) continue;
             if (!policy_->probes()) forget(entry);
             if (entry.partial) entry.partial->unrank();
         }
@@ -54,7 +54,7 @@ void DirtySet::setWhole(bool whole) {
     if (std::exchange(whole_, whole) == whole) return;
     for (std::uint32_t row = 0; row < rows_.size(); ++row)
         for (Entry& entry : rows_[row].entries)
-            if (entry.open && entry.handle != kDeferred)
+            if (entry.dirty && entry.handle != kDeferred)
                 queue_.rank(entry.handle, priorityFor(row, entry));
 }
 
@@ -66,9 +66,10 @@ void DirtySet::setReceivers(std::vector<Receivers> blocks) {
 void DirtySet::setPower(std::uint32_t row, double power) {
     RowList& list = rows_[row];
     if (list.power == power) return;
-    if (list.open > 0)
+    if (list.dirty > 0)
         for (const Entry& entry : list.entries)
-            if (entry.open) sums_[entry.block].light += double(entry.factor) * (power - list.power);
+            if (entry.dirty)
+                sums_[entry.block].light += double(entry.factor) * (power - list.power);
     list.power = power;
 }
 
@@ -146,7 +147,7 @@ void DirtySet::deferred(Entry& entry) {
 }
 
 /// There is more to it now. What is not deferred keeps its age.
-void DirtySet::openAnew(std::uint32_t row, Entry& entry) {
+void DirtySet::markAnew(std::uint32_t row, Entry& entry) {
     entry.left = ~std::uint64_t(0);
     forget(entry);
     if (entry.handle != kDeferred) queue_.rank(entry.handle, task(row, entry).priority);
@@ -154,7 +155,7 @@ void DirtySet::openAnew(std::uint32_t row, Entry& entry) {
 
 void DirtySet::setUnsorted(std::uint32_t row) {
     RowList& list = rows_[row];
-    if (list.open > 0 && !std::exchange(list.unsorted, true)) unsorted_.push_back(row);
+    if (list.dirty > 0 && !std::exchange(list.unsorted, true)) unsorted_.push_back(row);
 }
 
 /// Puts into the queue what belongs there; false: no step is left for it.
@@ -165,7 +166,7 @@ bool DirtySet::sort(double enough, std::size_t& steps) {
         list.unsorted = false;
         std::size_t queued = 0;
         for (Entry& entry : list.entries) {
-            if (!entry.open || entry.handle != kDeferred) continue;
+            if (!entry.dirty || entry.handle != kDeferred) continue;
             if (enough > 0 && bound(entry.block) <= enough) continue;
             enqueue(unsorted_.front(), entry);
             ++queued;
@@ -175,34 +176,34 @@ bool DirtySet::sort(double enough, std::size_t& steps) {
     return unsorted_.empty();
 }
 
-void DirtySet::open(std::uint32_t row, std::span<const DirtyBlock> blocks) {
+void DirtySet::mark(std::uint32_t row, std::span<const DirtyBlock> blocks) {
     if (blocks.empty()) return;
     RowList& list = rows_[row];
     std::vector<Entry> merged;
-    merged.reserve(list.open + blocks.size());
+    merged.reserve(list.dirty + blocks.size());
     auto old = list.entries.begin();
     for (const DirtyBlock& block : blocks) {
         for (; old != list.entries.end() && old->block < block.block; ++old)
-            if (old->open) merged.push_back(std::move(*old));
+            if (old->dirty) merged.push_back(std::move(*old));
         const bool same = old != list.entries.end() && old->block == block.block;
         Entry entry = same ? std::move(*old++) : Entry{};
-        if (entry.open) {
+        if (entry.dirty) {
             const float before = entry.factor;
             entry.anew |= block.anew;
             entry.since = std::min(entry.since, block.since);
             entry.factor = std::max(before, block.factor);
             add(entry.block, double(entry.factor) - double(before), list.power, 0);
-            openAnew(row, entry);
+            markAnew(row, entry);
         } else {
             entry = {block.anew, block.block, block.since, block.factor};
-            entry.open = true;
+            entry.dirty = true;
             add(entry.block, entry.factor, list.power, 1);
-            ++list.open;
+            ++list.dirty;
         }
         merged.push_back(std::move(entry));
     }
     for (; old != list.entries.end(); ++old)
-        if (old->open) merged.push_back(std::move(*old));
+        if (old->dirty) merged.push_back(std::move(*old));
     list.entries = std::move(merged);
     for (std::size_t e = 0; e < list.entries.size(); ++e)
         if (list.entries[e].handle != kDeferred) queue_.setId(list.entries[e].handle, idOf(row, e));
@@ -212,18 +213,18 @@ void DirtySet::open(std::uint32_t row, std::span<const DirtyBlock> blocks) {
 void DirtySet::drop(std::uint32_t row) {
     RowList& list = rows_[row];
     for (Entry& entry : list.entries) {
-        if (!entry.open) continue;
+        if (!entry.dirty) continue;
         add(entry.block, -double(entry.factor), list.power, -1);
         deferred(entry);
     }
     list.entries.clear();
-    list.open = 0;
+    list.dirty = 0;
 }
 
 std::vector<std::uint32_t> DirtySet::urgent(std::uint32_t row, double enough) const {
     std::vector<std::uint32_t> blocks;
     for (const Entry& entry : rows_[row].entries)
-        if (entry.open && bound(entry.block) > enough) blocks.push_back(entry.block);
+        if (entry.dirty && bound(entry.block) > enough) blocks.push_back(entry.block);
     return blocks;
 }
 
@@ -231,7 +232,7 @@ std::vector<DirtySet::AtBlock> DirtySet::atBlocks(double enough) const {
     std::vector<AtBlock> blocks(sums_.size());
     for (std::uint32_t row = 0; row < rows_.size(); ++row)
         for (const Entry& entry : rows_[row].entries) {
-            if (!entry.open) continue;
+            if (!entry.dirty) continue;
             AtBlock& at = blocks[entry.block];
             ++(bound(entry.block) > enough ? at.rows : at.small);
             at.priority =
@@ -246,7 +247,7 @@ DirtySet::Entry* DirtySet::find(std::uint32_t row, std::uint32_t block) {
     const auto found =
         std::lower_bound(entries.begin(), entries.end(), block,
                          [](const Entry& entry, std::uint32_t at) { return entry.block < at; });
-    return found != entries.end() && found->block == block && found->open ? &*found : nullptr;
+    return found != entries.end() && found->block == block && found->dirty ? &*found : nullptr;
 }
 
 std::optional<DirtyBlock> DirtySet::next(double enough, std::size_t& steps) {
@@ -284,7 +285,7 @@ std::optional<DirtyBlock> DirtySet::next(double enough, std::size_t& steps) {
     return {};
 }
 
-void DirtySet::close(const DirtyBlock& block) {
+void DirtySet::clean(const DirtyBlock& block) {
     Entry& entry = rows_[block.row].entries[block.entry];
     const WorkQueue::Choice choice{entry.handle, {}, block.overdue};
     taken_ += block.cost;
@@ -303,9 +304,9 @@ void DirtySet::close(const DirtyBlock& block) {
 void DirtySet::finish(std::uint32_t row, Entry& entry) {
     RowList& list = rows_[row];
     add(entry.block, -double(entry.factor), list.power, -1);
-    entry.open = false;
+    entry.dirty = false;
     entry.partial.reset();
-    if (--list.open == 0) list.entries.clear();
+    if (--list.dirty == 0) list.entries.clear();
 }
 
 /// Whether any of it is still dirty.
@@ -327,7 +328,7 @@ void DirtySet::narrow(std::uint32_t row, std::uint32_t block, std::uint64_t rece
 
 void DirtySet::expect(std::uint32_t row, std::uint32_t block, const ExpectedFactors& expected) {
     Entry* const entry = find(row, block);
-    if (!entry || !narrow(row, *entry, expected.open)) return;
+    if (!entry || !narrow(row, *entry, expected.dirty)) return;
     entry->partial = std::make_unique<PartialUpdate>(expected);
     if (entry->handle != kDeferred) queue_.rank(entry->handle, choosePart(row, *entry));
 }

@@ -72,7 +72,7 @@ public:
 
     /// Marks blocks of one row as dirty, in order. Those that are so already are so for both
     /// reasons then.
-    void open(std::uint32_t row, std::span<const DirtyBlock> blocks);
+    void mark(std::uint32_t row, std::span<const DirtyBlock> blocks);
     /// Closes all of a row.
     void drop(std::uint32_t row);
     /// The next block. It stays dirty: it is to be closed and worked on now, or ranked again by
@@ -83,14 +83,14 @@ public:
     std::optional<DirtyBlock> next(double enough, std::size_t& steps);
     /// Is worked on, and not dirty any more but for receivers that are not among its own.
     /// \param block from next()
-    void close(const DirtyBlock& block);
+    void clean(const DirtyBlock& block);
     /// What is expected of a dirty block, which is closed if nothing is; a clean one is left alone.
     void expect(std::uint32_t row, std::uint32_t block, const ExpectedFactors& expected);
     /// Of a dirty block only these receivers (bits) are still to be worked on; if none is, it is
     /// closed. A clean one is left alone.
     void narrow(std::uint32_t row, std::uint32_t block, std::uint64_t receivers);
     void putBack(const DirtyBlock& block); ///< from next(): not now
-    /// next() and close().
+    /// next() and clean().
     std::optional<DirtyBlock> take(double enough, std::size_t& steps);
 
     /// Whether take() may give anything.
@@ -131,13 +131,13 @@ private:
         std::uint32_t block, since;
         float factor;
         WorkQueue::Handle handle = kDeferred; ///< in the queue
-        bool open = false;
+        bool dirty = false;
         std::uint64_t left = ~std::uint64_t(0), part = ~std::uint64_t(0); ///< bits: receivers
         std::unique_ptr<PartialUpdate> partial{};                         ///< if it was probed
     };
     struct RowList {
         std::vector<Entry> entries; ///< by block
-        std::size_t open = 0;       ///< of those
+        std::size_t dirty = 0;      ///< of those
         bool unsorted = false;      ///< is in unsorted_
         double power = 0;
     };
@@ -157,7 +157,7 @@ private:
     bool narrow(std::uint32_t row, Entry& entry, std::uint64_t receivers);
     void finish(std::uint32_t row, Entry& entry);
     void enqueue(std::uint32_t row, Entry& entry);
-    void openAnew(std::uint32_t row, Entry& entry);
+    void markAnew(std::uint32_t row, Entry& entry);
     void deferred(Entry& entry);
     void setUnsorted(std::uint32_t row);
     bool sort(double enough, std::size_t& steps);

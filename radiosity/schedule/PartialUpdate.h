@@ -14,7 +14,7 @@ namespace penumbra {
 struct ExpectedFactors {
     static constexpr std::size_t kSize = 64;
 
-    std::uint64_t open = 0;            ///< bits: entries that may change at all
+    std::uint64_t dirty = 0;           ///< bits: entries that may change at all
     std::array<float, kSize> factor{}; ///< by how much F V changes, more or less
     std::array<float, kSize> rays{};   ///< that it takes to find out
 };

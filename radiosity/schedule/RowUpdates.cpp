@@ -44,7 +44,7 @@ float factorBound(const RowUpdates::RowFacts& sender, const Bounds& receivers) {
 RowUpdates::RowUpdates(const PatchSet& set, const RayScene& rays, RowTable& table,
                        const std::vector<ObjectId>& blockObjects, const DirtySet::Costs& costs)
     : set_(set), rayScene_(rays), table_(table), blockObjects_(blockObjects), costs_(costs),
-      row_(table.size()), open_(table.size(), costs) {}
+      row_(table.size()), dirty_(table.size(), costs) {}
 
 void RowUpdates::add(std::vector<ObjectId> objects, std::vector<BlockMask> receivers,
                      std::vector<Bounds> regions) {
@@ -69,7 +69,7 @@ void RowUpdates::add(std::vector<ObjectId> objects, std::vector<BlockMask> recei
 
 double RowUpdates::share() const {
     if (!found()) return 0;
-    return toDo_ == 0 ? 1 : 1 - double(open_.count()) / double(toDo_);
+    return toDo_ == 0 ? 1 : 1 - double(dirty_.count()) / double(toDo_);
 }
 
 /// Of the objects that moved after the first `edits`, where they are now.
@@ -174,7 +174,7 @@ void RowUpdates::find(std::size_t effort, const Facts& facts) {
             for (std::size_t i = first; i < last; ++i) find(searches[i]);
         });
         for (const Search& one : searches) {
-            open_.open(one.row, one.found);
+            dirty_.mark(one.row, one.found);
             hidden_.insert(hidden_.end(), one.hidden.begin(), one.hidden.end());
             if (one.last) table_.edits(one.row) = edits_;
             cost += cost::kRowSearch + cost::kRowFind * (one.found.size() + one.hidden.size());
@@ -186,7 +186,7 @@ void RowUpdates::find(std::size_t effort, const Facts& facts) {
 void RowUpdates::allFound() {
     unreported_.clear();
     changes_.clear();
-    toDo_ = open_.count();
+    toDo_ = dirty_.count();
 }
 
 /// Probes all that is to be probed. \return what it cost, about [rays]
@@ -199,7 +199,7 @@ std::size_t RowUpdates::probe(const Expect& expect) {
             expected[i] = expect(probes_[first / kGrain], unseen_[i], movedSince(unseen_[i].since));
     });
     for (std::size_t i = 0; i < unseen_.size(); ++i)
-        open_.expect(unseen_[i].row, unseen_[i].block, expected[i]);
+        dirty_.expect(unseen_[i].row, unseen_[i].block, expected[i]);
     for (ChangeProbe& search : probes_) rays_ += search.takeRayCount();
     const std::size_t spent = unseen_.size() * cost::kProbe;
     unseen_.clear();
@@ -233,15 +233,15 @@ void RowUpdates::choose(std::size_t effort, double enough, const Expect& expect)
     items_.clear();
     std::size_t steps = effort / cost::kTake + 1;
     for (std::size_t sum = 0; sum < effort;) {
-        const std::optional<DirtyBlock> item = open_.next(enough, steps);
+        const std::optional<DirtyBlock> item = dirty_.next(enough, steps);
         if (item && item->probe && expect) {
             unseen_.push_back(*item);
             if (unseen_.size() == kMostProbes) sum += probe(expect);
         } else if (!unseen_.empty()) {
-            if (item) open_.putBack(*item);
+            if (item) dirty_.putBack(*item);
             sum += probe(expect);
         } else if (item) {
-            open_.close(*item);
+            dirty_.clean(*item);
             items_.push_back(*item);
             sum += std::size_t(item->cost);
         } else {
@@ -297,7 +297,7 @@ std::span<const DirtyBlock> RowUpdates::work(std::size_t effort, double enough, 
     }
     for (RowBuilder& builder : builders_) rays_ += builder.takeRayCount();
     blocksVisited_ += items.size();
-    if (open_.count() == 0) moved_.clear(), movedWhen_.clear();
+    if (dirty_.count() == 0) moved_.clear(), movedWhen_.clear();
     return items;
 }
 

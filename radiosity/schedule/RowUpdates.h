@@ -37,7 +37,7 @@ public:
     /// A row that is built in the scene as it is now has nothing to catch up with.
     void setCurrent(std::size_t row) { table_.edits(row) = edits_; }
     /// A row is not kept: its dirty blocks are forgotten.
-    void drop(std::uint32_t row) { open_.drop(row); }
+    void drop(std::uint32_t row) { dirty_.drop(row); }
 
     /// What has to be known of a row to find what concerns it.
     struct RowFacts {
@@ -72,12 +72,12 @@ public:
     /// Whether all that edits concern is known, and so in the dirty set.
     bool found() const { return row_ == table_.size(); }
     /// Whether there is nothing to do but what may stay dirty.
-    bool done(double enough) const { return found() && !open_.pending(enough); }
+    bool done(double enough) const { return found() && !dirty_.pending(enough); }
     /// Share of the work found since the last edit that is done, in [0, 1].
     double share() const;
 
-    DirtySet& open() { return open_; }
-    const DirtySet& open() const { return open_; }
+    DirtySet& dirty() { return dirty_; }
+    const DirtySet& dirty() const { return dirty_; }
     const RayCount& rays() const { return rays_; }
     std::uint64_t blocksVisited() const { return blocksVisited_; }
     std::uint64_t entriesChanged() const { return entriesChanged_; }
@@ -125,7 +125,7 @@ private:
     std::map<std::uint32_t, PendingChange> changes_; ///< for rows that know of so many edits
     std::vector<MovedObject> moved_;       ///< since the dirty set was empty; the last moved last
     std::vector<std::uint32_t> movedWhen_; ///< the last edit that moved each of them
-    DirtySet open_;
+    DirtySet dirty_;
     std::vector<DirtyBlock> items_, unseen_; ///< to be worked on; to be probed
     std::vector<RowBuilder> builders_;
     std::vector<ChangeProbe> probes_;

@@ -101,7 +101,8 @@ void ViewPriority::sampleClosely(std::uint32_t block, std::uint64_t which,
                                  std::span<ClusterPriority> values) {
     Values& known = values_[block];
     if (known.view != view()) known.known = 0, known.view = view();
-    if (const std::uint64_t open = which & ~known.known; open != 0) evaluate(block, open, known);
+    if (const std::uint64_t unknown = which & ~known.known; unknown != 0)
+        evaluate(block, unknown, known);
     std::copy(known.of.begin(), known.of.end(), values.begin());
 }
 

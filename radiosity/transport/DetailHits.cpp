@@ -138,12 +138,12 @@ bool DetailHits::workOnVertices(std::size_t effort) {
 /// How many rays an edit concerns can't be known before: a few groups at a time.
 /// \param rays about how many a receiver needs of which nothing is known
 template <class Trace>
-bool DetailHits::workOn(DirtyGroups& open, std::size_t rays, std::size_t effort,
+bool DetailHits::workOn(DirtyGroups& dirty, std::size_t rays, std::size_t effort,
                         const Trace& trace) {
     const std::size_t few = std::max<std::size_t>(effort / 16, 256);
-    if (open.done()) return false;
-    for (std::size_t spent = 0; spent < effort && !open.done();) {
-        const auto groups = open.next(few, rays);
+    if (dirty.done()) return false;
+    for (std::size_t spent = 0; spent < effort && !dirty.done();) {
+        const auto groups = dirty.next(few, rays);
         std::vector<Outcome> outcomes(groups.size());
         parallelFor(groups.size(), kGroupsATask, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) outcomes[i] = trace(groups[i]);
@@ -159,14 +159,14 @@ bool DetailHits::workOn(DirtyGroups& open, std::size_t rays, std::size_t effort,
                     revisit(p, false);
         }
         groupsVisited_ += ways.size();
-        open.close(ways);
+        dirty.clean(ways);
     }
     return true;
 }
 
-DetailRays::Moved DetailHits::movedOf(const DirtyGroups::Open& open) const {
+DetailRays::Moved DetailHits::movedOf(const DirtyGroups::Dirty& dirty) const {
     DetailRays::Moved moved;
-    for (std::uint32_t object : open.moved) {
+    for (std::uint32_t object : dirty.moved) {
         moved.elements.push_back(patches_.objects[object].elements);
         if (!boxes_[object].empty()) moved.boxes.push_back(boxes_[object]);
     }
@@ -175,8 +175,8 @@ DetailRays::Moved DetailHits::movedOf(const DirtyGroups::Open& open) const {
 
 DetailHits::Outcome DetailHits::traceNodes(std::uint32_t group) {
     Outcome outcome;
-    const DirtyGroups::Open& open = dirtyNodes_[group];
-    const DetailRays::Moved moved = movedOf(open);
+    const DirtyGroups::Dirty& dirty = dirtyNodes_[group];
+    const DetailRays::Moved moved = movedOf(dirty);
     for (std::uint32_t i = 0; i < kGroup; ++i) {
         const std::uint32_t n = group * kGroup + i;
         const Receiver& node = patches_.nodes[n];
@@ -186,8 +186,8 @@ DetailHits::Outcome DetailHits::traceNodes(std::uint32_t group) {
         const auto known = std::span(nodeHits_).subspan(std::size_t(n) * kRays, kRays);
         std::copy(known.begin(), known.end(), hits.elements.begin());
         const std::uint64_t which =
-            open.anew >> i & 1 ? DetailRays::kAllRays
-                               : rays_.affected(node, DetailRays::kAllRays, known, moved, kFar);
+            dirty.anew >> i & 1 ? DetailRays::kAllRays
+                                : rays_.affected(node, DetailRays::kAllRays, known, moved, kFar);
         outcome.rays += std::uint64_t(rays_.follow(node, which, false, hits));
         outcome.ways.add(hits.ways);
         std::copy(hits.elements.begin(), hits.elements.end(), known.begin());
@@ -201,9 +201,9 @@ DetailHits::Outcome DetailHits::traceNodes(std::uint32_t group) {
 
 DetailHits::Outcome DetailHits::traceVertices(std::uint32_t group) {
     Outcome outcome;
-    const DirtyGroups::Open& open = dirtyVertices_[group];
-    const DetailRays::Moved moved = movedOf(open);
-    if (!open.judge && !anyAffected(group, moved)) return outcome;
+    const DirtyGroups::Dirty& dirty = dirtyVertices_[group];
+    const DetailRays::Moved moved = movedOf(dirty);
+    if (!dirty.judge && !anyAffected(group, moved)) return outcome;
     const Group known = std::move(groups_[group]);
     Group& out = groups_[group] = {};
     for (std::uint32_t i = 0; i < kGroup; ++i) {
@@ -214,7 +214,7 @@ DetailHits::Outcome DetailHits::traceVertices(std::uint32_t group) {
         const double expected =
             interpolateNodes<double>(patches_.patches[patch], s, t, nodeOpenness_);
         follow(
-            {v, patches_.vertices[v].receiver, expected, (open.anew >> i & 1) != 0, known, moved},
+            {v, patches_.vertices[v].receiver, expected, (dirty.anew >> i & 1) != 0, known, moved},
             out, outcome);
     }
     return outcome;

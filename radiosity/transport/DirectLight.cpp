@@ -56,7 +56,7 @@ void DirectLight::placeReceivers(std::vector<BlockMask>& masks) {
     vertices_.resize(set_.vertices.size());
     vertexSeen_.resize(set_.vertices.size());
     blockTouched_.resize(blocks);
-    if (updates_.open().blocks() != blocks) described_ = false;
+    if (updates_.dirty().blocks() != blocks) described_ = false;
     blockSummed_.resize(blocks);
     for (std::size_t row = 0; row < table_.size(); ++row) table_[row].resize(blocks);
     while (table_.blocks().size() < blocks) table_.blocks().append({});
@@ -95,19 +95,20 @@ void DirectLight::describeReceivers() {
             }
         }
     });
-    updates_.open().setReceivers(std::move(blocks));
+    updates_.dirty().setReceivers(std::move(blocks));
     for (std::uint32_t e = 0; e < set_.emitters.size(); ++e)
-        updates_.open().setPower(e, maxChannel(set_.emitters[e].exitance));
+        updates_.dirty().setPower(e, maxChannel(set_.emitters[e].exitance));
     described_ = true;
 }
 
 std::vector<double> DirectLight::dirtyLight() const {
     std::vector<double> light(set_.patches.size());
-    const DirtySet& open = updates_.open();
-    if (open.count() == 0) return light;
-    for (std::uint32_t b = 0; b < open.blocks(); ++b)
-        if (open.light(b) > 0)
-            forEachPatch(b, [&](std::uint32_t p) { light[p] = std::max(light[p], open.light(b)); });
+    const DirtySet& dirty = updates_.dirty();
+    if (dirty.count() == 0) return light;
+    for (std::uint32_t b = 0; b < dirty.blocks(); ++b)
+        if (dirty.light(b) > 0)
+            forEachPatch(b,
+                         [&](std::uint32_t p) { light[p] = std::max(light[p], dirty.light(b)); });
     return light;
 }
 
@@ -159,7 +160,7 @@ void DirectLight::sumUp(std::size_t effort) {
 void DirectLight::narrow(const std::function<std::uint64_t(std::uint32_t, std::uint32_t)>& which) {
     for (std::uint32_t e = 0; e < set_.emitters.size(); ++e)
         for (std::uint32_t b = 0; b < set_.vertexBlockObject.size(); ++b)
-            updates_.open().narrow(e, b, which(e, b));
+            updates_.dirty().narrow(e, b, which(e, b));
 }
 
 bool DirectLight::update(std::size_t effort, double enough) {

@@ -37,11 +37,11 @@ public:
     std::vector<double> dirtyLight() const;
     /// See DirtySet.
     void setPolicy(std::shared_ptr<SchedulingPolicy> policy) {
-        updates_.open().setPolicy(std::move(policy));
+        updates_.dirty().setPolicy(std::move(policy));
     }
-    void rekey() { updates_.open().rekey(); }
-    void setAging(double rays) { updates_.open().setAging(rays); } ///< see DirtySet
-    void setWhole(bool whole) { updates_.open().setWhole(whole); }
+    void rekey() { updates_.dirty().rekey(); }
+    void setAging(double rays) { updates_.dirty().setAging(rays); } ///< see DirtySet
+    void setWhole(bool whole) { updates_.dirty().setWhole(whole); }
     /// See Solver::narrowDirect().
     void narrow(const std::function<std::uint64_t(std::uint32_t, std::uint32_t)>& which);
     /// Sums what the rows, as they are now, give to the vertices: all of it, or about `effort`
@@ -59,7 +59,7 @@ public:
     /// Blocks, in order, of which an emitter's row is not known to be what it should be. Work that
     /// may be deferred does not count, see work().
     std::vector<std::uint32_t> dirtyBlocks(std::uint32_t emitter, double enough) const {
-        return updates_.open().urgent(emitter, enough);
+        return updates_.dirty().urgent(emitter, enough);
     }
     std::span<const std::uint8_t> patchLit() const {
         return patchLit_;

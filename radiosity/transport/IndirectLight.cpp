@@ -127,7 +127,7 @@ void IndirectLight::restart() {
     std::fill(rowSums_.begin(), rowSums_.end(), 0.0);
     std::fill(sent_.begin(), sent_.end(), SenderLight{});
     std::fill(known_.begin(), known_.end(), std::uint8_t(0));
-    for (std::uint32_t s = 0; s < sent_.size(); ++s) updates_.open().setPower(s, 0);
+    for (std::uint32_t s = 0; s < sent_.size(); ++s) updates_.dirty().setPower(s, 0);
     rowsMissing_ = false;
 }
 
@@ -155,7 +155,7 @@ void IndirectLight::describeReceivers() {
                 blocks[b].light = std::max(blocks[b].light, float(largest(node(n))));
         }
     });
-    updates_.open().setReceivers(std::move(blocks));
+    updates_.dirty().setReceivers(std::move(blocks));
     described_ = true;
 }
 

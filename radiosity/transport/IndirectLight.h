@@ -57,14 +57,14 @@ public:
 
     /// See DirtySet.
     void setPolicy(std::shared_ptr<SchedulingPolicy> policy) {
-        updates_.open().setPolicy(std::move(policy));
+        updates_.dirty().setPolicy(std::move(policy));
     }
 
     double residual() const { return most_; } ///< max |R| [lm/m^2]
     /// Bound of |B_exact - B|, with what dirty blocks may change [lm/m^2].
     double certificate() const { return certificate_; }
     /// Bound of what dirty blocks may change in what any patch receives and reflects [lm/m^2].
-    double dirtyBound() const { return open_; }
+    double dirtyBound() const { return dirtyBound_; }
     /// What a residual of this size leaves is larger by light that goes round: 1 / (1 - max rho).
     double gain() const { return gain_; }
     double meanRadiosity() const { return meanRadiosity_; }
@@ -138,7 +138,7 @@ private:
     glm::dvec3 node(std::uint32_t index) const;
     template <class Value, class AtNode>
     Value mean(const Patch& patch, AtNode atNode) const;
-    double openAt(std::uint32_t index) const;
+    double dirtyAt(std::uint32_t index) const;
     glm::dvec3 ambient() const;
 
     const PatchSet& set_;
@@ -173,7 +173,7 @@ private:
     std::vector<PatchRowBuilder> builders_;
     RayCount buildRays_;
     std::uint64_t shots_ = 0, served_ = 0;
-    double most_ = 0, open_ = 0, gain_ = 1, certificate_ = 0, meanRadiosity_ = 0;
+    double most_ = 0, dirtyBound_ = 0, gain_ = 1, certificate_ = 0, meanRadiosity_ = 0;
 };
 
 } // namespace penumbra

@@ -48,12 +48,12 @@ glm::dvec3 IndirectLight::reflected(std::uint32_t index) const {
 
 /// What dirty blocks may change in the light at a node [lux]: what arrives, and the row sum f by
 /// which it is divided, as far as that is or comes to be above 1.
-double IndirectLight::openAt(std::uint32_t index) const {
-    const DirtySet& open = updates_.open();
-    const double f = open.factor(index / kBlock);
+double IndirectLight::dirtyAt(std::uint32_t index) const {
+    const DirtySet& dirty = updates_.dirty();
+    const double f = dirty.factor(index / kBlock);
     if (f == 0 || !(reached_[index / 64] >> index % 64 & 1)) return 0;
     const double above = std::max(0.0, rowSums_[index] + f - 1);
-    return open.light(index / kBlock) + std::min(f, above) * largest(node(index));
+    return dirty.light(index / kBlock) + std::min(f, above) * largest(node(index));
 }
 
 /// Batches that have not begun are chosen again.
@@ -65,7 +65,7 @@ void IndirectLight::residualsChanged() {
 void IndirectLight::updateResiduals() {
     residualsStale_ = false;
     struct Part {
-        double open = 0, both = 0, area = 0, radiosity = 0;
+        double dirty = 0, both = 0, area = 0, radiosity = 0;
     };
     constexpr std::size_t kGrain = 512;
     std::vector<Part> parts((senders_.patchCount() + kGrain - 1) / kGrain);
@@ -77,11 +77,11 @@ void IndirectLight::updateResiduals() {
             const Patch& patch = set_.patches[p];
             const double rho = maxChannel(set_.materials[patch.material].reflectance);
             reflects[p] = reflected(p);
-            const double open =
+            const double dirty =
                 rho *
-                (dirtyDirect[p] + mean<double>(patch, [&](std::uint32_t n) { return openAt(n); }));
-            part.open = std::max(part.open, open);
-            part.both = std::max(part.both, largest(reflects[p] - sent_[p][0]) + open);
+                (dirtyDirect[p] + mean<double>(patch, [&](std::uint32_t n) { return dirtyAt(n); }));
+            part.dirty = std::max(part.dirty, dirty);
+            part.both = std::max(part.both, largest(reflects[p] - sent_[p][0]) + dirty);
             if (rho <= 0) continue;
             part.area += patch.area;
             part.radiosity += patch.area * largest(reflects[p]);
@@ -89,7 +89,7 @@ void IndirectLight::updateResiduals() {
     });
     Part all;
     for (const Part& part : parts) {
-        all.open = std::max(all.open, part.open);
+        all.dirty = std::max(all.dirty, part.dirty);
         all.both = std::max(all.both, part.both);
         all.area += part.area;
         all.radiosity += part.radiosity;
@@ -100,9 +100,9 @@ void IndirectLight::updateResiduals() {
         for (std::size_t q = 0; q < 4; ++q) residuals_[s][q] = now[s][q] - sent_[s][q];
         most_ = std::max(most_, largest(residuals_[s]));
         if (s >= senders_.patchCount())
-            all.both = std::max(all.both, largest(residuals_[s]) + all.open);
+            all.both = std::max(all.both, largest(residuals_[s]) + all.dirty);
     }
-    open_ = all.open;
+    dirtyBound_ = all.dirty;
     certificate_ = all.both > 0 ? gain_ * all.both : 0;
     meanRadiosity_ = all.area > 0 ? all.radiosity / all.area : 0;
 }

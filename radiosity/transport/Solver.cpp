@@ -137,21 +137,21 @@ bool Solver::work(std::size_t effort, const Progress& progress) {
 bool Solver::work(Pace& pace, const Progress& progress) {
     if (workOnce(pace, progress)) return true;
     if (detail_ && workOnDetail(pace, progress)) return true;
-    const std::size_t open =
-        direct_.updates().open().count() + (indirect_ ? indirect_->updates().open().count() : 0);
-    state_ = reached(open > 0);
+    const std::size_t dirty =
+        direct_.updates().dirty().count() + (indirect_ ? indirect_->updates().dirty().count() : 0);
+    state_ = reached(dirty > 0);
     const bool first = !std::exchange(idle_, true);
-    stopped_ = open == 0 && state_ == SolutionState::working;
-    if (open == 0 || !first) return false;
+    stopped_ = dirty == 0 && state_ == SolutionState::working;
+    if (dirty == 0 || !first) return false;
     if (detail_) detail_->sweepAgain(); // after what was deferred, for which it is time now
     return true;                        // so that who waits for this state can read it
 }
 
 /// The state when nothing is left to be done. \param open whether deferred work is left
-SolutionState Solver::reached(bool open) const {
+SolutionState Solver::reached(bool deferred) const {
     return stateOf({.certificate = indirect_ && !certificateMet(),
                     .fineShadows = detail_ && detail_->pending(),
-                    .deferred = open});
+                    .deferred = deferred});
 }
 
 /// The same, but for what may be deferred.
@@ -334,9 +334,9 @@ SolveStatistics Solver::statistics() const {
     result.brightest = direct_.brightest();
     result.litIlluminance = litIlluminance();
     result.direct = count(direct_.updates(), directSeconds_);
-    result.dirtyBlocks = direct_.updates().open().count();
+    result.dirtyBlocks = direct_.updates().dirty().count();
     if (indirect_) {
-        result.dirtyBlocks += indirect_->updates().open().count();
+        result.dirtyBlocks += indirect_->updates().dirty().count();
         result.dirtyBound = indirect_->dirtyBound();
         result.indirect = count(indirect_->updates(), indirectSeconds_);
         result.indirect.rays += indirect_->buildRays();

@@ -192,7 +192,7 @@ private:
     bool workOnIndirect(Pace& pace, const Progress& progress);
     void reportRelaxation(const Progress& progress);
     bool workOnce(Pace& pace, const Progress& progress);
-    SolutionState reached(bool open) const;
+    SolutionState reached(bool deferred) const;
     double tolerance(double share) const;
     double mayStayDirty(double share) const { return idle_ ? 0 : tolerance(share); }
     bool workOnDetail(Pace& pace, const Progress& progress);

@@ -98,7 +98,7 @@ TEST(WorkInSteps, LookingAtLightThatIsHalfDoneChangesNothing) {
         const std::vector<Rgb> before = watched.solver().lighting().direct;
         while (watched.solver().work(600)) {
             watched.solver().sumUp();
-            if (!seenEarly && watched.solver().direct().updates().open().count() > 0)
+            if (!seenEarly && watched.solver().direct().updates().dirty().count() > 0)
                 seenEarly = watched.solver().lighting().direct != before;
         }
         ASSERT_EQ(watched.solver().lighting().direct, whole.solver().lighting().direct);

@@ -56,7 +56,7 @@ void LightPublisher::touch(std::uint32_t block) {
     if (touched_.size() <= block) touched_.resize(std::max(block + 1, blockCount()));
     if (touched_[block] != Touched::no) return;
     touched_[block] = Touched::yes;
-    open_.push_back(block);
+    left_.push_back(block);
 }
 
 void LightPublisher::touchStale(std::uint32_t block) {
@@ -155,12 +155,12 @@ void LightPublisher::nodesChanged(bool exact) {
 }
 
 bool LightPublisher::publish(std::size_t most) {
-    if (!store_ || open_.empty()) return false;
+    if (!store_ || left_.empty()) return false;
     store_->setUsed(std::min(blockCount(), store_->shape().blocks));
     std::vector<std::uint32_t> some, later;
-    for (; !open_.empty() && some.size() < most; open_.pop_back())
-        (canPublish(open_.back()) ? some : later).push_back(open_.back());
-    open_.insert(open_.end(), later.rbegin(), later.rend());
+    for (; !left_.empty() && some.size() < most; left_.pop_back())
+        (canPublish(left_.back()) ? some : later).push_back(left_.back());
+    left_.insert(left_.end(), later.rbegin(), later.rend());
     parallelFor(some.size(), 16, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) store_->write(some[i], blockOf(some[i]));
     });
@@ -172,12 +172,12 @@ bool LightPublisher::publish(std::size_t most) {
 void LightPublisher::publishDirty(std::uint32_t question) {
     if (!store_) return;
     const Solver& solver = scene_.solver();
-    const std::vector<DirtySet::AtBlock> open =
-        solver.direct().updates().open().atBlocks(solver.directTolerance());
+    const std::vector<DirtySet::AtBlock> dirty =
+        solver.direct().updates().dirty().atBlocks(solver.directTolerance());
     std::vector<DirtyStatus> work(blockCount());
     if (!solver.directOnly()) markPatches(work);
     for (std::uint32_t b = 0; b < work.size(); ++b) {
-        const DirtySet::AtBlock at = b < open.size() ? open[b] : DirtySet::AtBlock();
+        const DirtySet::AtBlock at = b < dirty.size() ? dirty[b] : DirtySet::AtBlock();
         const bool touched = b < touched_.size() && touched_[b] != Touched::no;
         work[b].rows = std::uint8_t(std::min(at.rows + at.small, 255u));
         work[b].priority = float(std::min(at.priority, 1e30));
@@ -193,9 +193,9 @@ void LightPublisher::publishDirty(std::uint32_t question) {
 
 /// Blocks of vertices that are lit by patches of which rows are dirty.
 void LightPublisher::markPatches(std::vector<DirtyStatus>& work) const {
-    const DirtySet& open = scene_.solver().indirect().updates().open();
-    if (open.count() == 0) return;
-    const std::vector<DirtySet::AtBlock> at = open.atBlocks(0);
+    const DirtySet& dirty = scene_.solver().indirect().updates().dirty();
+    if (dirty.count() == 0) return;
+    const std::vector<DirtySet::AtBlock> at = dirty.atBlocks(0);
     const auto isOpen = [&](std::uint32_t node) {
         return node / kBlock < at.size() && at[node / kBlock].rows > 0;
     };

@@ -47,7 +47,7 @@ public:
     /// Publishes at most so many blocks, the last touched first. Those whose direct light is being
     /// summed come later, for it has to fit the factors of lights. \return false: there was none
     bool publish(std::size_t most);
-    std::size_t open() const { return open_.size(); }
+    std::size_t left() const { return left_.size(); }
     /// Publishes the dirty set, in time that goes with its size; nobody need call it.
     /// \param question see StoreHeader::dirtyFor
     void publishDirty(std::uint32_t question);
@@ -80,7 +80,7 @@ private:
     std::vector<LightRows> lights_; ///< previewed ones,
     LightRows others_;              ///< and all that are not
     enum class Touched : std::uint8_t { no, yes, stale };
-    std::vector<std::uint32_t> open_;
+    std::vector<std::uint32_t> left_;
     std::vector<Touched> touched_;
     std::size_t staleToShow_ = 0; ///< blocks that are Touched::stale
 };

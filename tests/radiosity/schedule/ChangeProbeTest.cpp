@@ -51,14 +51,14 @@ double meanOf(const ExpectedFactors& expected, std::span<const Receiver> receive
     double sum = 0, count = 0;
     for (std::size_t r = 0; r < kBlock; ++r) {
         count += !isPadding(receivers[r]);
-        if (expected.open >> r & 1) sum += expected.factor[r];
+        if (expected.dirty >> r & 1) sum += expected.factor[r];
     }
     return count > 0 ? sum / count : 0;
 }
 double shareOf(const ExpectedFactors& expected, const RowBlock& row) {
     int many = 0;
     for (int r = 0; r < int(kBlock); ++r)
-        many += (expected.open >> r & 1) != 0 &&
+        many += (expected.dirty >> r & 1) != 0 &&
                 expected.factor[std::size_t(r)] > 0.02f * std::max(1e-3f, row.entry(r).formFactor);
     return double(many) / double(kBlock);
 }
@@ -78,7 +78,7 @@ std::vector<Outcome> outcomes(Stage& stage, const glm::dmat4& to) {
     ChangeProbe probe(lit.rays());
     std::vector<Outcome> result;
     std::vector<Factors> before;
-    std::vector<std::uint64_t> open;
+    std::vector<std::uint64_t> dirty;
     const std::size_t blocks = set.firstPrivate / kBlock;
     for (std::uint32_t b = 0; b < blocks; ++b) {
         std::vector<Receiver> receivers;
@@ -91,7 +91,7 @@ std::vector<Outcome> outcomes(Stage& stage, const glm::dmat4& to) {
         result.push_back({set.objects[set.vertexBlockObject[b].value].path,
                           meanOf(expected, receivers), 0, 0, shareOf(expected, row), 0, 0});
         before.push_back(factorsOf(row));
-        open.push_back(expected.open);
+        dirty.push_back(expected.dirty);
     }
     EXPECT_LE(probe.takeRayCount().total(), 2 * kBlock * blocks);
     lit.solver().settle();
@@ -102,7 +102,7 @@ std::vector<Outcome> outcomes(Stage& stage, const glm::dmat4& to) {
             count += !isPadding(set.vertices[b * kBlock + r].receiver);
             result[b].came += std::abs(now[r] - before[b][r]);
             result[b].before += before[b][r];
-            if ((open[b] >> r & 1) != 0) continue;
+            if ((dirty[b] >> r & 1) != 0) continue;
             result[b].stay += before[b][r] > 0;
             result[b].didNot += now[r] != before[b][r];
         }

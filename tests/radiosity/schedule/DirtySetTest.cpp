@@ -21,7 +21,7 @@ protected:
         work.setPower(0, 1);
         work.setPower(1, 8);
     }
-    void open(std::uint32_t row, const std::vector<DirtyBlock>& blocks) { work.open(row, blocks); }
+    void mark(std::uint32_t row, const std::vector<DirtyBlock>& blocks) { work.mark(row, blocks); }
     /// Rows and blocks, ten times the row and the block.
     std::vector<int> takeAll(double enough) {
         std::vector<int> order;
@@ -38,22 +38,22 @@ protected:
 };
 
 TEST_F(DirtySetOfTwoRows, ComesWithTheLargestBoundFirst) {
-    open(0, {block(0, 0.1f), block(1, 0.4f), block(3, 0.01f)});
-    open(1, {block(0, 0.1f), block(2, 0.001f)});
+    mark(0, {block(0, 0.1f), block(1, 0.4f), block(3, 0.01f)});
+    mark(1, {block(0, 0.1f), block(2, 0.001f)});
     EXPECT_EQ(work.count(), 5u);
     EXPECT_THAT(takeAll(0), ElementsAre(10, 1, 0, 3, 12));
     EXPECT_EQ(work.count(), 0u);
 }
 
 TEST_F(DirtySetOfTwoRows, ComesFirstWhereTheSameBoundCostsLess) {
-    open(0, {block(0, 0.1f, 0xffff), block(1, 0.1f), block(2, 0.1f, 0b1)});
+    mark(0, {block(0, 0.1f, 0xffff), block(1, 0.1f), block(2, 0.1f, 0b1)});
     EXPECT_GT(work.cost(block(0, 0.1f, 0xffff)), work.cost(block(1, 0.1f)));
     EXPECT_THAT(takeAll(0), ElementsAre(1, 2, 0));
 }
 
 TEST_F(DirtySetOfTwoRows, IsSummedUpOverTheSendersOfEachBlock) {
-    open(0, {block(0, 0.1f), block(1, 0.4f)});
-    open(1, {block(0, 0.05f)});
+    mark(0, {block(0, 0.1f), block(1, 0.4f)});
+    mark(1, {block(0, 0.05f)});
     EXPECT_FLOAT_EQ(float(work.light(0)), 0.1f * 1 + 0.05f * 8);
     EXPECT_FLOAT_EQ(float(work.factor(0)), 0.15f);
     EXPECT_FLOAT_EQ(float(work.bound(0)), 0.5f * 0.5f);
@@ -68,13 +68,13 @@ TEST_F(DirtySetOfTwoRows, IsSummedUpOverTheSendersOfEachBlock) {
 
 TEST_F(DirtySetOfTwoRows, LightThatIsThereCountsForRowSumsThatChange) {
     work.setReceivers(std::vector<DirtySet::Receivers>(4, {0.5f, 6}));
-    open(0, {block(0, 0.1f)});
+    mark(0, {block(0, 0.1f)});
     EXPECT_FLOAT_EQ(float(work.bound(0)), 0.5f * 0.1f * (1 + 6));
 }
 
 TEST_F(DirtySetOfTwoRows, PutsOffWhatMattersTooLittleOnItsReceivers) {
-    open(0, {block(0, 0.1f), block(1, 0.4f)});
-    open(1, {block(0, 0.1f), block(1, 0.001f), block(2, 0.001f)});
+    mark(0, {block(0, 0.1f), block(1, 0.4f)});
+    mark(1, {block(0, 0.1f), block(1, 0.001f), block(2, 0.001f)});
     EXPECT_THAT(takeAll(0.06), ElementsAre(10, 1)); // leaves 0.05, 0.004 and 0.004
     EXPECT_FALSE(work.pending(0.06));
     EXPECT_TRUE(work.pending(0));
@@ -84,9 +84,9 @@ TEST_F(DirtySetOfTwoRows, PutsOffWhatMattersTooLittleOnItsReceivers) {
 }
 
 TEST_F(DirtySetOfTwoRows, WhatIsDeferredIsTakenAlongWhenMoreComesToIt) {
-    open(0, {block(0, 0.1f, 0b01, 3)});
+    mark(0, {block(0, 0.1f, 0b01, 3)});
     EXPECT_THAT(takeAll(0.06), IsEmpty());
-    open(0, {block(0, 0.2f, 0b10, 7), block(2, 0.01f)});
+    mark(0, {block(0, 0.2f, 0b10, 7), block(2, 0.01f)});
     EXPECT_EQ(work.count(), 2u);
     EXPECT_FLOAT_EQ(float(work.factor(0)), 0.2f); // counted once
     std::size_t steps = 100;
@@ -101,8 +101,8 @@ TEST_F(DirtySetOfTwoRows, WhatIsDeferredIsTakenAlongWhenMoreComesToIt) {
 }
 
 TEST_F(DirtySetOfTwoRows, TakesNoMoreStepsThanItMay) {
-    open(0, {block(0, 0.01f), block(1, 0.01f)});
-    open(1, {block(2, 0.01f)});
+    mark(0, {block(0, 0.01f), block(1, 0.01f)});
+    mark(1, {block(2, 0.01f)});
     std::size_t steps = 1;
     EXPECT_FALSE(work.take(1, steps)); // a row is searched
     EXPECT_EQ(steps, 0u);
@@ -113,8 +113,8 @@ TEST_F(DirtySetOfTwoRows, TakesNoMoreStepsThanItMay) {
 }
 
 TEST_F(DirtySetOfTwoRows, SaysOfEachBlockWhatIsDirtyAndItsPriority) {
-    open(0, {block(0, 0.4f), block(1, 0.02f)});
-    open(1, {block(0, 0.4f)});
+    mark(0, {block(0, 0.4f), block(1, 0.02f)});
+    mark(1, {block(0, 0.4f)});
     // Bounds: 0.5 (0.4 + 0.4 * 8) and 0.5 * 0.02; ranked by bound / cost, linearly.
     const std::vector<DirtySet::AtBlock> at = work.atBlocks(0.1);
     ASSERT_EQ(at.size(), 4u);
@@ -131,8 +131,8 @@ TEST_F(DirtySetOfTwoRows, SaysOfEachBlockWhatIsDirtyAndItsPriority) {
 }
 
 TEST_F(DirtySetOfTwoRows, IsNarrowedToSomeReceivers) {
-    open(0, {block(0, 0.4f, 0b111), block(1, 1e-4f)});
-    open(1, {block(0, 0.01f)});
+    mark(0, {block(0, 0.4f, 0b111), block(1, 1e-4f)});
+    mark(1, {block(0, 0.01f)});
     work.narrow(0, 0, 0b110);
     work.narrow(1, 0, 0);
     work.narrow(1, 3, 0); // is not dirty
@@ -144,13 +144,13 @@ TEST_F(DirtySetOfTwoRows, IsNarrowedToSomeReceivers) {
     EXPECT_EQ(taken->anew, 0b110u);
     EXPECT_EQ(taken->receivers, 0b110u);
     EXPECT_THAT(takeAll(0), ElementsAre(1));
-    open(0, {block(0, 0.4f)});
+    mark(0, {block(0, 0.4f)});
     EXPECT_EQ(work.take(0, steps)->receivers, ~std::uint64_t(0)) << "opened again it is whole";
 }
 
 TEST_F(DirtySetOfTwoRows, SaysSinceWhenTheOldestWaits) {
     EXPECT_FALSE(work.oldest());
-    open(0, {block(0, 0.1f), block(1, 0.4f)});
+    mark(0, {block(0, 0.1f), block(1, 0.4f)});
     std::size_t steps = 100;
     work.take(0, steps); // the one of 0.4: the clock goes on by what it costs
     EXPECT_GT(work.taken(), 0);
@@ -160,8 +160,8 @@ TEST_F(DirtySetOfTwoRows, SaysSinceWhenTheOldestWaits) {
 }
 
 TEST_F(DirtySetOfTwoRows, ForgetsARowThatIsDropped) {
-    open(0, {block(0, 0.1f), block(1, 0.4f)});
-    open(1, {block(0, 0.1f)});
+    mark(0, {block(0, 0.1f), block(1, 0.4f)});
+    mark(1, {block(0, 0.1f)});
     work.drop(0);
     EXPECT_EQ(work.count(), 1u);
     EXPECT_FLOAT_EQ(float(work.light(0)), 0.8f);
@@ -170,12 +170,12 @@ TEST_F(DirtySetOfTwoRows, ForgetsARowThatIsDropped) {
 }
 
 TEST_F(DirtySetOfTwoRows, CanBePutInAnotherOrderAtAnyTime) {
-    open(1, {block(2, 0.1f)});
-    open(0, {block(0, 0.1f), block(1, 0.4f)});
+    mark(1, {block(2, 0.1f)});
+    mark(0, {block(0, 0.1f), block(1, 0.4f)});
     work.setPolicy(std::make_shared<PlainPolicy>());
     std::size_t steps = 100;
     EXPECT_EQ(work.take(0, steps)->row, 0u); // sender by sender
-    open(0, {block(3, 0.1f)});
+    mark(0, {block(3, 0.1f)});
     work.setPolicy(std::make_shared<BoundPolicy>());
     EXPECT_THAT(takeAll(0), ElementsAre(12, 1, 3));
 }
@@ -198,12 +198,12 @@ public:
 TEST_F(DirtySetOfTwoRows, FollowsAnOrderThatChangesItsMind) {
     const auto order = std::make_shared<LastFirst>();
     work.setPolicy(order);
-    open(0, {block(0, 0.1f), block(1, 0.1f), block(2, 0.1f)});
+    mark(0, {block(0, 0.1f), block(1, 0.1f), block(2, 0.1f)});
     std::size_t steps = 1;
     EXPECT_EQ(work.take(0, steps)->block, 2u);
     order->turned = true;
     work.rekey();
-    open(1, {block(3, 0.1f)});
+    mark(1, {block(3, 0.1f)});
     EXPECT_THAT(takeAll(0), ElementsAre(0, 1, 13));
 }
 
@@ -222,9 +222,9 @@ public:
 
 /// Much is to be gained at the receivers 3, 5 and 40 of a block, a little at 7, and all others are
 /// what they should be.
-ExpectedFactors fewOpen() {
+ExpectedFactors fewDirty() {
     ExpectedFactors expected;
-    expected.open = 1u << 3 | 1u << 5 | 1u << 7 | std::uint64_t(1) << 40;
+    expected.dirty = 1u << 3 | 1u << 5 | 1u << 7 | std::uint64_t(1) << 40;
     expected.factor[3] = expected.factor[5] = expected.factor[40] = 0.1f;
     expected.factor[7] = 1e-4f;
     for (const std::size_t r : {3u, 5u, 7u, 40u}) expected.rays[r] = 200;
@@ -233,17 +233,17 @@ ExpectedFactors fewOpen() {
 
 TEST_F(DirtySetOfTwoRows, ComesInPartsIfTheOrderLooks) {
     work.setPolicy(std::make_shared<Looking>());
-    open(0, {block(0, 0.1f, 0b1000, 3), block(1, 0.01f)});
+    mark(0, {block(0, 0.1f, 0b1000, 3), block(1, 0.01f)});
     std::size_t steps = 100;
     ASSERT_TRUE(work.next(0, steps)->probe);
-    work.expect(0, 0, fewOpen());
+    work.expect(0, 0, fewDirty());
     const auto first = work.take(0, steps);
     ASSERT_TRUE(first);
     EXPECT_EQ(first->block, 0u);
     EXPECT_FALSE(first->probe);
     EXPECT_EQ(first->receivers, 1u << 3 | 1u << 5 | std::uint64_t(1) << 40);
     EXPECT_EQ(first->anew, 0b1000u);
-    EXPECT_EQ(work.count(), 2u) << "the rest stays open";
+    EXPECT_EQ(work.count(), 2u) << "the rest stays dirty";
     EXPECT_GT(work.bound(0), 0);
     EXPECT_TRUE(work.next(0, steps)->probe)
         << "the other block may have a higher priority than the rest";
@@ -262,19 +262,19 @@ TEST_F(DirtySetOfTwoRows, ComesInPartsIfTheOrderLooks) {
 
 TEST_F(DirtySetOfTwoRows, PartsAreNotSoSmallThatVisitsTakeLongerThanRays) {
     work.setPolicy(std::make_shared<Looking>());
-    open(0, {block(0, 0.1f)});
-    ExpectedFactors few = fewOpen();
+    mark(0, {block(0, 0.1f)});
+    ExpectedFactors few = fewDirty();
     for (float& rays : few.rays) rays = std::min(rays, 40.0f);
     work.expect(0, 0, few);
     std::size_t steps = 100;
-    EXPECT_EQ(work.take(0, steps)->receivers, few.open);
+    EXPECT_EQ(work.take(0, steps)->receivers, few.dirty);
 }
 
 TEST_F(DirtySetOfTwoRows, PartsFollowTheViewWithoutAnotherLook) {
     const auto order = std::make_shared<Looking>();
     work.setPolicy(order);
-    open(0, {block(0, 0.1f)});
-    work.expect(0, 0, fewOpen());
+    mark(0, {block(0, 0.1f)});
+    work.expect(0, 0, fewDirty());
     order->turned = true;
     work.rekey();
     std::size_t steps = 100;
@@ -287,11 +287,11 @@ TEST_F(DirtySetOfTwoRows, PartsFollowTheViewWithoutAnotherLook) {
 
 TEST_F(DirtySetOfTwoRows, WhatComesToAPartOpensAllOfTheBlockAgain) {
     work.setPolicy(std::make_shared<Looking>());
-    open(0, {block(0, 0.1f, 0, 3)});
-    work.expect(0, 0, fewOpen());
+    mark(0, {block(0, 0.1f, 0, 3)});
+    work.expect(0, 0, fewDirty());
     std::size_t steps = 100;
     ASSERT_EQ(std::popcount(work.take(0, steps)->receivers), 3);
-    open(0, {block(0, 0.1f, 0b1, 4)});
+    mark(0, {block(0, 0.1f, 0b1, 4)});
     const auto again = work.next(0, steps);
     EXPECT_TRUE(again->probe);
     EXPECT_EQ(~again->receivers, 0u);
@@ -308,10 +308,10 @@ TEST_F(DirtySetOfTwoRows, OverdueWorkHasItsShareOfWhatItTakes) {
         dull.push_back(block(b, 1e-6f, ~std::uint64_t(0)));
         bright.push_back(block(b, 0.1f));
     }
-    open(0, dull);
-    open(1, bright);
+    mark(0, dull);
+    mark(1, bright);
     ExpectedFactors all; // each about as much work as an overdue one
-    all.open = ~std::uint64_t(0);
+    all.dirty = ~std::uint64_t(0);
     all.factor.fill(0.1f), all.rays.fill(20);
     double overdue = 0, taken = 0;
     std::size_t steps = 100000;
@@ -321,7 +321,7 @@ TEST_F(DirtySetOfTwoRows, OverdueWorkHasItsShareOfWhatItTakes) {
             work.expect(next.row, next.block, all);
             continue;
         }
-        work.close(next);
+        work.clean(next);
         (next.overdue ? overdue : taken) += next.cost;
     }
     EXPECT_NEAR(overdue / (overdue + taken), 0.25, 0.06);
@@ -330,10 +330,10 @@ TEST_F(DirtySetOfTwoRows, OverdueWorkHasItsShareOfWhatItTakes) {
 TEST_F(DirtySetOfTwoRows, IsDoneAsAWholeIfItIsShownAsAWhole) {
     work.setPolicy(std::make_shared<Looking>());
     work.setWhole(true);
-    open(0, {block(0, 0.1f)});
-    work.expect(0, 0, fewOpen());
+    mark(0, {block(0, 0.1f)});
+    work.expect(0, 0, fewDirty());
     std::size_t steps = 100;
-    EXPECT_EQ(work.take(0, steps)->receivers, fewOpen().open);
+    EXPECT_EQ(work.take(0, steps)->receivers, fewDirty().dirty);
     EXPECT_EQ(work.count(), 0u);
 }
 
