@@ -140,7 +140,7 @@ void WorkQueue::settle(std::uint32_t index) {
         const std::uint32_t last = heap_.back();
         heap_.pop_back();
         if (last == index) return;
-        cluster(hole, last);
+        put(hole, last);
         rise(hole), sink(clusters_[last].position);
         return;
     }
@@ -218,7 +218,7 @@ double WorkQueue::oldest(double now) const {
     return empty() ? now : slots_[oldest_].task.since;
 }
 
-void WorkQueue::cluster(std::size_t position, std::uint32_t index) {
+void WorkQueue::put(std::size_t position, std::uint32_t index) {
     heap_[position] = index;
     clusters_[index].position = position;
 }
@@ -228,10 +228,10 @@ void WorkQueue::rise(std::size_t position) {
     while (position > 0) {
         const std::size_t parent = (position - 1) / 2;
         if (!before(index, heap_[parent])) break;
-        cluster(position, heap_[parent]);
+        put(position, heap_[parent]);
         position = parent;
     }
-    cluster(position, index);
+    put(position, index);
 }
 
 void WorkQueue::sink(std::size_t position) {
@@ -241,10 +241,10 @@ void WorkQueue::sink(std::size_t position) {
         if (child >= heap_.size()) break;
         if (child + 1 < heap_.size() && before(heap_[child + 1], heap_[child])) ++child;
         if (!before(heap_[child], index)) break;
-        cluster(position, heap_[child]);
+        put(position, heap_[child]);
         position = child;
     }
-    cluster(position, index);
+    put(position, index);
 }
 
 } // namespace penumbra

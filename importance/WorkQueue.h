@@ -146,7 +146,7 @@ private:
     void order(Cluster& cluster);
     void skipStale(Cluster& cluster);
     std::optional<Handle> best();
-    void cluster(std::size_t position, std::uint32_t index);
+    void put(std::size_t position, std::uint32_t index);
     void rise(std::size_t position);
     void sink(std::size_t position);
     void settle(std::uint32_t index);

@@ -340,7 +340,7 @@ void DirtySet::putBack(const DirtyBlock& block) {
 
 std::optional<DirtyBlock> DirtySet::take(double enough, std::size_t& steps) {
     const std::optional<DirtyBlock> block = next(enough, steps);
-    if (block) close(*block);
+    if (block) clean(*block);
     return block;
 }
 

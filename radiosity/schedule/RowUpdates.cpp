@@ -79,8 +79,8 @@ std::span<const MovedObject> RowUpdates::movedSince(std::uint32_t edits) const {
 }
 
 const PendingChange& RowUpdates::changeSince(std::uint32_t edits) {
-    const auto [cluster, isNew] = changes_.try_emplace(edits);
-    PendingChange& change = cluster->second;
+    const auto [found, isNew] = changes_.try_emplace(edits);
+    PendingChange& change = found->second;
     if (!isNew) return change;
     for (std::size_t i = edits - (edits_ - unreported_.size()); i < unreported_.size(); ++i) {
         const Edit& edit = unreported_[i];
@@ -200,7 +200,7 @@ std::size_t RowUpdates::probe(const Expect& expect) {
     });
     for (std::size_t i = 0; i < unseen_.size(); ++i)
         dirty_.expect(unseen_[i].row, unseen_[i].block, expected[i]);
-    for (ChangeProbe& search : probes_) rays_ += search.takeRayCount();
+    for (ChangeProbe& probe : probes_) rays_ += probe.takeRayCount();
     const std::size_t spent = unseen_.size() * cost::kProbe;
     unseen_.clear();
     return spent;

@@ -55,7 +55,7 @@ public:
     using Update = std::function<int(RowBuilder& builder, const DirtyBlock& item,
                                      std::span<const MovedObject> moved, std::size_t index)>;
     /// Says what to expect of a block, if the policy probes; called on several threads.
-    using Expect = std::function<ExpectedFactors(ChangeProbe& search, const DirtyBlock& item,
+    using Expect = std::function<ExpectedFactors(ChangeProbe& probe, const DirtyBlock& item,
                                                  std::span<const MovedObject> moved)>;
     /// Does a piece of about `effort` rays' worth: finds what edits concern, or works on it.
     /// \param enough what may stay dirty, see DirtySet::next()

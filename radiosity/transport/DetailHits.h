@@ -97,7 +97,7 @@ private:
     struct Visit;
     void resize();
     Bounds boxOf(std::uint32_t object) const;
-    DetailRays::Moved movedOf(const DirtyGroups::Open& open) const;
+    DetailRays::Moved movedOf(const DirtyGroups::Dirty& dirty) const;
     bool isThere(ObjectId object) const { return patches_.objects[object.value].present; }
     void revisit(std::uint32_t index, bool slitsOnly);
     bool workOnNodes(std::size_t effort);

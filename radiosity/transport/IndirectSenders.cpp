@@ -92,7 +92,7 @@ void IndirectSenders::addFamily(std::span<const ClusterPatch> patches, std::uint
     samples_.resize(parents_.size() * kPatchSamples);
     parts_.resize((parents_.size() - patchCount()) * kPatchSamples);
     listQuarters(family);
-    receiverClusters(family);
+    placeClusters(family);
 }
 
 /// Lists what each quarter of a cluster is made of: clusters within it, or single patches.
@@ -148,7 +148,7 @@ std::vector<SenderLight> IndirectSenders::average(const std::vector<glm::dvec3>&
 
 void IndirectSenders::place(ObjectId object) {
     placePatches(set_.objects[object.value].patches);
-    if (set_.objects[object.value].movable) receiverClusters(families_[familyOf_[object.value]]);
+    if (set_.objects[object.value].movable) placeClusters(families_[familyOf_[object.value]]);
 }
 
 void IndirectSenders::placePatches(Range patches) {
@@ -165,7 +165,7 @@ void IndirectSenders::placePatches(Range patches) {
     });
 }
 
-void IndirectSenders::receiverClusters(const Family& family) {
+void IndirectSenders::placeClusters(const Family& family) {
     const auto& clusters = family.clusters.clusters();
     const auto& order = family.clusters.patches();
     for (std::uint32_t c = std::uint32_t(clusters.size()); c-- > 0;) {

@@ -69,7 +69,7 @@ private:
     void addFamily(std::span<const ClusterPatch> patches, std::uint32_t key);
     void listQuarters(const Family& family);
     void placePatches(Range patches);
-    void receiverClusters(const Family& family);
+    void placeClusters(const Family& family);
     bool isFar(std::uint32_t index, const Bounds& receivers) const;
     bool isEnough(std::uint32_t index, const Bounds& receivers) const {
         return index < patchCount() || isFar(index, receivers);
