@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 namespace penumbra {
@@ -193,7 +194,9 @@ Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point
     // Not quite along the normal, so as not to run along edges that stand on the surface.
     const glm::vec3 direction = normal + glm::vec3(0.0123f, 0.0234f, -0.0171f);
     std::vector<RayHit> hits;
-    rays.all(point, direction, hits);
+    // Only what is solid matters beyond that.
+    rays.all(point, direction, rays.anySolid() ? std::numeric_limits<float>::infinity() : cover,
+             hits);
     // Inside of a solid is what is left once more than it is entered.
     std::vector<std::pair<ObjectId, int>> left;
     Lie lie = Lie::free;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace penumbra {
 
@@ -24,12 +25,16 @@ double pieces(const std::vector<int>& rates) {
     return double(rates.size()) * half * half;
 }
 
-/// How many pieces of `size` [m] a face of so many corners and `area` [m^2] may make.
-/// \param some beyond what the area holds, so that small faces stay as they are
-double mostPieces(std::size_t corners, double area, double size, double some) {
-    constexpr double kTimes = 6; // a right triangle of 4 by 1 makes that many
+/// How many pieces a face may make.
+struct Bound {
+    double times; ///< as many as its area holds
+    double some;  ///< beyond that and one a corner, so that small faces stay as they are
+};
+
+/// \param area [m^2] \param size of a piece [m]
+double mostPieces(std::size_t corners, double area, double size, Bound bound) {
     const auto n = double(corners);
-    return kTimes * std::max(1.0, n / 4) * area / (size * size) + n + some;
+    return bound.times * std::max(1.0, n / 4) * area / (size * size) + n + bound.some;
 }
 
 /// Coarsens `rates` until they make `most` pieces, or nothing more can be had.
@@ -48,7 +53,8 @@ void coarsen(std::vector<int>& rates, std::span<const int> least, double most) {
 
 EdgeRates::EdgeRates(const SurfaceMesh& mesh, const LimitSurface& surface, float patchSize,
                      float elementSize)
-    : subdivided_(mesh.subdivided()), patchSize_(patchSize), elementSize_(elementSize) {
+    : subdivided_(mesh.subdivided() && surface.understood()), patchSize_(patchSize),
+      elementSize_(elementSize) {
     first_.push_back(0);
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
         if (const auto face = surface.face(f)) addFace(*face, mesh.cornersOf(mesh.faces[f]));
@@ -58,6 +64,10 @@ EdgeRates::EdgeRates(const SurfaceMesh& mesh, const LimitSurface& surface, float
 
 std::span<const EdgeRate> EdgeRates::ofFace(std::uint32_t face) const {
     return std::span(rates_).subspan(first_[face], first_[face + 1] - first_[face]);
+}
+
+std::span<const std::uint32_t> EdgeRates::cornersOf(std::uint32_t face) const {
+    return std::span(corners_).subspan(first_[face], first_[face + 1] - first_[face]);
 }
 
 int EdgeRates::along(std::uint32_t a, std::uint32_t b) const {
@@ -77,29 +87,59 @@ EdgeRates::Wanted EdgeRates::cut(float length, float bend) const {
     return {{patches, patches * std::min(elements, kMost / patches)}, parts(bend, kMostBend)};
 }
 
-void EdgeRates::addFace(const FaceSurface& face, std::span<const std::uint32_t> corners) {
+EdgeRates::FaceRates EdgeRates::wantedBy(const FaceSurface& face,
+                                         std::span<const std::uint32_t> corners) {
+    FaceRates rates;
     const std::size_t count = corners.size();
-    std::vector<std::uint64_t> keys;
-    std::vector<int> patches, elements, bent;
     for (std::size_t i = 0; i < count; ++i) {
-        keys.push_back(edgeKey(corners[i], corners[(i + 1) % count]));
-        const auto [found, fresh] = wanted_.try_emplace(keys.back());
+        const auto [found, fresh] =
+            wanted_.try_emplace(edgeKey(corners[i], corners[(i + 1) % count]));
         if (fresh)
             found->second = cut(face.edgeLength(int(i)), subdivided_ ? face.edgeBend(int(i)) : 0);
-        patches.push_back(found->second.rate.patches);
-        elements.push_back(found->second.rate.elements);
-        bent.push_back(found->second.bent);
+        rates.corners.push_back(corners[i]);
+        rates.patches.push_back(found->second.rate.patches);
+        rates.elements.push_back(found->second.rate.elements);
+        rates.bent.push_back(found->second.bent);
     }
-    constexpr double kPatches = 16, kElements = 64;
-    if (pieces(elements) > mostPieces(count, 0, elementSize_, kElements)) {
+    return rates;
+}
+
+/// Makes a strip of a triangle with one short edge, see the class. \return whether it is one
+bool EdgeRates::makeStrip(FaceRates& rates) const {
+    if (subdivided_ || rates.corners.size() != 3) return false;
+    const auto shortest = std::min_element(rates.elements.begin(), rates.elements.end());
+    const auto tip = (std::size_t(shortest - rates.elements.begin()) + 2) % 3; // opposite to it
+    const auto strip = [&](const auto& of, auto first) {
+        return std::vector{first, of[tip], of[(tip + 1) % 3], of[(tip + 2) % 3]};
+    };
+    FaceRates made{strip(rates.corners, rates.corners[tip]), strip(rates.patches, 1),
+                   strip(rates.elements, 1), strip(rates.bent, 1)};
+    if (2 * pieces(made.elements) > pieces(rates.elements)) return false;
+    rates = std::move(made);
+    return true;
+}
+
+void EdgeRates::addFace(const FaceSurface& face, std::span<const std::uint32_t> corners) {
+    constexpr Bound kPatches{6, 16}, kElements{6, 64}; // a right triangle of 4 by 1 makes 6 times
+    constexpr Bound kStripPatches{1, 4}, kStripElements{1, 64};
+    FaceRates rates = wantedBy(face, corners);
+    if (pieces(rates.elements) > mostPieces(corners.size(), 0, elementSize_, kElements)) {
         const double area = face.area();
-        coarsen(patches, std::vector<int>(count, 1), mostPieces(count, area, patchSize_, kPatches));
-        coarsen(elements, bent, mostPieces(count, area, elementSize_, kElements));
+        const bool slim =
+            pieces(rates.elements) > mostPieces(corners.size(), area, elementSize_, kElements);
+        const bool strip = slim && makeStrip(rates);
+        const std::size_t count = rates.corners.size();
+        coarsen(rates.patches, std::vector<int>(count, 1),
+                mostPieces(count, area, patchSize_, strip ? kStripPatches : kPatches));
+        coarsen(rates.elements, rates.bent,
+                mostPieces(count, area, elementSize_, strip ? kStripElements : kElements));
     }
+    const std::size_t count = rates.corners.size();
     for (std::size_t i = 0; i < count; ++i) {
-        const int each = std::max(1, elements[i] / patches[i]);
-        rates_.push_back({patches[i], each * patches[i]});
-        int& most = elements_[keys[i]];
+        const int each = std::max(1, rates.elements[i] / rates.patches[i]);
+        corners_.push_back(rates.corners[i]);
+        rates_.push_back({rates.patches[i], each * rates.patches[i]});
+        int& most = elements_[edgeKey(rates.corners[i], rates.corners[(i + 1) % count])];
         most = std::max(most, rates_.back().elements);
     }
 }

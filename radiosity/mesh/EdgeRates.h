@@ -29,6 +29,12 @@ struct EdgeRate {
 /// be more, all of its rates are coarsened by one factor, but for what a bend asks. An edge is cut
 /// as the more demanding of its faces wants it, so that both cut it alike, and a large face beside
 /// a sliver keeps its elements.
+///
+/// The 6 is what the grids at the corners of a slender triangle need. A triangle that is slimmer
+/// still and has one short edge, a needle, is a strip instead: a quadrilateral whose first two
+/// corners are the one opposite that edge, in rows from there to the edge. Its pieces are as long
+/// as wide or longer, and no more than those of a square of its area: area / size^2 + 4 + some,
+/// with some = 4 for patches, 64 for elements.
 class EdgeRates {
 public:
     /// \param patchSize, elementSize longest edges of patches and elements [m], above 0
@@ -38,6 +44,9 @@ public:
     /// What face `face` wants of its edges, one by one from its first corner on: what its inside
     /// is cut by. Empty if it has no surface.
     std::span<const EdgeRate> ofFace(std::uint32_t face) const;
+    /// The corners between these edges: those of the face, or four of which the first two are the
+    /// same, for a needle.
+    std::span<const std::uint32_t> cornersOf(std::uint32_t face) const;
     /// Elements along the edge between two corners, at least what any of its faces wants.
     int along(std::uint32_t a, std::uint32_t b) const;
 
@@ -47,7 +56,14 @@ private:
         EdgeRate rate;
         int bent = 1;
     };
+    /// What a face wants of its edges, one by one.
+    struct FaceRates {
+        std::vector<std::uint32_t> corners;
+        std::vector<int> patches, elements, bent;
+    };
     Wanted cut(float length, float bend) const;
+    FaceRates wantedBy(const FaceSurface& face, std::span<const std::uint32_t> corners);
+    bool makeStrip(FaceRates& rates) const;
     void addFace(const FaceSurface& face, std::span<const std::uint32_t> corners);
 
     bool subdivided_;
@@ -55,6 +71,7 @@ private:
     std::unordered_map<std::uint64_t, Wanted> wanted_; ///< of each edge, whichever face asks first
     std::unordered_map<std::uint64_t, int> elements_;  ///< of each edge
     std::vector<EdgeRate> rates_;                      ///< of all faces, one after the other
+    std::vector<std::uint32_t> corners_;               ///< where each of those edges begins
     std::vector<std::size_t> first_;                   ///< of a face in rates_; and their end
 };
 

@@ -79,8 +79,9 @@ void PatchAssembly::addRays(const SurfaceMesh& mesh, const Tessellation& tessell
     for (std::size_t c = 0; c < tessellation.cells.size(); ++c) {
         const Cell& cell = tessellation.cells[c];
         const SurfaceFace& face = mesh.faces[cell.face];
-        const glm::vec3 normal(glm::normalize(newellNormal(mesh.points, mesh.cornersOf(face))));
-        flat[c] = !mesh.subdivided() && planar(tessellation, cell, normal);
+        const glm::dvec3 normal = newellNormal(mesh.points, mesh.cornersOf(face));
+        flat[c] = !tessellation.smooth && glm::length(normal) > 0 &&
+                  planar(tessellation, cell, glm::vec3(glm::normalize(normal)));
         if (!flat[c]) continue;
         const auto base = std::uint32_t(rays.vertices.size());
         for (std::uint32_t i = 0; i < cell.cornerCount; ++i)
@@ -109,7 +110,7 @@ void PatchAssembly::addSheet(const SurfaceMesh& mesh, const Tessellation& tessel
     for (const Cell& cell : tessellation.cells) {
         SheetCell sheet;
         sheet.whole = cell.whole;
-        sheet.smooth = mesh.subdivided();
+        sheet.smooth = tessellation.smooth;
         sheet.object = object;
         const SurfaceFace& face = mesh.faces[cell.face];
         sheet.present = back ? face.back : face.front;

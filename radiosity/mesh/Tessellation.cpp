@@ -18,8 +18,14 @@ public:
           patchSize_(patchSize) {}
 
     Tessellation run() {
-        for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f)
-            if (auto face = surface_.face(f)) addFace(f, *face);
+        out_.smooth = mesh_.subdivided() && surface_.understood();
+        for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f) {
+            auto face = surface_.face(f);
+            if (!face) continue;
+            const auto corners = rates_.cornersOf(f);
+            if (corners.size() != mesh_.faces[f].cornerCount) face = surface_.polygon(corners);
+            addFace(f, *face);
+        }
         return std::move(out_);
     }
 
@@ -50,9 +56,22 @@ private:
     bool whole_ = false;
 };
 
+/// A facet without corners that are the vertex before, as where a strip comes to a point; -1
+/// follows the last.
+std::array<int, 4> withoutTwins(const std::array<int, 4>& facet,
+                                std::span<const std::uint32_t> vertices) {
+    const std::size_t count = facet[3] < 0 ? 3 : 4;
+    std::array<int, 4> left{-1, -1, -1, -1};
+    for (std::size_t k = 0, n = 0; k < count; ++k) {
+        const auto next = std::size_t(facet[(k + 1) % count]);
+        if (vertices[std::size_t(facet[k])] != vertices[next]) left[n++] = facet[k];
+    }
+    return left;
+}
+
 /// The boundary as both faces of each edge cut it, the inside as this face wants it.
 std::vector<int> Tessellator::facetRates(std::uint32_t index) const {
-    const auto corners = mesh_.cornersOf(mesh_.faces[index]);
+    const auto corners = rates_.cornersOf(index);
     std::vector<int> rates, inner;
     for (std::size_t e = 0; e < corners.size(); ++e)
         rates.push_back(rates_.along(corners[e], corners[(e + 1) % corners.size()]));
@@ -115,7 +134,7 @@ std::uint32_t Tessellator::boundaryVertex(std::uint64_t key, std::uint32_t along
 /// Bfr lists boundary points first, along the edges from vertex 0 on.
 std::vector<std::uint32_t> Tessellator::addVertices(std::uint32_t index, const FaceSurface& face,
                                                     const std::vector<glm::vec2>& coords) {
-    const auto corners = mesh_.cornersOf(mesh_.faces[index]);
+    const auto corners = rates_.cornersOf(index);
     std::vector<std::uint32_t> vertices(coords.size());
     std::size_t next = 0;
     for (std::size_t e = 0; e < corners.size(); ++e) {
@@ -141,8 +160,10 @@ void Tessellator::addFace(std::uint32_t index, const FaceSurface& face) {
     const DomainPattern pattern = face.pattern(facetRates(index));
     const std::vector<std::uint32_t> vertices = addVertices(index, face, pattern.coords);
     const std::size_t first = out_.facets.size();
-    for (const std::array<int, 4>& source : pattern.facets)
-        out_.facets.push_back(placeFacet(face, pattern, source, vertices));
+    for (const std::array<int, 4>& facet : pattern.facets) {
+        const std::array<int, 4> source = withoutTwins(facet, vertices);
+        if (source[2] >= 0) out_.facets.push_back(placeFacet(face, pattern, source, vertices));
+    }
     leaveOutUnsound(first);
 }
 

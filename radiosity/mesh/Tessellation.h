@@ -36,6 +36,8 @@ struct Tessellation {
     std::vector<Facet> facets;
     std::vector<Cell> cells;
     std::vector<glm::vec3> outline;
+    /// Of a limit surface; else of the mesh's polygons, as of a cage that OpenSubdiv refuses.
+    bool smooth = false;
     /// Faces that are left out, all of them or where they can't be lit: without area, or folded
     /// over so that one facet's corners face opposite ways.
     std::size_t leftOut = 0;

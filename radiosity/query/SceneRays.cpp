@@ -149,7 +149,7 @@ std::optional<Touch> SceneRays::touch(glm::dvec3 from, glm::dvec3 direction, dou
         return describe(hit, from, unit);
     }
     std::vector<RayHit> hits;
-    rays_->all(glm::vec3(from), glm::vec3(unit), hits);
+    rays_->all(glm::vec3(from), glm::vec3(unit), longest, hits);
     const RayHit* nearest = nullptr;
     for (const RayHit& hit : hits)
         if (hit.object != except && hit.distance <= longest &&

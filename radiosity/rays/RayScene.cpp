@@ -253,6 +253,8 @@ struct RayScene::Impl {
 RayScene::RayScene(std::span<const RayMesh> objects, float skin)
     : impl_(std::make_unique<Impl>()), skin_(skin) {
     impl_->members.resize(objects.size());
+    const auto solid = [](const RayMesh& mesh) { return std::ranges::count(mesh.solid, 1) > 0; };
+    anySolid_ = std::ranges::any_of(objects, solid);
     for (std::size_t i = 0; i < objects.size(); ++i)
         if (!objects[i].triangles.empty()) impl_->add(objects[i], unsigned(i));
     commit();
@@ -377,11 +379,12 @@ bool RayScene::occluded(glm::vec3 origin, glm::vec3 target) const {
     return blocker != ObjectId::kNone;
 }
 
-void RayScene::all(glm::vec3 origin, glm::vec3 direction, std::vector<RayHit>& hits) const {
+void RayScene::all(glm::vec3 origin, glm::vec3 direction, float reach,
+                   std::vector<RayHit>& hits) const {
     hits.clear();
     QueryContext context;
     context.all = &hits;
-    intersect(impl_->scene, context, origin, direction, 1e30f);
+    intersect(impl_->scene, context, origin, direction, reach);
 }
 
 RayHit RayScene::nearest(glm::vec3 origin, glm::vec3 direction, float reach, Faces faces) const {

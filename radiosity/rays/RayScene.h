@@ -76,8 +76,11 @@ public:
     RayHit nearest(glm::vec3 origin, glm::vec3 direction, float reach,
                    Faces faces = Faces::both) const;
 
-    /// All triangles on a ray without end, in no order; `hits` is emptied first.
-    void all(glm::vec3 origin, glm::vec3 direction, std::vector<RayHit>& hits) const;
+    /// All triangles on a ray up to `reach` times the length of `direction`, in no order; `hits` is
+    /// emptied first.
+    void all(glm::vec3 origin, glm::vec3 direction, float reach, std::vector<RayHit>& hits) const;
+    /// Whether any object has solid triangles, see RayMesh.
+    bool anySolid() const { return anySolid_; }
 
 private:
     float reach(glm::vec3 origin, glm::vec3 direction) const;
@@ -88,6 +91,7 @@ private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
     float skin_ = 0; ///< [m]
+    bool anySolid_ = false;
 };
 
 } // namespace penumbra

@@ -169,6 +169,31 @@ TEST(BuildPatches, LightsASubdivisionCageThatIsScaledFlat) {
                            "(/flat/cage/mesh)");
 }
 
+TEST(BuildPatches, TakesACageThatIsRefusedForItsPolygonsInEveryWay) {
+    // A round table top in 128 triangles: OpenSubdiv takes no more than 100 at a point. Its flat
+    // cells blocked rays as all of their elements.
+    MeshData data;
+    data.materials = {paint(Rgb(0.5f))};
+    data.points.emplace_back(0, 0, 1);
+    for (int i = 0; i < 128; ++i) {
+        const double angle = 2 * std::numbers::pi * i / 128;
+        data.points.emplace_back(std::cos(angle), std::sin(angle), 1);
+        data.faceVertexCounts.push_back(3);
+        for (int corner : {0, i + 1, (i + 1) % 128 + 1}) data.faceVertexIndices.push_back(corner);
+    }
+    const auto patches = [&](SubdivisionScheme scheme) {
+        data.scheme = scheme;
+        return meshed(sceneOf({object("table", data), ceilingLight({0, 0, 2.4f}, 1, 0.5f)}),
+                      {.patchSize = 0.2f, .elementSize = 0.02f})
+            .patches;
+    };
+    const PatchSet plain = patches(SubdivisionScheme::none);
+    const PatchSet refused = patches(SubdivisionScheme::catmullClark);
+    EXPECT_EQ(refused.patches.size(), plain.patches.size());
+    EXPECT_EQ(refused.nodes.size(), plain.nodes.size());
+    EXPECT_EQ(refused.rayMeshes[0].triangles.size(), plain.rayMeshes[0].triangles.size());
+}
+
 TEST(BuildPatches, LightsABowTie) {
     // Its two halves face opposite ways; where they meet there is no side.
     MeshData bow = polygonData({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}});

@@ -279,6 +279,56 @@ TEST(Tessellation, MakesNoMorePiecesThanTheAreaHoldsHoweverThinTheShape) {
                 }
 }
 
+/// A sheet in narrow pleats, in 199 triangles of 1 to 2 m by some 7 cm that meet at one point, as
+/// in regressions/fan200.usda: area 9.1 m^2.
+MeshData fan() {
+    std::vector<glm::vec3> points{{0, 0, 1}};
+    std::vector<std::vector<int>> faces;
+    for (int i = 0; i < 200; ++i) {
+        points.emplace_back(1, 0.01 * i, 1 + 0.1 * std::sin(i));
+        if (i > 0) faces.push_back({0, i, i + 1});
+    }
+    return meshOf(points, faces);
+}
+
+TEST(Tessellation, CutsNeedlesIntoStripsAndNoMorePiecesThanTheirAreaHolds) {
+    // With a grid at each corner of each triangle it was 10,179 cells and 461,584 facets, most of
+    // them slivers themselves. As many as squares of the same area hold are 1,500 and 96,000.
+    const float patchSize = 0.078f, elementSize = patchSize / 8;
+    MeshData data = fan();
+    for (SubdivisionScheme scheme : {SubdivisionScheme::none, SubdivisionScheme::catmullClark}) {
+        data.scheme = scheme; // OpenSubdiv refuses it: too many faces at one point
+        bool understood = false;
+        const Tessellation t =
+            tessellate(placeSurface(data, glm::dmat4(1.0)), patchSize, elementSize, understood);
+        EXPECT_FALSE(t.smooth);
+        const double area = areaOf(t), some = 199;
+        EXPECT_NEAR(area, 9.0976, 1e-3);
+        EXPECT_LE(double(t.cells.size()), area / (patchSize * patchSize) + 8 * some);
+        EXPECT_LE(double(t.facets.size()), area / (elementSize * elementSize) + 2 * 68 * some);
+        EXPECT_GE(double(t.facets.size()), area / (elementSize * elementSize) / 2);
+    }
+}
+
+TEST(Tessellation, LeavesNoCracksBetweenNeedles) {
+    // A spire of 2 m over a dodecagon of 10 cm.
+    std::vector<glm::vec3> points{{0, 0, 2}};
+    std::vector<std::vector<int>> faces(1);
+    for (int i = 0; i < 12; ++i) {
+        const double angle = i * 3.14159265358979 / 6;
+        points.emplace_back(0.1 * std::cos(angle), 0.1 * std::sin(angle), 0);
+        faces.push_back({0, i + 1, (i + 1) % 12 + 1});
+        faces[0].insert(faces[0].begin(), i + 1); // from below
+    }
+    for (const auto& [patchSize, elementSize] : {std::pair(0.1f, 0.01f), std::pair(0.04f, 0.03f)}) {
+        const Tessellation t = cut(meshOf(points, faces), patchSize, elementSize);
+        EXPECT_EQ(cracks(t), 0);
+        EXPECT_EQ(t.leftOut, 0u);
+        // The base is 3 r^2, the sides are 12 times half of 2 r sin 15 by sqrt(4 + (r cos 15)^2).
+        EXPECT_NEAR(areaOf(t), 0.03 + 12 * 0.1 * 0.2588190 * std::sqrt(4 + 0.00933013), 1e-5);
+    }
+}
+
 /// A wedge of 2 m by 1 m, `thickness` at its thick end: two of its sides are slivers.
 MeshData wedge(float thickness) {
     return meshOf(

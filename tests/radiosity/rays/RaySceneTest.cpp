@@ -143,6 +143,17 @@ TEST(RayScene, SurvivesObjectsThatAreNoMoreThanAPoint) {
     }
 }
 
+TEST(RayScene, FindsAllTrianglesUpToItsReach) {
+    const RayScene scene(std::array{square(1), square(3)});
+    EXPECT_FALSE(scene.anySolid());
+    std::vector<RayHit> hits;
+    for (const auto& [reach, count] :
+         {std::pair(1.5f, 0u), std::pair(2.5f, 1u), std::pair(9.0f, 2u)}) {
+        scene.all({0.1f, 0.2f, -1}, {0, 0, 1}, reach, hits);
+        EXPECT_EQ(hits.size(), count) << reach;
+    }
+}
+
 TEST(RayScene, MeetsNothingOnARayThatIsNoNumberOrOutOfRange) {
     const RayScene scene(std::array{square(1)});
     const float infinity = std::numeric_limits<float>::infinity();
@@ -157,7 +168,7 @@ TEST(RayScene, MeetsNothingOnARayThatIsNoNumberOrOutOfRange) {
             EXPECT_FALSE(scene.occluded(bad, good + 2.0f * up));
             EXPECT_FALSE(scene.occluded(good, bad));
             std::vector<RayHit> hits(1);
-            scene.all(bad, up, hits);
+            scene.all(bad, up, 1, hits);
             EXPECT_TRUE(hits.empty());
             ShadowRays rays;
             rays.set(0, bad, good);
