@@ -142,7 +142,7 @@ void partAtWalls(const RayScene& rays, const ContactResolver& resolver,
 }
 
 /// Moves the receivers of shared vertices towards the mean middle of their elements: not at all
-/// inside of a surface, a hair inwards at its border.
+/// inside of a flat surface, a hair inwards at its border.
 void pullReceiversIn(float skin, const std::vector<Element>& elements, const Fans& fans,
                      const std::vector<ContactResolver::Result>& results,
                      std::vector<Vertex>& vertices) {
@@ -161,7 +161,12 @@ void pullReceiversIn(float skin, const std::vector<Element>& elements, const Fan
             Vertex& vertex = vertices[v];
             const glm::vec3 middle = count > 0 ? sum / count : vertex.position;
             const glm::vec3 in = glm::mix(vertex.position, middle, kPullIn);
-            vertex.receiver.position = in + hoverAt(skin, in) * vertex.receiver.normal;
+            const float hover = hoverAt(skin, in);
+            // Along a ridge the middle lies below the surface: what is pulled there must not sink
+            // into its own object.
+            const float sunk = glm::dot(vertex.position - in, vertex.receiver.normal);
+            const float lift = sunk > 0.5f * hover ? hover + sunk : hover;
+            vertex.receiver.position = in + lift * vertex.receiver.normal;
         }
     });
 }

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 namespace penumbra {
 
 namespace {
@@ -146,6 +149,64 @@ TEST_P(PartedRoom, LosesNoLightOnTheBrightSide) {
 
 // On a border of elements, between two, and off the middle of one.
 INSTANTIATE_TEST_SUITE_P(Places, PartedRoom, testing::Values(0.0f, 0.013f, 0.031f));
+
+/// The gallery's twisted column (scenes/scenegen/sculptures.py): 2.2 m, four semi-sharp ridges.
+MeshData twistedColumn() {
+    constexpr int kLayers = 14;
+    MeshData cage;
+    cage.scheme = SubdivisionScheme::catmullClark;
+    cage.materials = {paint(Rgb(0.5f))};
+    const auto addFace = [&](std::initializer_list<int> corners) {
+        cage.faceVertexCounts.push_back(std::int32_t(corners.size()));
+        cage.faceVertexIndices.insert(cage.faceVertexIndices.end(), corners);
+    };
+    for (int k = 0; k <= kLayers; ++k) {
+        const double t = double(k) / kLayers;
+        const double swell = 1 - 0.28 * std::sin(std::numbers::pi * t) + 0.1 * (1 - t);
+        for (int i = 0; i < 8; ++i) {
+            const double a = (45 * i + 240 * t) * std::numbers::pi / 180;
+            const double r = 0.3 * swell * (i % 2 == 0 ? 1 : 0.5);
+            cage.points.emplace_back(r * std::cos(a), r * std::sin(a), 2.2 * t);
+            const int j = (i + 1) % 8;
+            if (k > 0) addFace({8 * k - 8 + i, 8 * k - 8 + j, 8 * k + j, 8 * k + i});
+        }
+    }
+    const int top = 8 * kLayers;
+    addFace({7, 6, 5, 4, 3, 2, 1, 0});
+    addFace({top, top + 1, top + 2, top + 3, top + 4, top + 5, top + 6, top + 7});
+    for (int i = 0; i < 8; i += 2) {
+        Crease ridge{{}, 3.5f};
+        for (int k = 0; k <= kLayers; ++k) ridge.vertices.push_back(8 * k + i);
+        cage.creases.push_back(ridge);
+    }
+    for (int end : {0, top}) {
+        Crease ring{{}, 10};
+        for (int i = 0; i <= 8; ++i) ring.vertices.push_back(end + i % 8);
+        cage.creases.push_back(ring);
+    }
+    return cage;
+}
+
+TEST(Contact, KeepsReceiversOutOfTheirOwnObjectAlongItsRidges) {
+    // Pulled towards the middles of its elements, a receiver on a ridge sank by up to 0.2 mm, more
+    // than it hovers: 220 vertices and nodes saw nothing but the inside.
+    const BuiltPatches built =
+        meshed(sceneOf({movable("column", {std::make_shared<Mesh>("mesh", twistedColumn())})}),
+               {.patchSize = 0.568f});
+    const PatchSet& set = built.patches;
+    const RayScene rays(set.rayMeshes, set.skin);
+    int checked = 0, inside = 0;
+    const auto check = [&](const Receiver& receiver) {
+        if (isPadding(receiver) || receiver.position.z < 0.01f) return; // not what it stands on
+        ++checked;
+        const glm::vec3 aside(0.3f, 0.2f, 0.1f); // not through the vertex itself
+        inside += rays.nearest(receiver.position, receiver.normal + aside, 10 * set.skin).met();
+    };
+    for (const Vertex& vertex : set.vertices) check(vertex.receiver);
+    for (const Receiver& node : set.nodes) check(node);
+    EXPECT_GT(checked, 3000);
+    EXPECT_EQ(inside, 0);
+}
 
 TEST(Contact, LeavesAFreeFloorAsItIs) {
     const BuiltPatches built =
