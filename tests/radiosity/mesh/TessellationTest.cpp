@@ -279,8 +279,8 @@ TEST(Tessellation, MakesNoMorePiecesThanTheAreaHoldsHoweverThinTheShape) {
                 }
 }
 
-/// A sheet in narrow pleats, in 199 triangles of 1 to 2 m by some 7 cm that meet at one point, as
-/// in regressions/fan200.usda: area 9.1 m^2.
+/// A sheet in narrow pleats, in 199 triangles of 1 to 2 m by some 7 cm that meet at one point:
+/// area 9.1 m^2.
 MeshData fan() {
     std::vector<glm::vec3> points{{0, 0, 1}};
     std::vector<std::vector<int>> faces;
