@@ -103,7 +103,7 @@ private:
     bool workOnNodes(std::size_t effort);
     bool workOnVertices(std::size_t effort);
     template <class Trace>
-    bool workOn(DirtyGroups& open, std::size_t rays, std::size_t effort, const Trace& trace);
+    bool workOn(DirtyGroups& dirty, std::size_t rays, std::size_t effort, const Trace& trace);
     Outcome traceNodes(std::uint32_t group);
     Outcome traceVertices(std::uint32_t group);
     bool anyAffected(std::uint32_t group, const DetailRays::Moved& moved) const;
