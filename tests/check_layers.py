@@ -22,7 +22,9 @@ USES = {
     "radiosity/process": ["radiosity/process/store", "radiosity/query"],
     "io/image": ["scenegraph"],
     "io/usd/layer": ["scenegraph"],
-    "io/usd/scene": ["io/usd/layer", "io/image"],
+    "io/usd/text": ["io/usd/layer"],
+    "io/usd/crate": ["io/usd/text"],
+    "io/usd/scene": ["io/usd/crate", "io/image"],
     "comparison": ["radiosity/process", "io/usd/scene"],
     "viewer/preview": ["radiosity/process"],
     "viewer/input": ["viewer/preview", "io/usd/scene"],
@@ -40,7 +42,7 @@ HOME = {
     "OpenEXR/": "io/image", "Imf": "io/image", "Imath": "io/image", "png.h": "io/image",
     "epoxy/": "viewer", "EGL/": "viewer", "GL/": "viewer", "GLFW/": "viewer",
     "imgui": "viewer/panels", "backends/imgui": "viewer/panels",
-    "CLI/": "tools", "nlohmann/": "tools",
+    "lz4": "io/usd/crate", "CLI/": "tools", "nlohmann/": "tools",
 }
 MOST_FILES = 35  # in a room
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)

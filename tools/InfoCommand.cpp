@@ -1,6 +1,9 @@
 #include "base/Error.h"
 #include "base/Parallel.h"
+#include "io/image/AtomicFile.h"
+#include "io/usd/crate/UsdFiles.h"
 #include "io/usd/scene/UsdScene.h"
+#include "io/usd/text/UsdLayerWriter.h"
 #include "radiosity/mesh/LightShapes.h"
 #include "radiosity/query/LightAccount.h"
 #include "radiosity/query/NearestDrawn.h"
@@ -31,6 +34,7 @@ constexpr float kReach = 0.1f;
 struct InfoCommand {
     SolveSettings solve; ///< most of it counts with --at only
     std::string at;      ///< as it was given; empty: about the scene
+    std::string text;    ///< where to write the file's own layer as text; empty: nowhere
 };
 
 /// Reads "x,y,z" [m].
@@ -206,8 +210,24 @@ void explain(const SolveSettings& settings, glm::vec3 point) {
     finishStandardOutput();
 }
 
+/// The layer of the file alone, without what it refers to.
+void writeText(const SolveSettings& settings, const std::string& output) {
+    checkOutputs({settings.scene}, {output});
+    const UsdLayer layer = readAnyUsdLayer(settings.scene);
+    const std::string text = usdLayerText(layer);
+    if (output == "-") {
+        fmt::print("{}", text);
+        finishStandardOutput();
+    } else {
+        writeFileAtomically(output, text);
+    }
+    reportDiagnostics(layer.diagnostics, settings.verbose);
+}
+
 void run(const InfoCommand& command) {
-    if (command.at.empty())
+    if (!command.text.empty())
+        writeText(command.solve, command.text);
+    else if (command.at.empty())
         describeScene(command.solve);
     else
         explain(command.solve, *pointOf(command.at));
@@ -219,7 +239,7 @@ void addInfoCommand(CLI::App& app) {
     auto command = std::make_shared<InfoCommand>();
     CLI::App* const info = app.add_subcommand(
         "info", "What is in a scene, and what of it was not understood; with --at, why it is as\n"
-                "bright or dark as it is at a point.\n"
+                "bright or dark as it is at a point; with --text, the file as USD text.\n"
                 "Example: penumbra info room.usda --at 1.5,1,0 --direct-only");
     addSolveOptions(*info, command->solve);
     for (const char* name : {"--frames", "--from-scratch", "--stats"})
@@ -236,6 +256,11 @@ void addInfoCommand(CLI::App& app) {
                                  : fmt::format("'{}' is not x,y,z: three numbers, in metres", text);
         },
         ""));
+    info->add_option("--text", command->text,
+                     "FILE.usda: write the scene's file as USD text, whatever its kind (binary,\n"
+                     "package), and nothing else; - for standard output. One layer is written,\n"
+                     "without those it refers to")
+        ->excludes(at);
     for (const char* name : {"--patch-size", "--element-size", "--samples", "--residual",
                              "--direct-only", "--threads", "--progress", "--quiet"})
         info->get_option(name)->needs(at);

@@ -93,7 +93,8 @@ void addReportOptions(CLI::App& command, SolveSettings& settings) {
 } // namespace
 
 void addSolveOptions(CLI::App& command, SolveSettings& settings) {
-    command.add_option("SCENE", settings.scene, "USD text file (.usda) to light")->required();
+    command.add_option("SCENE", settings.scene, "USD file to light (.usda, .usdc, .usd, .usdz)")
+        ->required();
     addMeshOptions(command, settings);
     addLightOptions(command, settings);
     addPlayOptions(command, settings);

@@ -1,4 +1,4 @@
-// One USD text file as it was written: the tree of its opinions, before any composition.
+// One USD file as it was written: the tree of its opinions, before any composition.
 #pragma once
 
 #include "io/usd/layer/UsdDiagnostic.h"
@@ -36,6 +36,13 @@ struct UsdLayerOffset {
 struct UsdSubLayer {
     std::string asset;
     UsdLayerOffset offset;
+    UsdPosition where;
+};
+
+/// An entry of a layer's `relocates`: the prim that arcs bring to `source` is at `target` instead.
+struct UsdRelocate {
+    std::string source; ///< absolute prim path
+    std::string target; ///< the same; empty: the prim is removed
     UsdPosition where;
 };
 
@@ -108,6 +115,7 @@ struct UsdLayer {
     std::string file; ///< as errors name it
     UsdDictionary metadata;
     std::vector<UsdSubLayer> subLayers;
+    std::vector<UsdRelocate> relocates;
     std::vector<UsdPrimSpec> prims;
     std::vector<Diagnostic> diagnostics;
 
@@ -130,8 +138,8 @@ struct UsdLayerLimits {
 UsdLayer parseUsdLayer(const std::string& text, const std::string& file,
                        const UsdLayerLimits& limits = {});
 
-/// Reads a layer from a file. Throws SceneFileError, also for what isn't USD text: folders, missing
-/// and empty files, binary USD and packages.
+/// Reads a layer from a text file. Throws SceneFileError, also for what isn't USD text: folders,
+/// missing and empty files, binary USD and packages (UsdFiles reads these).
 UsdLayer readUsdLayer(const std::filesystem::path& file, const UsdLayerLimits& limits = {});
 
 } // namespace penumbra

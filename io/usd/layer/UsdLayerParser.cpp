@@ -133,7 +133,7 @@ private:
         if (++primCount_ > limits_.prims) in_.fail("too many prims");
         if (stack_.size() >= limits_.primDepth) in_.fail("prims nested too deeply");
         in_.skipSpace();
-        if (in_.peek() == '(') parsePrimMetadata(in_, spec);
+        if (in_.peek() == '(') parsePrimMetadata(in_, spec, path);
         in_.skipSpace();
         const char* open = in_.cursor();
         in_.expect('{', "to begin the prim's contents");
@@ -220,7 +220,7 @@ private:
         spec.name = in_.string();
         if (spec.name.empty()) in_.fail("a variant needs a name");
         in_.skipSpace();
-        if (in_.peek() == '(') parsePrimMetadata(in_, spec);
+        if (in_.peek() == '(') parsePrimMetadata(in_, spec, stack_.back().path);
         in_.skipSpace();
         const char* open = in_.cursor();
         in_.expect('{', "to begin the variant's contents");

@@ -15,36 +15,33 @@ constexpr std::size_t kMaxLayers = 4096; // in all: a tree that doubles at each 
 
 class StackReader {
 public:
-    StackReader(const UsdLayerLimits& limits, Diagnostics& diagnostics,
+    StackReader(const UsdAssets& assets, const UsdLayerLimits& limits, Diagnostics& diagnostics,
                 std::vector<fs::path>* unread)
-        : limits_(limits), diagnostics_(diagnostics), unread_(unread) {}
+        : assets_(assets), limits_(limits), diagnostics_(diagnostics), unread_(unread) {}
 
-    std::vector<UsdStackedLayer> read(const fs::path& root) {
+    std::vector<UsdStackedLayer> read(const std::string& root) {
         add(root, load(root), {});
         return std::move(stack_);
     }
 
 private:
-    std::shared_ptr<const UsdLayer> load(const fs::path& file) {
-        std::error_code ignored;
-        auto& cached = layers_[fs::weakly_canonical(file, ignored)];
+    std::shared_ptr<const UsdLayer> load(const std::string& file) {
+        auto& cached = layers_[assets_.canonical(file)];
         if (cached) return cached;
-        cached = std::make_shared<UsdLayer>(readUsdLayer(file, limits_));
+        cached = std::make_shared<UsdLayer>(assets_.layer(file, limits_));
         diagnostics_.append(cached->diagnostics);
         return cached;
     }
 
-    void add(const fs::path& file, const std::shared_ptr<const UsdLayer>& layer,
+    void add(const std::string& file, const std::shared_ptr<const UsdLayer>& layer,
              UsdLayerOffset offset) {
         stack_.push_back({layer, offset});
-        std::error_code ignored;
-        open_.push_back(fs::weakly_canonical(file, ignored));
-        for (const UsdSubLayer& sub : layer->subLayers) addSubLayer(file, *layer, sub, offset);
+        open_.push_back(assets_.canonical(file));
+        for (const UsdSubLayer& sub : layer->subLayers) addSubLayer(*layer, sub, offset);
         open_.pop_back();
     }
 
-    void addSubLayer(const fs::path& parentFile, const UsdLayer& parent, const UsdSubLayer& sub,
-                     UsdLayerOffset outer) {
+    void addSubLayer(const UsdLayer& parent, const UsdSubLayer& sub, UsdLayerOffset outer) {
         const SourceLocation where = parent.location(sub.where);
         const auto skip = [&](const std::string& why) {
             diagnostics_.warn(where, "sublayer '" + sub.asset + "' left out: " + why);
@@ -52,9 +49,8 @@ private:
         if (sub.asset.empty()) return skip("its path is empty");
         if (sub.asset.front() == '`') return skip("variable expressions are not supported");
         if (sub.asset.find("://") != std::string::npos) return skip("only files can be read");
-        const fs::path file = parentFile.parent_path() / sub.asset;
-        std::error_code ignored;
-        const fs::path canonical = fs::weakly_canonical(file, ignored);
+        const std::string file = assets_.resolve(parent.file, sub.asset);
+        const std::string canonical = assets_.canonical(file);
         if (std::find(open_.begin(), open_.end(), canonical) != open_.end())
             return skip("it contains itself");
         if (open_.size() >= kMaxDepth) return skip("sublayers are nested too deeply");
@@ -63,7 +59,9 @@ private:
         try {
             layer = load(file);
         } catch (const SceneFileError& error) {
-            if (unread_ && fs::is_regular_file(file, ignored)) unread_->push_back(file);
+            std::error_code ignored;
+            const fs::path onDisk = assets_.fileOf(file);
+            if (unread_ && fs::is_regular_file(onDisk, ignored)) unread_->push_back(onDisk);
             return skip(error.what());
         }
         add(file, layer, combined(outer, sub, parent, *layer, where));
@@ -81,12 +79,13 @@ private:
         return {outer.offset + outer.scale * inner.offset, outer.scale * inner.scale};
     }
 
+    const UsdAssets& assets_;
     UsdLayerLimits limits_;
     Diagnostics& diagnostics_;
     std::vector<fs::path>* unread_;
     std::vector<UsdStackedLayer> stack_;
-    std::vector<fs::path> open_; // the files from the root down to the one being added
-    std::map<fs::path, std::shared_ptr<const UsdLayer>> layers_;
+    std::vector<std::string> open_; // what is open from the root down to the one being added
+    std::map<std::string, std::shared_ptr<const UsdLayer>> layers_;
 };
 
 double positiveNumber(const UsdLayer& layer, std::string_view key) {
@@ -104,10 +103,11 @@ double timeCodesPerSecond(const UsdLayer& layer) {
 }
 
 std::vector<UsdStackedLayer> readUsdLayerStack(const std::filesystem::path& root,
+                                               const UsdAssets& assets,
                                                const UsdLayerLimits& limits,
                                                Diagnostics& diagnostics,
                                                std::vector<std::filesystem::path>* unread) {
-    return StackReader(limits, diagnostics, unread).read(root);
+    return StackReader(assets, limits, diagnostics, unread).read(root.string());
 }
 
 } // namespace penumbra

@@ -1,7 +1,7 @@
 // A root layer with its sublayers.
 #pragma once
 
-#include "io/usd/layer/UsdLayer.h"
+#include "io/usd/layer/UsdAssets.h"
 
 #include <filesystem>
 #include <memory>
@@ -19,11 +19,13 @@ struct UsdStackedLayer {
 /// offsets and the ratio of timeCodesPerSecond. A sublayer that is missing, unreadable or part of a
 /// cycle is warned of and left out, as OpenUSD does; only the root layer's own faults are thrown.
 /// Asset paths are relative to the layer that has them.
+/// \param assets finds and reads them
 /// \param unread if not null: takes the files that are there but were left out, since they could
 ///               not be read or understood
 std::vector<UsdStackedLayer>
-readUsdLayerStack(const std::filesystem::path& root, const UsdLayerLimits& limits,
-                  Diagnostics& diagnostics, std::vector<std::filesystem::path>* unread = nullptr);
+readUsdLayerStack(const std::filesystem::path& root, const UsdAssets& assets,
+                  const UsdLayerLimits& limits, Diagnostics& diagnostics,
+                  std::vector<std::filesystem::path>* unread = nullptr);
 
 /// The layer's timeCodesPerSecond, else its framesPerSecond, else 24.
 double timeCodesPerSecond(const UsdLayer& layer);

@@ -58,10 +58,17 @@ constexpr std::array kKnownKeys{
     KnownKey{"upAxis", {token}},
 };
 
+// A group in braces under an unknown key is a dictionary, if it reads as one.
 UsdValue parseKnownOrRaw(UsdScanner& in, std::string_view key) {
-    const auto* known = std::find_if(kKnownKeys.begin(), kKnownKeys.end(),
-                                     [&](const KnownKey& k) { return k.name == key; });
-    return parseUsdValue(in, known == kKnownKeys.end() ? UsdType{} : known->type);
+    const UsdType type = usdMetadataType(key);
+    if (type.kind != unknown || in.peek() != '{') return parseUsdValue(in, type);
+    const char* begin = in.cursor();
+    try {
+        return parseUsdValue(in, {dictionary});
+    } catch (const SceneFileError&) {
+        in.moveTo(begin);
+        return parseUsdValue(in, {});
+    }
 }
 
 void store(UsdScanner& in, UsdDictionary& metadata, std::string key, UsdValue value) {
@@ -144,15 +151,43 @@ UsdSubLayer parseSubLayer(UsdScanner& in) {
     return layer;
 }
 
-// `<path>` of a prim, absolute as written.
-std::string parseArcPath(UsdScanner& in) {
+// `<path>` of a prim: absolute as written, or relative to the prim `owner`, if there is one.
+std::string parseArcPath(UsdScanner& in, const std::string& owner = {}) {
     const char* where = in.cursor();
     if (in.peek() != '<') in.fail("expected a <path>, found " + in.found());
     const std::string_view text = in.path();
-    const auto path = absoluteUsdPath(text, "/");
-    if (!path || text.front() != '/' || isUsdPropertyPath(*path))
-        in.failAt(where, "expected the absolute path of a prim");
+    const auto path = absoluteUsdPath(text, owner.empty() ? "/" : owner);
+    const bool absolute = text.starts_with('/') || !owner.empty();
+    if (!path || !absolute || isUsdPropertyPath(*path))
+        in.failAt(where, owner.empty() ? "expected the absolute path of a prim"
+                                       : "expected the path of a prim");
     return *path;
+}
+
+// `{ </source>: </target>, ... }`; a target may be empty.
+std::vector<UsdRelocate> parseRelocates(UsdScanner& in) {
+    std::vector<UsdRelocate> relocates;
+    in.expect('{', "to begin relocates");
+    in.skipSpace();
+    bool separated = true;
+    while (!in.take('}')) {
+        if (!separated) in.fail("expected ',' or '}', found " + in.found());
+        UsdRelocate& one = relocates.emplace_back();
+        one.where = in.position(in.cursor());
+        one.source = parseArcPath(in);
+        in.skipBlanks();
+        in.expect(':', "after the source of a relocate");
+        in.skipBlanks();
+        const bool none = in.peek() == '<' && in.cursor()[1] == '>';
+        if (none)
+            in.path();
+        else
+            one.target = parseArcPath(in);
+        in.skipBlanks();
+        separated = in.take(',');
+        in.skipSpace();
+    }
+    return relocates;
 }
 
 UsdReference parseReference(UsdScanner& in) {
@@ -165,8 +200,8 @@ UsdReference parseReference(UsdScanner& in) {
         in.fail("expected an @asset path@ or a <path>, found " + in.found());
     }
     if (in.peek() == '<') {
-        const bool none = in.cursor()[1] == '>'; // @asset@<> means the same as @asset@
-        if (none && !reference.asset.empty())
+        const bool none = in.cursor()[1] == '>'; // the layer's defaultPrim
+        if (none)
             in.path();
         else
             reference.path = parseArcPath(in);
@@ -187,9 +222,10 @@ std::vector<std::string> parseSchemas(UsdScanner& in) {
     return parseUsdItems<std::string>(in, [&] { return parseQuoted(in); });
 }
 
-bool parseArc(UsdScanner& in, UsdPrimSpec& prim, UsdListOp op, const std::string& key) {
+bool parseArc(UsdScanner& in, UsdPrimSpec& prim, const std::string& owner, UsdListOp op,
+              const std::string& key) {
     const auto paths = [&] {
-        return parseUsdItems<std::string>(in, [&] { return parseArcPath(in); });
+        return parseUsdItems<std::string>(in, [&] { return parseArcPath(in, owner); });
     };
     const auto references = [&] {
         return parseUsdItems<UsdReference>(in, [&] { return parseReference(in); });
@@ -227,6 +263,10 @@ void parseLayerMetadata(UsdScanner& scanner, UsdLayer& layer) {
             store(scanner, layer.metadata, key, {{float64}, std::vector<double>{rate}});
             return true;
         }
+        if (key == "relocates" && op == UsdListOp::explicitly) {
+            layer.relocates = parseRelocates(scanner);
+            return true;
+        }
         if (key != "subLayers" || op != UsdListOp::explicitly) return false;
         layer.subLayers =
             parseUsdItems<UsdSubLayer>(scanner, [&] { return parseSubLayer(scanner); });
@@ -234,14 +274,20 @@ void parseLayerMetadata(UsdScanner& scanner, UsdLayer& layer) {
     });
 }
 
-void parsePrimMetadata(UsdScanner& scanner, UsdPrimSpec& prim) {
+void parsePrimMetadata(UsdScanner& scanner, UsdPrimSpec& prim, const std::string& path) {
     parseBlock(scanner, prim.metadata, [&](UsdListOp op, const std::string& key) {
-        return parseArc(scanner, prim, op, key);
+        return parseArc(scanner, prim, path, op, key);
     });
 }
 
 void parsePropertyMetadata(UsdScanner& scanner, UsdDictionary& metadata) {
     parseBlock(scanner, metadata, [](UsdListOp, const std::string&) { return false; });
+}
+
+UsdType usdMetadataType(std::string_view key) {
+    const auto* known = std::find_if(kKnownKeys.begin(), kKnownKeys.end(),
+                                     [&](const KnownKey& k) { return k.name == key; });
+    return known == kKnownKeys.end() ? UsdType{} : known->type;
 }
 
 std::optional<UsdListOp> usdListOpNamed(std::string_view word) {

@@ -10,8 +10,12 @@ namespace penumbra {
 /// Each reads a whole block; the cursor stands at its '('. Keys that OpenUSD knows are checked for
 /// their type; others are kept as text. A bare string is stored under `comment`.
 void parseLayerMetadata(UsdScanner& scanner, UsdLayer& layer);
-void parsePrimMetadata(UsdScanner& scanner, UsdPrimSpec& prim);
+/// \param path of the prim: inherits and specializes may be relative to it
+void parsePrimMetadata(UsdScanner& scanner, UsdPrimSpec& prim, const std::string& path);
 void parsePropertyMetadata(UsdScanner& scanner, UsdDictionary& metadata);
+
+/// The type that OpenUSD prescribes for a key of metadata; kind unknown if it prescribes none.
+UsdType usdMetadataType(std::string_view key);
 
 /// `prepend`, `add`, ... as list operation; nothing for any other word.
 std::optional<UsdListOp> usdListOpNamed(std::string_view word);

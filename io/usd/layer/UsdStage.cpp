@@ -28,16 +28,18 @@ const UsdValue* strongestMetadata(const std::vector<UsdOpinion>& opinions, std::
 
 } // namespace
 
-UsdStage UsdStage::open(const std::filesystem::path& root, const UsdLayerLimits& limits) {
+UsdStage UsdStage::open(const std::filesystem::path& root, const UsdLayerLimits& limits,
+                        const UsdAssets& assets) {
     UsdStage stage;
-    stage.layers_ = readUsdLayerStack(root, limits, stage.diagnostics_, &stage.unread_);
+    stage.layers_ = readUsdLayerStack(root, assets, limits, stage.diagnostics_, &stage.unread_);
+    for (const UsdStackedLayer& stacked : stage.layers_)
+        stage.files_.emplace_back(assets.fileOf(stacked.layer->file));
     stage.compose();
     return stage;
 }
 
 std::vector<std::filesystem::path> UsdStage::files() const {
-    std::vector<std::filesystem::path> files;
-    for (const UsdStackedLayer& stacked : layers_) files.emplace_back(stacked.layer->file);
+    std::vector<std::filesystem::path> files = files_;
     files.insert(files.end(), unread_.begin(), unread_.end());
     return files;
 }

@@ -60,13 +60,16 @@ private:
 class UsdStage {
 public:
     /// Throws SceneFileError for faults of the root layer; sublayers' faults are warned of.
-    static UsdStage open(const std::filesystem::path& root, const UsdLayerLimits& limits = {});
+    /// \param assets finds and reads layers; needed here only
+    static UsdStage open(const std::filesystem::path& root, const UsdLayerLimits& limits = {},
+                         const UsdAssets& assets = UsdAssets());
 
     /// All prims; [0] is the root "/". A parent comes before its children.
     const std::vector<UsdPrim>& prims() const { return prims_; }
     const UsdPrim* find(std::string_view path) const;
     const UsdLayer& rootLayer() const { return *layers_.front().layer; }
-    /// The files of all layers, the root layer's first; then those that could not be understood.
+    /// The files of all layers, the root layer's first; then those that could not be understood. A
+    /// package may be there several times.
     std::vector<std::filesystem::path> files() const;
     Diagnostics& diagnostics() { return diagnostics_; }
 
@@ -98,6 +101,7 @@ private:
     void warnOfArcs(const UsdOpinion& opinion);
 
     std::vector<UsdStackedLayer> layers_;
+    std::vector<std::filesystem::path> files_;
     std::vector<std::filesystem::path> unread_; ///< sublayers that are there but were left out
     std::vector<UsdPrim> prims_;
     std::unordered_map<std::string, std::uint32_t> indexOf_;

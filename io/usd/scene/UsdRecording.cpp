@@ -1,7 +1,7 @@
 #include "io/usd/scene/UsdRecording.h"
 
 #include "io/image/AtomicFile.h"
-#include "io/usd/layer/UsdLayerText.h"
+#include "io/usd/text/UsdLayerText.h"
 
 #include <glm/gtc/quaternion.hpp>
 

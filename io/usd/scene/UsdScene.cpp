@@ -1,5 +1,6 @@
 #include "io/usd/scene/UsdScene.h"
 
+#include "io/usd/crate/UsdFiles.h"
 #include "io/usd/layer/UsdStage.h"
 #include "io/usd/scene/UsdCamera.h"
 #include "io/usd/scene/UsdGprims.h"
@@ -321,8 +322,9 @@ LightRequest askedByDefaultPrim(const UsdStage& stage, double unit, Diagnostics&
 } // namespace
 
 LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& options) {
-    const auto stage =
-        std::make_shared<UsdStage>(UsdStage::open(file, {.fileBytes = options.maxFileBytes}));
+    const UsdFiles files(options.maxFileBytes);
+    const auto stage = std::make_shared<UsdStage>(
+        UsdStage::open(file, {.fileBytes = options.maxFileBytes}, files));
     LoadedScene loaded;
     loaded.scene = std::make_shared<Scene>();
     Scene& scene = *loaded.scene;

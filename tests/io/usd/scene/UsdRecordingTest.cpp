@@ -1,7 +1,7 @@
 // A session as a layer, and back.
 #include "io/usd/scene/UsdRecording.h"
 
-#include "io/usd/layer/UsdLayerText.h"
+#include "io/usd/text/UsdLayerText.h"
 #include "scenegraph/Mesh.h"
 #include "scenegraph/Objects.h"
 #include "tests/support/TemporaryFolder.h"

@@ -1,4 +1,4 @@
-#include "io/usd/layer/UsdLayerText.h"
+#include "io/usd/text/UsdLayerText.h"
 
 #include <algorithm>
 #include <cassert>
