@@ -12,6 +12,7 @@
 #include "scenegraph/Mesh.h"
 #include "scenegraph/Objects.h"
 #include "tools/Commands.h"
+#include "tools/CompositionJson.h"
 #include "tools/OutputFiles.h"
 #include "tools/SceneSolution.h"
 
@@ -32,9 +33,10 @@ namespace {
 constexpr float kReach = 0.1f;
 
 struct InfoCommand {
-    SolveSettings solve; ///< most of it counts with --at only
-    std::string at;      ///< as it was given; empty: about the scene
-    std::string text;    ///< where to write the file's own layer as text; empty: nowhere
+    SolveSettings solve;     ///< most of it counts with --at only
+    std::string at;          ///< as it was given; empty: about the scene
+    std::string text;        ///< where to write the file's own layer as text; empty: nowhere
+    std::string composition; ///< where to write what it is composed of
 };
 
 /// Reads "x,y,z" [m].
@@ -224,9 +226,24 @@ void writeText(const SolveSettings& settings, const std::string& output) {
     reportDiagnostics(layer.diagnostics, settings.verbose);
 }
 
+/// Writes what the scene is composed of.
+void writeComposition(const SolveSettings& settings, const std::string& output) {
+    const CompositionJson json = compositionJson(settings.scene);
+    checkOutputs(json.files, {output});
+    if (output == "-")
+        fmt::print("{}", json.text);
+    else
+        writeFileAtomically(output, json.text);
+    finishStandardOutput();
+    reportDiagnostics(json.diagnostics, settings.verbose);
+    if (!json.fault.empty()) throw Error(json.fault);
+}
+
 void run(const InfoCommand& command) {
     if (!command.text.empty())
         writeText(command.solve, command.text);
+    else if (!command.composition.empty())
+        writeComposition(command.solve, command.composition);
     else if (command.at.empty())
         describeScene(command.solve);
     else
@@ -256,11 +273,18 @@ void addInfoCommand(CLI::App& app) {
                                  : fmt::format("'{}' is not x,y,z: three numbers, in metres", text);
         },
         ""));
-    info->add_option("--text", command->text,
-                     "FILE.usda: write the scene's file as USD text, whatever its kind (binary,\n"
-                     "package), and nothing else; - for standard output. One layer is written,\n"
-                     "without those it refers to")
-        ->excludes(at);
+    CLI::Option* const text = info->add_option(
+        "--text", command->text,
+        "FILE.usda: write the scene's file as USD text, whatever its kind (binary,\n"
+        "package), and nothing else; - for standard output. One layer is written,\n"
+        "without those it refers to");
+    text->excludes(at);
+    info->add_option("--composition", command->composition,
+                     "write what each prim is composed of (layers, arcs, selections, targets) to\n"
+                     "this file, as JSON; - is standard output")
+        ->type_name("OUT.json")
+        ->excludes(at)
+        ->excludes(text);
     for (const char* name : {"--patch-size", "--element-size", "--samples", "--residual",
                              "--direct-only", "--threads", "--progress", "--quiet"})
         info->get_option(name)->needs(at);

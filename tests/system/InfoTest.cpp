@@ -1,4 +1,4 @@
-// penumbra info --at: why it is as bright or dark as it is at a point.
+// penumbra info --at: why it is as bright or dark as it is at a point; --composition.
 #include "Program.h"
 
 #include <gmock/gmock.h>
@@ -101,6 +101,47 @@ TEST_F(InfoAt, AWrongPointIsAWrongCommandLine) {
         EXPECT_THAT(info.err, HasSubstr("three numbers")) << point;
         EXPECT_THAT(info.out, IsEmpty()) << point;
     }
+}
+
+TEST(InfoComposition, SaysWhatEachPrimIsComposedOf) {
+    const Workplace here;
+    here.write("chair.usda", "#usda 1.0\ndef \"C\"\n{\n    def \"Seat\"\n    {\n    }\n}\n");
+    const std::string scene = here.write("scene.usda", R"(#usda 1.0
+def "a" (
+    references = [@chair.usda@</C>, @none.usda@]
+)
+{
+}
+)");
+    const Outcome info =
+        runPenumbra({"info", scene, "--composition", here.path("out.json"), "--verbose"});
+    EXPECT_EQ(info.exitCode, 0) << info.err;
+    EXPECT_THAT(info.out, IsEmpty());
+    EXPECT_THAT(info.err, HasSubstr("scene.usda:3:37"));
+    const std::string json = readFile(here.path("out.json"));
+    for (const char* part :
+         {R"("Entry": "scene.usda")", R"("/a/Seat")", R"("chair.usda": "/C/Seat")",
+          R"("Full Prim Stack")", "Errors while composing </a>"})
+        EXPECT_THAT(json, HasSubstr(part));
+}
+
+TEST(InfoComposition, OverwritesNoLayer) {
+    const Workplace here;
+    const std::string chair = here.write("chair.usda", "#usda 1.0\ndef \"C\"\n{\n}\n");
+    const std::string scene =
+        here.write("scene.usda", "#usda 1.0\ndef \"a\" (references = @chair.usda@</C>)\n{\n}\n");
+    const Outcome info = runPenumbra({"info", scene, "--composition", chair});
+    EXPECT_EQ(info.exitCode, 2);
+    EXPECT_THAT(info.err, HasSubstr("which is read"));
+    EXPECT_THAT(readFile(chair), HasSubstr("#usda"));
+}
+
+TEST(InfoComposition, ARefusedLayerIsWrittenDownAndAFault) {
+    const Workplace here;
+    const std::string scene = here.write("scene.usda", "#usda 1.0\ndef a");
+    const Outcome info = runPenumbra({"info", scene, "--composition", here.path("out.json")});
+    EXPECT_EQ(info.exitCode, 1);
+    EXPECT_THAT(readFile(here.path("out.json")), HasSubstr("Errors"));
 }
 
 TEST_F(InfoAt, MeshingIsOnlyAskedForWithAPoint) {

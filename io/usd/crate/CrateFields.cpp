@@ -38,7 +38,8 @@ CrateFieldName crateFieldNamed(std::string_view name) {
         {"variantSetChildren", variantSetChildren},
         {"variantSetNames", variantSetNames},
     };
-    const auto found = kNames.find(name);
+    constexpr std::size_t kLongest = 32; // a name of a megabyte is not worth hashing
+    const auto found = name.size() > kLongest ? kNames.end() : kNames.find(name);
     return found == kNames.end() ? metadata : found->second;
 }
 

@@ -46,7 +46,8 @@ struct CrateFile {
     /// Empty for the empty path.
     std::string path(std::uint32_t index, std::uint64_t byte) {
         if (index >= tables.paths.size()) throw CrateFault(byte, "a path that is not there");
-        budget.spend(CrateBudget::kText + tables.paths[index].depth, byte);
+        const CratePaths::Node& node = tables.paths[index];
+        budget.spend(CrateBudget::kText + node.depth + node.length / 16, byte);
         return tables.paths.text(index, tables.tokens);
     }
 };

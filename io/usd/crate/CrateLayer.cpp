@@ -5,6 +5,7 @@
 #include "io/usd/crate/CrateSpecFields.h"
 #include "io/usd/crate/CrateSpecs.h"
 #include "io/usd/crate/CrateValues.h"
+#include "io/usd/layer/UsdText.h"
 
 #include <algorithm>
 
@@ -61,7 +62,7 @@ private:
 
 void LayerBuilder::warnOfField(std::uint32_t path, std::string_view field, const std::string& why) {
     const std::string where = file_.tables.paths.text(path, file_.tables.tokens);
-    warnings_.warn("'" + std::string(field) + "' of <" + where + "> left out: " + why);
+    warnings_.warn("'" + printable(field) + "' of <" + where + "> left out: " + why);
 }
 
 // Calls `read(name, rep)` for each field; one that can't be read is left out.
@@ -127,7 +128,7 @@ void LayerBuilder::addPrims(const std::vector<std::uint32_t>& names, std::uint32
         const CratePaths::Node& node = file_.tables.paths[paths[i]];
         if (node.depth > limits_.primDepth) throw CrateRefused(0, "prims nested too deeply");
         prims[i].specifier = UsdSpecifier::over;
-        prims[i].name = file_.tables.tokens[node.token];
+        prims[i].name = file_.copied(file_.tables.tokens[node.token], 0);
         open_.push_back({&prims[i], paths[i]});
     }
 }
@@ -139,7 +140,7 @@ void LayerBuilder::addProperties(const std::vector<std::uint32_t>& names, const 
     properties.reserve(paths.size());
     for (const std::uint32_t path : paths) {
         UsdProperty& property = properties.emplace_back();
-        property.name = file_.tables.tokens[file_.tables.paths[path].token];
+        property.name = file_.copied(file_.tables.tokens[file_.tables.paths[path].token], 0);
         const auto faults = [&](std::string_view field, const std::string& why) {
             warnOfField(path, field, why);
         };
@@ -178,7 +179,7 @@ void LayerBuilder::addVariants(std::uint32_t set, const Open& open, UsdVariantSe
         if (path == kNone) continue;
         UsdPrimSpec& spec = variantSet.variants.emplace_back();
         spec.specifier = UsdSpecifier::over;
-        spec.name = choice;
+        spec.name = file_.copied(choice, 0);
         open_.push_back({&spec, path});
     }
 }

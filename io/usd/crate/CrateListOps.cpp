@@ -4,6 +4,7 @@
 #include "io/usd/layer/UsdNumber.h"
 #include "io/usd/text/UsdValueText.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -165,9 +166,13 @@ UsdListEdits<std::string> crateWrittenEdits(CrateFile& file, CrateRep rep) {
         break;
     }
     UsdListEdits<std::string> edits = crateTextEdits(file, rep);
-    for (auto& edit : edits)
-        for (std::string& item : edit.items)
-            item = rep.type() == CrateType::pathListOp ? "<" + item + ">" : usdLiteral(item);
+    const auto write = [&](std::string& item) {
+        if (rep.type() == CrateType::pathListOp)
+            item.insert(0, "<").push_back('>');
+        else
+            item = usdLiteral(item);
+    };
+    for (auto& edit : edits) std::for_each(edit.items.begin(), edit.items.end(), write);
     return edits;
 }
 

@@ -9,6 +9,7 @@
 #include "io/usd/layer/UsdScanner.h"
 #include "io/usd/text/UsdTextOutput.h"
 
+#include <cmath>
 #include <limits>
 
 namespace penumbra {
@@ -28,8 +29,8 @@ template <class T>
 UsdValue::Storage integers(const std::vector<double>& numbers) {
     std::vector<T> converted;
     for (const double number : numbers) {
-        constexpr double kEnd = 2.0 * double(std::numeric_limits<T>::max() / 2 + 1);
-        const bool fits = number >= double(std::numeric_limits<T>::lowest()) && number < kEnd;
+        const double end = std::ldexp(1.0, std::numeric_limits<T>::digits); // too large, exactly
+        const bool fits = number >= double(std::numeric_limits<T>::lowest()) && number < end;
         converted.push_back(fits ? T(number) : T(0));
     }
     return converted;
@@ -148,8 +149,10 @@ UsdValue crateNameOrder(CrateFile& file, CrateRep rep) {
 
 void addCrateMetadata(CrateFile& file, std::string_view field, CrateRep rep,
                       UsdDictionary& metadata) {
-    const std::string key(usdMetadataKey(field));
-    if (!isUsdIdentifier(key)) throw CrateFault(rep.payload(), "metadata of an impossible name");
+    constexpr std::size_t kLongest = 1024;
+    const std::string key(usdMetadataKey(field.substr(0, kLongest)));
+    if (field.size() > kLongest || !isUsdIdentifier(key))
+        throw CrateFault(rep.payload(), "metadata of an impossible name");
     if (metadata.size() >= kMaxEntries)
         throw CrateFault(rep.payload(), "more than 256 entries of metadata");
     const bool unregistered = rep.type() == CrateType::unregistered;

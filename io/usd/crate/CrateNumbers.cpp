@@ -64,8 +64,10 @@ private:
         }
         std::vector<Kept> numbers(type_.components());
         const std::size_t step = type_.rows > 1 ? type_.columns + 1u : 1u;
-        for (std::size_t i = 0; i < type_.columns; ++i)
-            numbers[i * step] = Kept(std::int8_t(low >> (8 * i)));
+        for (std::size_t i = 0; i < type_.columns; ++i) {
+            const int byte = int(low >> (8 * i) & 0xff);
+            numbers[i * step] = Kept(byte < 128 ? byte : byte - 256);
+        }
         return numbers;
     }
 

@@ -9,12 +9,44 @@ namespace penumbra {
 
 using Kind = CratePaths::Kind;
 
+/// What an element may be by its name. Each token is examined once: it may be long, and be named
+/// by as many paths as the file likes.
+class ElementNames {
+public:
+    explicit ElementNames(std::span<const std::string_view> tokens)
+        : tokens_(tokens), known_(tokens.size(), 0) {}
+
+    bool isPrim(std::uint32_t token) { return of(token) & kPrim; }
+    bool isProperty(std::uint32_t token) { return of(token) & kProperty; }
+    bool isVariant(std::uint32_t token) { return of(token) & kVariant; }
+    bool isTarget(std::uint32_t token) { return of(token) & kTarget; }
+
+private:
+    enum : std::uint8_t { kExamined = 1, kPrim = 2, kProperty = 4, kVariant = 8, kTarget = 16 };
+
+    std::uint8_t of(std::uint32_t token) {
+        std::uint8_t& known = known_[token];
+        if (known) return known;
+        const std::string_view text = tokens_[token];
+        known = kExamined;
+        if (isUsdIdentifier(text)) known |= kPrim;
+        if (isUsdPropertyName(text)) known |= kProperty;
+        if (text.starts_with('[') && text.ends_with(']')) known |= kTarget;
+        if (text.starts_with('{') && text.ends_with('}') && text.find('=') != text.npos)
+            known |= kVariant;
+        return known;
+    }
+
+    std::span<const std::string_view> tokens_;
+    std::vector<std::uint8_t> known_;
+};
+
 /// Builds the table, element by element, in the order of the tree.
 class CratePathReader {
 public:
     CratePathReader(std::uint64_t tableSize, std::span<const std::string_view> tokens,
                     std::uint64_t byte)
-        : tokens_(tokens), byte_(byte) {
+        : tokens_(tokens), names_(tokens), byte_(byte) {
         paths_.nodes_.resize(tableSize);
     }
 
@@ -28,29 +60,28 @@ public:
 private:
     [[noreturn]] void fail(const char* text) const { throw CrateFault(byte_, text); }
     void add(std::uint32_t index, std::uint32_t parent, std::uint32_t token, bool property);
-    Kind kindOf(std::uint32_t parent, std::uint32_t token, bool property) const;
+    Kind kindOf(std::uint32_t parent, std::uint32_t token, bool property);
 
     CratePaths paths_;
     std::span<const std::string_view> tokens_;
+    ElementNames names_;
     std::uint64_t byte_;
 };
 
 // Mappers and expressions of old files lie below a property: nothing of ours reads them.
-Kind CratePathReader::kindOf(std::uint32_t parent, std::uint32_t token, bool property) const {
-    const std::string_view text = tokens_[token];
+Kind CratePathReader::kindOf(std::uint32_t parent, std::uint32_t token, bool property) {
     const Kind above = paths_.nodes_[parent].kind;
     const bool aboveIsPrim = above == Kind::prim || above == Kind::variant;
-    if (above == Kind::invalid) return Kind::invalid;
+    const std::size_t length = paths_.nodes_[parent].length + tokens_[token].size() + 1;
+    if (above == Kind::invalid || length > CratePaths::kMaxLength) return Kind::invalid;
     if (property) { // of a prim, or of a relationship's target
-        const bool good = (aboveIsPrim || above == Kind::target) && isUsdPropertyName(text);
+        const bool good = (aboveIsPrim || above == Kind::target) && names_.isProperty(token);
         return good ? Kind::property : Kind::invalid;
     }
     if (above == Kind::property || above == Kind::target)
-        return text.starts_with('[') && text.ends_with(']') ? Kind::target : Kind::invalid;
-    if (aboveIsPrim && text.starts_with('{') && text.ends_with('}') &&
-        text.find('=') != std::string_view::npos)
-        return Kind::variant;
-    return isUsdIdentifier(text) ? Kind::prim : Kind::invalid;
+        return names_.isTarget(token) ? Kind::target : Kind::invalid;
+    if (aboveIsPrim && names_.isVariant(token)) return Kind::variant;
+    return names_.isPrim(token) ? Kind::prim : Kind::invalid;
 }
 
 void CratePathReader::add(std::uint32_t index, std::uint32_t parent, std::uint32_t token,
@@ -66,7 +97,9 @@ void CratePathReader::add(std::uint32_t index, std::uint32_t parent, std::uint32
     if (token >= tokens_.size()) fail("a path's element is no token");
     const std::uint32_t depth = paths_.nodes_[parent].depth + 1u;
     if (depth > CratePaths::kMaxDepth) fail("paths are nested too deeply");
-    node = {parent, token, std::uint16_t(depth), kindOf(parent, token, property)};
+    const std::size_t length = paths_.nodes_[parent].length + tokens_[token].size() + 1;
+    node = {parent, token, std::uint32_t(std::min<std::size_t>(length, CratePaths::kMaxLength)),
+            std::uint16_t(depth), kindOf(parent, token, property)};
 }
 
 // Three lists: index in the table, element (negative: of a property), and where to go on: -2 leaf,

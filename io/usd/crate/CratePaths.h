@@ -24,10 +24,12 @@ public:
     enum class Kind : std::uint8_t { empty, root, prim, property, variant, target, invalid };
     static constexpr std::uint32_t kNone = 0xffff'ffff;
     static constexpr std::uint32_t kMaxDepth = 1024;
+    static constexpr std::uint32_t kMaxLength = 0xffff; ///< of the text; longer ones are invalid
 
     struct Node {
         std::uint32_t parent = kNone;
-        std::uint32_t token = 0; ///< of the element: `name`, `{set=choice}`, `[target]`
+        std::uint32_t token = 0;  ///< of the element: `name`, `{set=choice}`, `[target]`
+        std::uint32_t length = 0; ///< at most so many characters of text
         std::uint16_t depth = 0;
         Kind kind = Kind::empty; ///< entries that nothing fills stay the empty path
     };

@@ -24,7 +24,8 @@ std::string typeName(CrateFile& file, CrateRep rep) {
     if (rep.type() != CrateType::token || rep.array())
         throw CrateFault(rep.payload(), "a type's name is no token");
     const std::string_view name = file.token(rep.low(), rep.payload());
-    if (!isTypeName(name)) throw CrateFault(rep.payload(), "an impossible name of a type");
+    if (name.size() > 1024 || !isTypeName(name))
+        throw CrateFault(rep.payload(), "an impossible name of a type");
     return file.copied(name, rep.payload());
 }
 

@@ -1,5 +1,7 @@
 #include "io/usd/crate/CrateSpecs.h"
 
+#include "io/usd/layer/UsdText.h"
+
 #include <unordered_set>
 
 namespace penumbra {
@@ -36,7 +38,7 @@ bool CrateSpecs::is(std::uint32_t path, CrateForm form) const {
 }
 
 void CrateSpecs::missing(std::string_view name, std::uint32_t parent) {
-    warnings_.warn("'" + std::string(name) + "' of <" +
+    warnings_.warn("'" + printable(name) + "' of <" +
                    file_.tables.paths.text(parent, file_.tables.tokens) +
                    "> left out: it is not there, or listed twice");
 }
@@ -74,6 +76,10 @@ std::vector<std::uint32_t> CrateSpecs::properties(const std::vector<std::uint32_
 
 std::uint32_t CrateSpecs::variant(std::uint32_t parent, std::string_view set,
                                   std::string_view choice) {
+    if (set.size() + choice.size() > CratePaths::kMaxLength) {
+        missing(choice, parent);
+        return kNone;
+    }
     std::string element = "{";
     element.append(set).append("=").append(choice).append("}");
     const auto token = variantTokens_.find(element);

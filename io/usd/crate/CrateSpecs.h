@@ -18,12 +18,14 @@ public:
     explicit CrateWarnings(std::string file) : file_(std::move(file)) {}
     void warn(const std::string& text) {
         if (++count_ > kMost) throw CrateRefused(0, "more than 10000 faults");
-        diagnostics_.warn({file_, 0, 0}, text);
+        const bool tooLong = text.size() > kLongest;
+        diagnostics_.warn({file_, 0, 0}, tooLong ? text.substr(0, kLongest) + "..." : text);
     }
     std::vector<Diagnostic> take() { return diagnostics_.take(); }
 
 private:
     static constexpr std::size_t kMost = 10'000;
+    static constexpr std::size_t kLongest = 1000; // of one text
     std::string file_;
     Diagnostics diagnostics_;
     std::size_t count_ = 0;

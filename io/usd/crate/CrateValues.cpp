@@ -185,10 +185,11 @@ UsdDictionary crateVariantSelections(CrateFile& file, CrateRep rep) {
     for (std::uint64_t i = 0; i < count; ++i) {
         const std::string_view set = file.string(in.take<std::uint32_t>(), in.at());
         const std::string_view choice = file.string(in.take<std::uint32_t>(), in.at());
+        std::string name = file.copied(set, in.at()); // first: it bounds the time
         if (set.empty() || !sets.insert(set).second) continue;
         UsdValue value{usdTypeNamed("string"),
                        std::vector<std::string>{file.copied(choice, in.at())}};
-        selections.push_back({file.copied(set, in.at()), "string", std::move(value)});
+        selections.push_back({std::move(name), "string", std::move(value)});
     }
     return selections;
 }

@@ -1,8 +1,8 @@
 // UsdGeomCamera.
 #pragma once
 
-#include "io/usd/layer/UsdAttributes.h"
 #include "io/usd/layer/UsdDiagnostic.h"
+#include "io/usd/stage/UsdAttributes.h"
 #include "scenegraph/Camera.h"
 
 namespace penumbra {

@@ -1,7 +1,7 @@
 // Value resolution at a time: the strongest layer that has samples or a default decides.
 #include "io/usd/scene/UsdInterpolation.h"
 
-#include "io/usd/layer/UsdStage.h"
+#include "io/usd/stage/UsdStage.h"
 
 #include <algorithm>
 #include <cmath>

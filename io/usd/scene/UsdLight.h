@@ -2,8 +2,8 @@
 #pragma once
 
 #include "base/Rgb.h"
-#include "io/usd/layer/UsdAttributes.h"
 #include "io/usd/layer/UsdDiagnostic.h"
+#include "io/usd/stage/UsdAttributes.h"
 #include "scenegraph/Node.h"
 
 #include <glm/glm.hpp>

@@ -1,8 +1,8 @@
 // UsdShade: the constants of a material, as far as a Lambertian surface has them.
 #pragma once
 
-#include "io/usd/layer/UsdAttributes.h"
 #include "io/usd/layer/UsdDiagnostic.h"
+#include "io/usd/stage/UsdAttributes.h"
 #include "scenegraph/Material.h"
 
 #include <memory>

@@ -1,8 +1,8 @@
 // The faces of a UsdGeomMesh, checked one by one.
 #pragma once
 
-#include "io/usd/layer/UsdAttributes.h"
 #include "io/usd/layer/UsdDiagnostic.h"
+#include "io/usd/stage/UsdAttributes.h"
 #include "scenegraph/Mesh.h"
 
 #include <cstdint>

@@ -1,7 +1,6 @@
 #include "io/usd/scene/UsdScene.h"
 
 #include "io/usd/crate/UsdFiles.h"
-#include "io/usd/layer/UsdStage.h"
 #include "io/usd/scene/UsdCamera.h"
 #include "io/usd/scene/UsdGprims.h"
 #include "io/usd/scene/UsdLight.h"
@@ -9,6 +8,7 @@
 #include "io/usd/scene/UsdMesh.h"
 #include "io/usd/scene/UsdTracks.h"
 #include "io/usd/scene/UsdXform.h"
+#include "io/usd/stage/UsdStage.h"
 #include "scenegraph/Camera.h"
 #include "scenegraph/Mesh.h"
 #include "scenegraph/Transform.h"
@@ -322,9 +322,10 @@ LightRequest askedByDefaultPrim(const UsdStage& stage, double unit, Diagnostics&
 } // namespace
 
 LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& options) {
+    UsdComposeLimits limits;
+    limits.layer.fileBytes = options.maxFileBytes;
     const UsdFiles files(options.maxFileBytes);
-    const auto stage = std::make_shared<UsdStage>(
-        UsdStage::open(file, {.fileBytes = options.maxFileBytes}, files));
+    const auto stage = std::make_shared<UsdStage>(UsdStage::open(file, limits, files));
     LoadedScene loaded;
     loaded.scene = std::make_shared<Scene>();
     Scene& scene = *loaded.scene;

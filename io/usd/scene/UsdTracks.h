@@ -1,10 +1,10 @@
 // The nodes of a loaded scene whose prims have time samples.
 #pragma once
 
-#include "io/usd/layer/UsdAttributes.h"
-#include "io/usd/layer/UsdStage.h"
 #include "io/usd/scene/UsdAnimation.h"
 #include "io/usd/scene/UsdMaterial.h"
+#include "io/usd/stage/UsdAttributes.h"
+#include "io/usd/stage/UsdStage.h"
 #include "scenegraph/Camera.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Transform.h"

@@ -1,8 +1,8 @@
 // UsdGeomXformable: the transform of a prim in its parent.
 #pragma once
 
-#include "io/usd/layer/UsdAttributes.h"
 #include "io/usd/layer/UsdDiagnostic.h"
+#include "io/usd/stage/UsdAttributes.h"
 
 #include <glm/glm.hpp>
 

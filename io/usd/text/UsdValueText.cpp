@@ -87,16 +87,14 @@ void appendEscaped(std::string& out, char c, bool lines) {
     if (c == '"' || c == '\\') {
         out += '\\';
         out += c;
-    } else if (c == '\n' && lines) {
+    } else if ((c == '\n' && lines) || (byte >= 0x20 && byte != 0x7f)) {
         out += c;
     } else if (c == '\n' || c == '\t' || c == '\r') {
         out += c == '\n' ? "\\n" : c == '\t' ? "\\t" : "\\r";
-    } else if (byte < 0x20 || byte == 0x7f) {
+    } else {
         out += "\\x";
         out += kHex[byte >> 4];
         out += kHex[byte & 15];
-    } else {
-        out += c;
     }
 }
 

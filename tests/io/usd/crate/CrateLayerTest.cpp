@@ -7,6 +7,8 @@
 
 #include <gmock/gmock.h>
 
+#include <chrono>
+
 namespace penumbra {
 namespace {
 
@@ -142,6 +144,30 @@ TEST(CrateLayer, PrimsWithImpossibleNamesAreLeftOut) {
     out.spec(0, 7, {{"primChildren", out.tokens({"..", "a/b", "", "{x", "a b"})}});
     const UsdLayer layer = layerOf(out.bytes());
     EXPECT_TRUE(layer.prims.empty());
+    EXPECT_FALSE(layer.diagnostics.empty());
+}
+
+// One name of a megabyte, named by many: in a list of children, by fields, in paths. Copying or
+// hashing it each time would take a minute.
+TEST(CrateLayer, LongNamesCostNoMoreThanTheirLength) {
+    CrateWriter out;
+    const std::string name(1'000'000, 'n');
+    const std::uint32_t a = out.path(0, "A"), token = out.token(name);
+    const std::uint64_t list = out.here();
+    out.put(std::uint64_t(9000));
+    for (int i = 0; i < 9000; ++i) out.put(token);
+    out.spec(a, 6, {{"properties", CrateWriter::rep(41, list)}});
+    out.path(a, name);
+    out.path(a, name, true);
+    CrateWriter::Fields fields{{"primChildren", out.tokens({"A"})}};
+    for (int i = 0; i < 50; ++i) fields.emplace_back(name, CrateWriter::inlined(3, 0));
+    out.spec(0, 7, fields);
+    const std::string bytes = out.bytes();
+    const auto begin = std::chrono::steady_clock::now();
+    const UsdLayer layer = layerOf(bytes);
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+    ASSERT_EQ(layer.prims.size(), 1u);
+    EXPECT_TRUE(layer.prims[0].properties.empty());
     EXPECT_FALSE(layer.diagnostics.empty());
 }
 

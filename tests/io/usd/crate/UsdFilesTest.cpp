@@ -2,7 +2,7 @@
 #include "io/usd/crate/UsdFiles.h"
 #include "io/usd/crate/UsdPackage.h"
 #include "io/usd/crate/UsdPackagePath.h"
-#include "io/usd/layer/UsdStage.h"
+#include "io/usd/stage/UsdStage.h"
 #include "tests/io/usd/UsdTestFiles.h"
 #include "tests/io/usd/crate/CrateSample.h"
 #include "tests/io/usd/crate/LayerDifference.h"

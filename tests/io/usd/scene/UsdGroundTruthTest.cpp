@@ -42,16 +42,12 @@ std::vector<TruthFile> allTruth(const fs::path& shared) {
         std::replace(name.begin(), name.end(), '~', '/');
         files.push_back(readTruth(entry.path(), shared / "assets" / name));
     }
-    for (const char* name : {"xform_ops", "lights"}) {
+    for (const char* name : {"lib_chair", "lights", "refs", "xform_ops"}) {
         const fs::path base = shared / "assets/compose" / name;
         files.push_back(readTruth(base.string() + ".jsonl", base.string() + ".usda"));
     }
     std::sort(files.begin(), files.end(), [](auto& a, auto& b) { return a.scene < b.scene; });
     return files;
-}
-
-bool needsComposition(const LoadedScene& loaded) {
-    return countOf(loaded, "not composed yet") > 0;
 }
 
 // OpenUSD's row-vector matrix as columns; the identity if it is left out.
@@ -138,7 +134,6 @@ TEST(UsdGroundTruth, EveryShapeLightAndCameraHasANode) {
     for (const TruthFile& truth : allTruth(*shared)) {
         if (!truth.readable) continue;
         const LoadedScene loaded = loadUsdScene(truth.scene);
-        if (needsComposition(loaded)) continue;
         ++files;
         const auto nodes = nodesByPath(*loaded.scene);
         for (const json& prim : truth.prims) {
@@ -197,22 +192,20 @@ TEST(UsdGroundTruth, ColoursWithoutMaterialAreTheDisplayColour) {
     const auto shared = sharedFolder();
     if (!shared) GTEST_SKIP() << "the shared scenes are not here";
     std::size_t coloured = 0;
-    forEachPrim(
-        *shared, [&](const json& prim, const PlacedNode& placed, const LoadedScene& loaded) {
-            const Mesh* mesh = placed.mesh();
-            if (needsComposition(loaded)) return;
-            const bool constant = prim.contains("displayColor") && !prim.contains("material");
-            if (!mesh || !constant || mesh->data().materials.size() != 1) return;
-            ++coloured;
-            const Rgb wanted = colourOf(prim, "displayColor", Rgb());
-            const Rgb found = mesh->data().materials[0]->reflectance();
-            const auto expectChannel = [](float is, float should) {
-                EXPECT_NEAR(is, std::min(should, Material::kMaxReflectance), 1e-6);
-            };
-            expectChannel(found.r, wanted.r);
-            expectChannel(found.g, wanted.g);
-            expectChannel(found.b, wanted.b);
-        });
+    forEachPrim(*shared, [&](const json& prim, const PlacedNode& placed, const LoadedScene&) {
+        const Mesh* mesh = placed.mesh();
+        const bool constant = prim.contains("displayColor") && !prim.contains("material");
+        if (!mesh || !constant || mesh->data().materials.size() != 1) return;
+        ++coloured;
+        const Rgb wanted = colourOf(prim, "displayColor", Rgb());
+        const Rgb found = mesh->data().materials[0]->reflectance();
+        const auto expectChannel = [](float is, float should) {
+            EXPECT_NEAR(is, std::min(should, Material::kMaxReflectance), 1e-6);
+        };
+        expectChannel(found.r, wanted.r);
+        expectChannel(found.g, wanted.g);
+        expectChannel(found.b, wanted.b);
+    });
     EXPECT_GE(coloured, 15u);
 }
 

@@ -169,6 +169,27 @@ TEST_F(UsdRecordingTest, PlaysWhatWasMovedWhereAndWhenItWasMoved) {
     static_cast<void>(after);
 }
 
+TEST_F(UsdRecordingTest, WhatAReferenceBroughtIsWrittenWhereTheStageHasIt) {
+    std::ofstream(folder / "set.usda") << kRoom;
+    open("#usda 1.0\n(\n    defaultPrim = \"Room\"\n    metersPerUnit = 0.01\n    upAxis = "
+         "\"Z\"\n)\n"
+         "def \"Room\" (\n    references = @set.usda@</World>\n)\n{\n}\n");
+    EXPECT_EQ(scene.files.size(), 2u);
+    Transform& seat = place("/Room/Group/Seat");
+    sample(0);
+    sample(1);
+    seat.setMatrix(glm::translate(seat.matrix(), {50, -10, 0}));
+    paint("/Room/Paint/Surface").setReflectance(Rgb(0.1f, 0.6f, 0.2f));
+    sample(2);
+    const LoadedScene loaded = replay(2);
+    const PlacedScene placed = placeScene(*loaded.scene);
+    const auto& mesh = meshAt(placed, "/Room/Group/Seat");
+    EXPECT_LT(distance(mesh.toWorld, meshAt(placeScene(*scene.scene), "/Room/Group/Seat").toWorld),
+              1e-12);
+    const Rgb colour = mesh.node->data().materials.at(0)->reflectance();
+    EXPECT_LT(maxChannel(absolute(colour - Rgb(0.1f, 0.6f, 0.2f))), 1e-5f);
+}
+
 TEST_F(UsdRecordingTest, PlaysLightsThatWereDimmedRecolouredAndSwitchedOff) {
     const Rgb before = light().luminance();
     sample(1);

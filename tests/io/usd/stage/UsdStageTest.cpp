@@ -1,4 +1,4 @@
-#include "io/usd/layer/UsdStage.h"
+#include "io/usd/stage/UsdStage.h"
 
 #include "tests/io/usd/UsdTestFiles.h"
 
@@ -157,15 +157,17 @@ TEST(UsdStage, ListEditsOfAllLayersAreApplied) {
     EXPECT_TRUE(UsdStage::hasApi(a, "B") && UsdStage::hasApi(a, "C"));
 }
 
-TEST(UsdStage, ArcsThatAreNotComposedYetAreSaid) {
+TEST(UsdStage, ArcsThatLeadNowhereAreSaid) {
     UsdStage stage = stageOf("def \"a\" (references = @x.usda@)\n{\n}\ndef \"b\" (references = "
-                             "@x.usda@\n inherits = </a>)\n{\n}\n"
+                             "</x>\n inherits = </a>)\n{\n}\n"
                              "def \"c\" (references = None)\n{\n}\n");
     const auto& list = stage.diagnostics().list();
-    ASSERT_EQ(list.size(), 2u);
-    EXPECT_EQ(list[0].text, "references not composed yet");
+    ASSERT_EQ(list.size(),
+              2u); // inheriting </a>, </b> has its reference again, and it says the same
+    EXPECT_NE(list[0].text.find("reference @x.usda@<> of </a>: "), std::string::npos);
     EXPECT_EQ(list[0].count, 2u);
     EXPECT_EQ(list[0].where.line, 2u);
+    EXPECT_EQ(list[1].text, "reference @@</x> of </b>: there is no prim");
 }
 
 } // namespace penumbra

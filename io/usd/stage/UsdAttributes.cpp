@@ -1,4 +1,4 @@
-#include "io/usd/layer/UsdAttributes.h"
+#include "io/usd/stage/UsdAttributes.h"
 
 #include "io/usd/layer/UsdNumber.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/Rgb.h"
-#include "io/usd/layer/UsdStage.h"
+#include "io/usd/stage/UsdStage.h"
 
 #include <glm/glm.hpp>
 

@@ -1,10 +1,11 @@
 // The composed scene: what all layers together say about each prim.
 #pragma once
 
-#include "io/usd/layer/UsdLayerStack.h"
+#include "io/usd/stage/UsdComposition.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,6 +19,7 @@ struct UsdOpinion {
     const UsdPrimSpec* spec = nullptr;
     const UsdLayer* layer = nullptr;
     UsdLayerOffset offset; ///< the layer's times to the stage's
+    UsdMappingPtr toStage; ///< the layer's paths to the stage's; null: they are the same
 };
 
 /// A prim of the stage. Inactive prims are not on the stage at all.
@@ -30,7 +32,7 @@ struct UsdPrim {
     bool abstract = false; ///< it or an ancestor is a class: never part of the picture
     std::uint32_t parent = 0;
     std::vector<std::uint32_t> children; ///< indices into UsdStage::prims(), in order
-    std::vector<UsdOpinion> opinions;    ///< strongest first, at least one (the root has none)
+    std::vector<UsdOpinion> opinions;    ///< strongest first; the root has none
 
     /// Where the strongest opinion is.
     SourceLocation location() const;
@@ -54,24 +56,25 @@ private:
     UsdValue made_;
 };
 
-/// The composed scene, from a root layer and its sublayers (strength: local opinions only).
-/// References, payloads, inherits, specializes and variants are not composed yet: each is warned
-/// of.
+/// The composed scene: a root layer and all that it brings by sublayers, inherits, variants,
+/// relocates, references, payloads and specializes. All payloads are loaded; a variant set
+/// `standin` that nobody chooses for has its variant `render`. What can't be composed is warned of
+/// and left out.
 class UsdStage {
 public:
-    /// Throws SceneFileError for faults of the root layer; sublayers' faults are warned of.
+    /// Throws SceneFileError for faults of the root layer; those of other layers are warned of.
     /// \param assets finds and reads layers; needed here only
-    static UsdStage open(const std::filesystem::path& root, const UsdLayerLimits& limits = {},
+    static UsdStage open(const std::filesystem::path& root, const UsdComposeLimits& limits = {},
                          const UsdAssets& assets = UsdAssets());
 
     /// All prims; [0] is the root "/". A parent comes before its children.
     const std::vector<UsdPrim>& prims() const { return prims_; }
     const UsdPrim* find(std::string_view path) const;
-    const UsdLayer& rootLayer() const { return *layers_.front().layer; }
+    const UsdLayer& rootLayer() const { return composition_->rootStack().rootLayer(); }
     /// The files of all layers, the root layer's first; then those that could not be understood. A
     /// package may be there several times.
-    std::vector<std::filesystem::path> files() const;
-    Diagnostics& diagnostics() { return diagnostics_; }
+    const std::vector<std::filesystem::path>& files() const { return files_; }
+    Diagnostics& diagnostics() { return composition_->diagnostics(); }
 
     // The strongest opinions on one prim. ------------------------------------------------------
 
@@ -84,7 +87,8 @@ public:
     static bool animated(const UsdPrim& prim, std::string_view attribute);
     /// The strongest declaration of a property, or null.
     static const UsdProperty* property(const UsdPrim& prim, std::string_view name);
-    /// Composed targets of a relationship, or sources of a connected attribute.
+    /// Composed targets of a relationship, or sources of a connected attribute, as paths of the
+    /// stage. What lies outside of the prims that an arc brought is left out.
     static std::vector<std::string> targets(const UsdPrim& prim, std::string_view property);
     static bool hasApi(const UsdPrim& prim, std::string_view schema);
     /// Metadata of a property, e.g. its interpolation; null if not authored.
@@ -95,17 +99,13 @@ public:
 
 private:
     UsdStage() = default;
-    void compose();
-    void addChildren(std::uint32_t parent);
-    void addPrim(std::uint32_t parent, std::string name, std::vector<UsdOpinion> opinions);
-    void warnOfArcs(const UsdOpinion& opinion);
 
-    std::vector<UsdStackedLayer> layers_;
+    std::unique_ptr<UsdComposition> composition_; // what opinions point to
     std::vector<std::filesystem::path> files_;
-    std::vector<std::filesystem::path> unread_; ///< sublayers that are there but were left out
     std::vector<UsdPrim> prims_;
     std::unordered_map<std::string, std::uint32_t> indexOf_;
-    Diagnostics diagnostics_;
+
+    friend class UsdStageBuilder;
 };
 
 } // namespace penumbra
