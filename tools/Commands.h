@@ -11,6 +11,7 @@ void addViewCommand(CLI::App& app);
 void addRenderCommand(CLI::App& app);
 void addSolveCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
+void addImportCommand(CLI::App& app);
 void addRadiosityCommand(CLI::App& app);
 void addCompareCommand(CLI::App& app);
 

@@ -93,7 +93,9 @@ void addReportOptions(CLI::App& command, SolveSettings& settings) {
 } // namespace
 
 void addSolveOptions(CLI::App& command, SolveSettings& settings) {
-    command.add_option("SCENE", settings.scene, "USD file to light (.usda, .usdc, .usd, .usdz)")
+    command
+        .add_option("SCENE", settings.scene,
+                    "USD file (.usda, .usdc, .usd, .usdz) or model (glTF, OBJ, FBX ...) to light")
         ->required();
     addMeshOptions(command, settings);
     addLightOptions(command, settings);
@@ -154,6 +156,15 @@ void reportDiagnostics(const std::vector<Diagnostic>& diagnostics, bool verbose)
 
 namespace {
 
+/// In one line: what is in the scene instead, which is warned of last, and what was warned of
+/// first.
+std::string whyNothingToLight(const std::vector<Diagnostic>& warnings) {
+    std::string why = "nothing to light: ";
+    why += warnings.empty() ? "no visible mesh that can be read" : warnings.back().text;
+    if (warnings.size() > 1) why += "; first warning: " + warnings.front().text;
+    return why;
+}
+
 void addCosts(SolveStatistics& sum, const SolveStatistics& s) {
     sum.shots += s.shots;
     sum.direct += s.direct;
@@ -179,11 +190,10 @@ SceneSolution::SceneSolution(const SolveSettings& settings)
     loaded_ = timed("read", [&] { return loadUsdScene(settings.scene, options); });
     progress_.clear();
     checkOutputs(loaded_.files, settings.outputs);
-    if (!settings.quiet) reportDiagnostics(loaded_.diagnostics, settings.verbose);
     placed_ = placeScene(*loaded_.scene);
     if (placed_.meshes.empty() && placed_.lights.empty())
-        throw SceneFileError({settings.scene},
-                             "nothing to light: no visible mesh that can be read");
+        throw SceneFileError({settings.scene}, whyNothingToLight(loaded_.diagnostics));
+    if (!settings.quiet) reportDiagnostics(loaded_.diagnostics, settings.verbose);
     const double start = steadySeconds();
     const RadiosityOptions resolved =
         timed("read", [&] { return resolvedOptions(settings, loaded_, options.time); });

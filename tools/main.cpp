@@ -18,7 +18,8 @@ namespace {
 int run(int argc, char** argv) {
     CLI::App app{
         "Penumbra: soft, physically right light for scenes in which things move.\n"
-        "Reads USD text (.usda), solves radiosity, shows it in a window or writes lit frames.\n",
+        "Reads USD text (.usda) and models (glTF, OBJ, FBX, Collada, PLY, STL), solves radiosity,\n"
+        "shows it in a window or writes lit frames.\n",
         "penumbra"};
     app.set_version_flag("--version", "penumbra " PENUMBRA_VERSION);
     app.require_subcommand(1);
@@ -29,6 +30,7 @@ int run(int argc, char** argv) {
     penumbra::addRenderCommand(app);
     penumbra::addSolveCommand(app);
     penumbra::addInfoCommand(app);
+    penumbra::addImportCommand(app);
     penumbra::addRadiosityCommand(app);
     penumbra::addCompareCommand(app);
     try {

@@ -50,8 +50,8 @@ struct InteractiveRenderer::Impl {
     explicit Impl(const InteractiveOptions& wanted) : options(wanted) {}
 
     void requireTarget(int width, int height);
-    void drawLit(const std::vector<LitItem>& items);
-    void drawPreviewed(const std::vector<LitItem>& items, MapPreview& maps);
+    void drawLit(const std::vector<LitItem>& items) const;
+    void drawPreviewed(const std::vector<LitItem>& items, MapPreview& maps) const;
     void setMaterial(const LitItem& item, const MaterialRange& range) const;
     void drawUnlit(const std::vector<UnlitItem>& items, const View& view,
                    const UnlitLighting& lighting);
@@ -86,7 +86,7 @@ void InteractiveRenderer::Impl::setMaterial(const LitItem& item, const MaterialR
     litProgram.set("emission", material.emission);
 }
 
-void InteractiveRenderer::Impl::drawLit(const std::vector<LitItem>& items) {
+void InteractiveRenderer::Impl::drawLit(const std::vector<LitItem>& items) const {
     litProgram.use();
     for (const LitItem& item : items) {
         setPose(litProgram, item.place);
@@ -99,7 +99,8 @@ void InteractiveRenderer::Impl::drawLit(const std::vector<LitItem>& items) {
 }
 
 /// The same, but triangles that a previewed change may reach are drawn by the preview pass.
-void InteractiveRenderer::Impl::drawPreviewed(const std::vector<LitItem>& items, MapPreview& maps) {
+void InteractiveRenderer::Impl::drawPreviewed(const std::vector<LitItem>& items,
+                                              MapPreview& maps) const {
     std::vector<MapPreview::Runs> preview;
     litProgram.use();
     for (std::size_t i = 0; i < items.size(); ++i) {

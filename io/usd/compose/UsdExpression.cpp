@@ -90,7 +90,7 @@ private:
         expect('$');
         if (at_ >= text_.size() || text_[at_] != '{') fail("expected '{' after '$'");
         ++at_;
-        const std::string name = identifier();
+        std::string name = identifier();
         if (at_ >= text_.size() || text_[at_] != '}' || name.empty())
             fail("a variable that is not closed");
         ++at_;

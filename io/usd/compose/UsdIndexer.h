@@ -72,7 +72,7 @@ private:
     void evaluateImpliedRelocate(Graph& graph, std::uint32_t node);
     void evaluateReferences(Graph& graph, std::uint32_t node, UsdReferenceKind kind);
     void addReference(Graph& graph, std::uint32_t node, const UsdSiteReference& reference,
-                      UsdArc arc, std::uint32_t sibling);
+                      UsdArc kind, std::uint32_t sibling);
     void evaluateClasses(Graph& graph, std::uint32_t node, UsdClassKind kind);
     UsdMappingPtr arcMapping(const UsdNode& node, UsdSitePath target, const UsdLayerOffset& offset,
                              bool rooted);
@@ -86,7 +86,7 @@ private:
     // UsdVariants.cpp
     void addVariantTasks(Graph& graph, std::uint32_t node, bool isNew);
     bool chooseVariant(Graph& graph);
-    void evaluateVariant(Graph& graph, std::size_t task);
+    void evaluateVariant(Graph& graph, std::size_t number);
     void addVariant(Graph& graph, const UsdVariantTask& task, const std::string& choice);
     void sortVariants(Graph& graph);
     std::optional<std::string> selection(const Graph& graph, const UsdVariantTask& task);

@@ -58,6 +58,7 @@ const UsdLoadedLayer& UsdLayerStacks::load(const std::string& file) {
     loaded.file = file;
     try {
         loaded.layer = std::make_shared<UsdLayer>(assets_.layer(file, limits_));
+        loaded.file = loaded.layer->file; // of a package: its root layer
         loaded.index = std::make_shared<UsdLayerIndex>(*loaded.layer, paths_);
         errors_.append(loaded.layer->diagnostics);
         read_.push_back(&loaded);
@@ -74,6 +75,7 @@ const UsdLayerStack& UsdLayerStacks::open(const std::string& root) {
     UsdLoadedLayer& loaded = layers_[canonical(root)];
     loaded.file = root;
     loaded.layer = std::make_shared<UsdLayer>(assets_.layer(root, limits_));
+    loaded.file = loaded.layer->file;
     loaded.index = std::make_shared<UsdLayerIndex>(*loaded.layer, paths_);
     errors_.append(loaded.layer->diagnostics);
     read_.push_back(&loaded);
@@ -111,10 +113,10 @@ const UsdLayerStack& UsdLayerStacks::stackOf(const std::string& file, const UsdL
 
 void UsdLayerStacks::add(Open& open, const std::string& file, const UsdLoadedLayer& layer,
                          UsdLayerOffset offset) {
-    open.stack.layers.push_back({layer.layer, layer.index, file, offset});
+    open.stack.layers.push_back({layer.layer, layer.index, layer.file, offset});
     open.files.push_back(canonical(file));
     for (const UsdSubLayer& sub : layer.layer->subLayers)
-        addSubLayer(open, *layer.layer, file, sub, offset);
+        addSubLayer(open, *layer.layer, layer.file, sub, offset);
     open.files.pop_back();
 }
 

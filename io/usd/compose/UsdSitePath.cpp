@@ -69,21 +69,21 @@ UsdPathTable::UsdPathTable() {
 UsdSitePath UsdPathTable::path(std::string_view text) {
     if (text.empty() || text.front() != '/') return {};
     text.remove_prefix(1);
-    UsdSitePath path = root();
+    const UsdPathElement* path = &elements_.front();
     while (!text.empty()) {
         const std::size_t slash = text.find('/');
         const std::string_view name = text.substr(0, slash);
         if (!isUsdIdentifier(name)) return {};
-        path = path.child(name);
+        path = child(path, name, {}, false);
         if (slash == std::string_view::npos) break;
         text.remove_prefix(slash + 1);
     }
-    return path;
+    return UsdSitePath(path);
 }
 
 const UsdPathElement* UsdPathTable::child(const UsdPathElement* parent, std::string_view name,
                                           std::string_view choice, bool isChoice) {
-    const auto found = children_.find({parent, name, choice, isChoice});
+    const auto found = children_.find(keyOf(parent, name, choice, isChoice));
     if (found != children_.end()) return found->second;
     UsdPathElement made;
     made.table = this;
@@ -100,16 +100,17 @@ const UsdPathElement* UsdPathTable::child(const UsdPathElement* parent, std::str
     made.id = std::uint32_t(elements_.size());
     UsdPathElement& kept = elements_.emplace_back(std::move(made));
     if (!kept.plain) kept.plain = &kept;
-    children_[{parent, kept.name, kept.choice, isChoice}] = &kept;
+    children_[keyOf(parent, kept.name, kept.choice, isChoice)] = &kept;
     return &kept;
 }
 
-std::size_t UsdPathTable::Hash::operator()(const Key& key) const {
+UsdPathTable::Key UsdPathTable::keyOf(const UsdPathElement* parent, std::string_view name,
+                                      std::string_view choice, bool isChoice) {
     const std::hash<std::string_view> text;
-    std::size_t sum = std::hash<const void*>()(key.parent);
-    for (const std::size_t part : {text(key.name), text(key.choice), std::size_t(key.isChoice)})
+    std::size_t sum = parent->id;
+    for (const std::size_t part : {text(name), text(choice), std::size_t(isChoice)})
         sum = (sum ^ part) * 0x9e3779b97f4a7c15u + (sum >> 17);
-    return sum;
+    return {sum, parent, name, choice, isChoice};
 }
 
 } // namespace penumbra

@@ -80,14 +80,17 @@ public:
 
 private:
     struct Key {
+        std::size_t hash; // computed once, and compared first
         const UsdPathElement* parent;
         std::string_view name, choice;
         bool isChoice;
         bool operator==(const Key&) const = default;
     };
     struct Hash {
-        std::size_t operator()(const Key& key) const;
+        std::size_t operator()(const Key& key) const { return key.hash; }
     };
+    static Key keyOf(const UsdPathElement* parent, std::string_view name, std::string_view choice,
+                     bool isChoice);
     std::deque<UsdPathElement> elements_; // never move
     std::unordered_map<Key, const UsdPathElement*, Hash> children_;
 };

@@ -32,7 +32,8 @@ private:
         if (isUsdIdentifier(text)) known |= kPrim;
         if (isUsdPropertyName(text)) known |= kProperty;
         if (text.starts_with('[') && text.ends_with(']')) known |= kTarget;
-        if (text.starts_with('{') && text.ends_with('}') && text.find('=') != text.npos)
+        if (text.starts_with('{') && text.ends_with('}') &&
+            text.find('=') != std::string_view::npos)
             known |= kVariant;
         return known;
     }

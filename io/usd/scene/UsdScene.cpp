@@ -1,7 +1,9 @@
 #include "io/usd/scene/UsdScene.h"
 
+#include "io/model/ModelImport.h"
 #include "io/usd/crate/UsdFiles.h"
 #include "io/usd/scene/UsdCamera.h"
+#include "io/usd/scene/UsdContents.h"
 #include "io/usd/scene/UsdGprims.h"
 #include "io/usd/scene/UsdLight.h"
 #include "io/usd/scene/UsdMaterial.h"
@@ -11,6 +13,7 @@
 #include "io/usd/stage/UsdStage.h"
 #include "scenegraph/Camera.h"
 #include "scenegraph/Mesh.h"
+#include "scenegraph/Objects.h"
 #include "scenegraph/Transform.h"
 
 #include <algorithm>
@@ -319,12 +322,30 @@ LightRequest askedByDefaultPrim(const UsdStage& stage, double unit, Diagnostics&
     return asked;
 }
 
+/// Files of all kinds that become layers: USD's own, and models.
+class SceneFiles : public UsdFiles {
+public:
+    explicit SceneFiles(std::uintmax_t maxFileBytes) : UsdFiles(maxFileBytes) {}
+
+    UsdLayer layer(const std::string& identifier, const UsdLayerLimits& limits) const override {
+        if (!modelFormatOf(identifier)) return UsdFiles::layer(identifier, limits);
+        ImportedModel model = importModel(identifier, {.maxFileBytes = limits.fileBytes});
+        parts_.insert(parts_.end(), model.files.begin() + 1, model.files.end());
+        return std::move(model.layer);
+    }
+    /// What models name: their buffers and pictures.
+    const std::vector<std::filesystem::path>& parts() const { return parts_; }
+
+private:
+    mutable std::vector<std::filesystem::path> parts_;
+};
+
 } // namespace
 
 LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& options) {
     UsdComposeLimits limits;
     limits.layer.fileBytes = options.maxFileBytes;
-    const UsdFiles files(options.maxFileBytes);
+    const SceneFiles files(options.maxFileBytes);
     const auto stage = std::make_shared<UsdStage>(UsdStage::open(file, limits, files));
     LoadedScene loaded;
     loaded.scene = std::make_shared<Scene>();
@@ -346,7 +367,13 @@ LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& o
         if (name->text()) loaded.addresses.defaultPrim = *name->text();
     SceneBuilder(*stage, time, *tracks, loaded.addresses).build(scene.root);
     loaded.files = stage->files();
+    loaded.files.insert(loaded.files.end(), files.parts().begin(), files.parts().end());
     if (!tracks->empty()) loaded.animation = tracks;
+    const PlacedScene placed = placeScene(scene);
+    if (placed.meshes.empty() && placed.lights.empty())
+        stage->diagnostics().warn({stage->rootLayer().file, 0, 0},
+                                  "nothing in it has a shape that can be shown, or gives light: " +
+                                      contentsOf(*stage));
     loaded.diagnostics = stage->diagnostics().take();
     return loaded;
 }

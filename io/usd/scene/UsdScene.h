@@ -1,4 +1,4 @@
-// Loading a scene: USD text to the scene graph.
+// Loading a scene: USD text, or a model, to the scene graph.
 #pragma once
 
 #include "base/LightRequest.h"
@@ -28,12 +28,15 @@ struct LoadedScene {
     LightRequest asked;                      ///< what the file asks of the light
     std::vector<Diagnostic> diagnostics;     ///< what was not understood or left out; see summary()
     UsdAddresses addresses;                  ///< where in the file the nodes come from
-    /// All layers, also sublayers that could not be understood; the file itself first.
+    /// All layers, also sublayers that could not be understood, the file itself first; then what
+    /// models name: buffers, materials, pictures.
     std::vector<std::filesystem::path> files;
 };
 
-/// Reads a USD text file as a scene graph. Below the root everything is in metres, in the file's
-/// own axes: if its unit is another, the root is a Transform that scales.
+/// Reads a scene as a scene graph: USD text, or a model of another format, which is imported into a
+/// layer in memory (`io/model/ModelImport.h`), also where it is a sublayer. Below the root
+/// everything is in metres, in the file's own axes: if its unit is another, the root is a Transform
+/// that scales.
 ///
 /// | USD | scene graph |
 /// |---|---|

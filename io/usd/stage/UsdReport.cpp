@@ -111,9 +111,12 @@ private:
         auto targets = composeTargets(opinions, [&](std::size_t i, const std::string& target) {
             return !isInstanceTarget(*sites[i], target);
         });
-        for (const auto& [i, target] : targets.unmapped)
-            error(*sites[i], *opinions[i].property,
-                  "target <" + target + "> of <" + path + "> is outside of what the arc brings");
+        for (const auto& [i, target] : targets.unmapped) {
+            std::string text = "target <";
+            text.append(target).append("> of <").append(path);
+            text += "> is outside of what the arc brings";
+            error(*sites[i], *opinions[i].property, text);
+        }
         if (!targets.paths.empty())
             (relationship ? report_.targets : report_.connections)[path] = std::move(targets.paths);
         if (!targets.deleted.empty()) report_.deleted[path] = std::move(targets.deleted);

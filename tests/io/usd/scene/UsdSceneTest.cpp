@@ -23,6 +23,17 @@ const std::string kMoved = " double3 xformOp:translate = (1, 2, 3)\n uniform tok
 
 } // namespace
 
+TEST(UsdScene, OneWithNothingToBeSeenSaysWhatIsInItInstead) {
+    const auto last = [](const std::string& text) {
+        return loadText(text).diagnostics.back().text;
+    };
+    const std::string none = "nothing in it has a shape that can be shown, or gives light: ";
+    EXPECT_EQ(last(""), none + "it has no prims");
+    EXPECT_EQ(last("def Scope \"a\"\n{\n def \"b\"\n {\n }\n}\nclass \"c\"\n{\n}\n"),
+              none + "3 prims (2 without a type, 1 Scope), 1 of them classes or overs");
+    EXPECT_TRUE(loadText("def Cube \"a\"\n{\n}\n").diagnostics.empty());
+}
+
 TEST(UsdScene, PathsAreThoseOfTheFile) {
     const LoadedScene loaded =
         loadText("def Xform \"World\"\n{\n def Scope \"S\"\n {\n  def Cube \"c\"\n  {\n  }\n }\n "
@@ -142,8 +153,8 @@ TEST(UsdScene, CamerasKeepTheirLens) {
 TEST(UsdScene, WhatIsNotUnderstoodIsSummedUpInOneLine) {
     const LoadedScene loaded =
         loadText("def BasisCurves \"a\"\n{\n}\ndef BasisCurves \"b\"\n{\n}\ndef PointInstancer "
-                 "\"p\"\n{\n def Cube \"proto\"\n {\n }\n}\n");
-    EXPECT_EQ(paths(loaded), Paths{"/"}); // prototypes are not drawn in place
+                 "\"p\"\n{\n def Cube \"proto\"\n {\n }\n}\ndef Cube \"c\"\n{\n}\n");
+    EXPECT_EQ(paths(loaded), (Paths{"/", "/c"})); // prototypes are not drawn in place
     const std::string line = summary(loaded.diagnostics);
     EXPECT_EQ(line, "3 warnings: 2 x BasisCurves not supported yet: left out; PointInstancer not "
                     "supported yet: left out");

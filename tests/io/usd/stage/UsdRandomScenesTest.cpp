@@ -30,14 +30,16 @@ public:
 
 private:
     bool one(int of) { return random_() % unsigned(of) == 0; }
-    std::string name() { return std::string(1, char('a' + random_() % 3)); }
     std::string path(int shortest = 1) {
-        std::string path;
+        std::string path = "<";
         const int levels = shortest + int(random_() % 2);
-        for (int i = 0; i < levels; ++i) path += "/" + name();
-        return "<" + path + ">";
+        for (int i = 0; i < levels; ++i) path.append(1, '/').append(1, char('a' + random_() % 3));
+        return path += '>';
     }
-    std::string file(int number) { return "@" + std::to_string(number) + ".usda@"; }
+    std::string file(int number) {
+        std::string name = std::to_string(number);
+        return name.insert(0, 1, '@').append(".usda@");
+    }
 
     std::string relocates() {
         std::string text;
@@ -105,7 +107,7 @@ TEST(UsdRandomScenes, AreComposedToTheEndAndAlwaysTheSame) {
     limits.prims = 60;
     limits.index.nodes = 200;
     std::size_t characters = 0;
-    for (unsigned seed = 0; seed < 100; ++seed) {
+    for (unsigned seed = 0; seed < 40; ++seed) {
         SCOPED_TRACE(seed);
         const TemporaryFolder folder;
         RandomLayers layers(seed);
@@ -115,7 +117,7 @@ TEST(UsdRandomScenes, AreComposedToTheEndAndAlwaysTheSame) {
         characters += first.size();
         EXPECT_GT(UsdStage::open(folder.path() / "0.usda", limits).prims().size(), 1u);
     }
-    EXPECT_GT(characters, 100'000u);
+    EXPECT_GT(characters, 40'000u);
 }
 
 } // namespace penumbra

@@ -1,0 +1,47 @@
+// What Assimp does not hand on of a glTF file: its JSON, as far as that is needed.
+#pragma once
+
+#include "io/model/ModelCamera.h"
+#include "io/model/ModelLight.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace penumbra {
+
+/// A node, by its number in the file.
+struct GltfNode {
+    std::string name; ///< may be empty
+    std::vector<std::size_t> children;
+    std::optional<std::size_t> light, camera; ///< into Gltf::lights and Gltf::cameras
+};
+
+struct GltfMaterial {
+    std::string name;
+    glm::dvec3 emissive{0};
+    double strength = 1; ///< KHR_materials_emissive_strength
+};
+
+/// Assimp 5.2 gives a light or a camera to one node only, and knows no emissive strength.
+struct Gltf {
+    std::vector<GltfNode> nodes;
+    std::vector<std::size_t> roots; ///< of the scene that is shown
+    std::vector<ModelLight> lights; ///< KHR_lights_punctual [cd]; frames as ModelLight has them
+    std::vector<ModelCamera> cameras;
+    std::vector<GltfMaterial> materials;
+    std::vector<std::string> required; ///< extensions without which the file can't be shown
+};
+
+/// Deepest nodes of nodes, in models of any format.
+inline constexpr std::size_t kMostNested = 500;
+
+/// Reads .gltf or .glb of version 2; what is older comes back empty. Throws SceneFileError if it is
+/// no JSON, if nodes are in a circle or too deep, or if a number points to what is not there.
+Gltf readGltf(const std::filesystem::path& file, std::uintmax_t maxFileBytes);
+
+} // namespace penumbra

@@ -1,0 +1,212 @@
+#include "io/model/ModelFile.h"
+
+#include "base/Error.h"
+#include "base/SystemError.h"
+#include "io/model/ModelCheck.h"
+#include "io/model/ModelText.h"
+#include "io/model/PrimNames.h"
+#include "io/model/TrialRun.h"
+
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/DefaultLogger.hpp>
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <mutex>
+
+namespace penumbra {
+
+namespace {
+
+// Assimp 5.2 is not safe against damaged files: it is tried on a copy of the process first.
+constexpr unsigned kTrialSeconds = 30;
+constexpr std::uintmax_t kTrialBytesASecond = 1'000'000;
+
+/// Takes down what Assimp warns of.
+class Listener : public Assimp::Logger {
+public:
+    explicit Listener(std::vector<std::string>& warnings) : warnings_(warnings) {}
+    bool attachStream(Assimp::LogStream*, unsigned int) override { return false; }
+    bool detachStream(Assimp::LogStream*, unsigned int) override { return false; }
+
+private:
+    void OnDebug(const char*) override {}
+    void OnVerboseDebug(const char*) override {}
+    void OnInfo(const char*) override {}
+    void OnWarn(const char* message) override { note(message); }
+    void OnError(const char* message) override { note(message); }
+    void note(const char* message) {
+        if (warnings_.size() < Diagnostics::kMaxTexts) warnings_.push_back(cleanText(message));
+    }
+
+    std::vector<std::string>& warnings_;
+};
+
+/// Assimp has one logger, whoever imports: they take turns.
+class Listening {
+public:
+    Listening() : turn_(mutex()) { // the logger is Assimp's, which deletes it
+        Assimp::DefaultLogger::set(new Listener(warnings_));
+    }
+    ~Listening() { Assimp::DefaultLogger::set(nullptr); }
+    Listening(const Listening&) = delete;
+    Listening& operator=(const Listening&) = delete;
+    const std::vector<std::string>& warnings() const { return warnings_; }
+
+private:
+    static std::mutex& mutex() {
+        static std::mutex shared;
+        return shared;
+    }
+    std::lock_guard<std::mutex> turn_;
+    std::vector<std::string> warnings_;
+};
+
+/// Opens files for Assimp, within the limit, and keeps a list of them.
+class RecordedFiles : public Assimp::DefaultIOSystem {
+public:
+    RecordedFiles(std::uintmax_t maxFileBytes, std::vector<std::filesystem::path>& files)
+        : maxFileBytes_(maxFileBytes), files_(files) {}
+
+    Assimp::IOStream* Open(const char* file, const char* mode) override {
+        std::error_code failed;
+        const bool large = std::filesystem::file_size(file, failed) > maxFileBytes_ && !failed;
+        if (large || std::filesystem::is_directory(file, failed)) return nullptr;
+        Assimp::IOStream* stream = Assimp::DefaultIOSystem::Open(file, mode);
+        if (stream && std::find(files_.begin(), files_.end(), file) == files_.end())
+            files_.emplace_back(file);
+        return stream;
+    }
+
+private:
+    std::uintmax_t maxFileBytes_;
+    std::vector<std::filesystem::path>& files_;
+};
+
+// Warnings about what is no fault of the file, or is reported by us.
+bool isNoise(const std::string& warning) {
+    for (const char* part : {"trying to read it nevertheless", "setting default material",
+                             "Reverting to 2D", "unreferenced vertices", "mHorizontalFOV",
+                             "source object for connection", "shading mode not recognized"})
+        if (warning.find(part) != std::string::npos) return true;
+    return false;
+}
+
+// Assimp leaves such faces out of glTF and goes on.
+void checkIndices(const std::vector<std::string>& warnings, const std::string& file) {
+    for (const std::string& warning : warnings)
+        if (warning.find("out-of-range indices") != std::string::npos)
+            throw SceneFileError({file},
+                                 "faces have indices out of range (export the model again)");
+}
+
+void reportWarnings(const std::vector<std::string>& warnings, const std::string& file,
+                    Diagnostics& diagnostics) {
+    for (const std::string& warning : warnings)
+        if (!isNoise(warning)) diagnostics.warn({file}, "Assimp: " + warning);
+}
+
+template <class Item>
+void drop(Item**& items, unsigned& count) {
+    for (unsigned i = 0; i < count; ++i) delete items[i];
+    delete[] items;
+    items = nullptr;
+    count = 0;
+}
+
+// What is not used, and would be refused where names of nodes are not unique. Cameras and lights of
+// glTF we read ourselves.
+void dropNamed(aiScene& scene, ModelFormat format) {
+    drop(scene.mAnimations, scene.mNumAnimations);
+    if (format != ModelFormat::gltf) return;
+    drop(scene.mCameras, scene.mNumCameras);
+    drop(scene.mLights, scene.mNumLights);
+}
+
+std::string advice(const std::string& why) {
+    if (why.find("could not open") != std::string::npos) return " (put it beside the model)";
+    return " (export the model again)";
+}
+
+} // namespace
+
+struct ModelFile::Reader {
+    std::vector<std::filesystem::path> files;
+    Assimp::Importer importer;
+    std::size_t animations = 0;
+
+    [[noreturn]] void refuse(const std::filesystem::path& file, ModelFormat format) const {
+        std::string why = cleanText(importer.GetErrorString());
+        if (why.starts_with("GLTF: ")) why.erase(0, 6);
+        throw SceneFileError({file.string()},
+                             std::string("this can't be read as ") + nameOf(format) + ": " +
+                                 (why.empty() ? "it is damaged" : why) + advice(why));
+    }
+
+    // What is read is checked before Assimp works on it any further, and after.
+    const aiScene* read(const std::filesystem::path& file, ModelFormat format,
+                        std::uintmax_t maxFileBytes) {
+        importer.SetIOHandler(new RecordedFiles(maxFileBytes, files)); // which it deletes
+        importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+        importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+        if (!importer.ReadFile(file.string(), 0) || !importer.GetScene()) refuse(file, format);
+        aiScene* scene = const_cast<aiScene*>(importer.GetScene()); // the importer's own, not const
+        checkModel(*scene, file.string());
+        animations = scene->mNumAnimations;
+        dropNamed(*scene, format);
+        const bool shown = scene->mNumMeshes > 0;
+        if (shown && !importer.ApplyPostProcessing(aiProcess_TransformUVCoords |
+                                                   aiProcess_ValidateDataStructure))
+            refuse(file, format);
+        checkModel(*importer.GetScene(), file.string());
+        return importer.GetScene();
+    }
+};
+
+ModelFile::ModelFile(std::filesystem::path file, ModelFormat format, std::uintmax_t maxFileBytes,
+                     Diagnostics& diagnostics)
+    : file_(std::move(file)), format_(format), reader_(std::make_unique<Reader>()) {
+    const std::string why = whyUnreadable(file_.string());
+    if (!why.empty()) throw SceneFileError({file_.string()}, "can't read: " + why);
+    std::error_code failed;
+    const std::uintmax_t size = std::filesystem::file_size(file_, failed);
+    if (!failed && size == 0) throw SceneFileError({file_.string()}, "the file is empty");
+    if (!failed && size > maxFileBytes)
+        throw SceneFileError({file_.string()}, "the file is too large");
+    if (format_ == ModelFormat::gltf) gltf_ = readGltf(file_, maxFileBytes);
+    reader_->files.push_back(file_);
+    checkModelText(file_, format_);
+    const Listening listening;
+    const auto trial = [&] { Reader().read(file_, format_, maxFileBytes); };
+    if (!survivesTrial(trial, kTrialSeconds + unsigned(size / kTrialBytesASecond)))
+        throw SceneFileError({file_.string()}, std::string("this can't be read as ") +
+                                                   nameOf(format_) +
+                                                   ": Assimp breaks down on it (export the model "
+                                                   "again)");
+    try {
+        scene_ = reader_->read(file_, format_, maxFileBytes);
+        animations_ = reader_->animations;
+    } catch (const Error&) {
+        checkIndices(listening.warnings(), file_.string());
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw SceneFileError({file_.string()}, std::string("this can't be read as ") +
+                                                   nameOf(format_) + ": " +
+                                                   cleanText(error.what()));
+    }
+    checkIndices(listening.warnings(), file_.string());
+    reportWarnings(listening.warnings(), file_.string(), diagnostics);
+}
+
+ModelFile::~ModelFile() = default;
+
+std::vector<std::filesystem::path> ModelFile::files() const {
+    return reader_->files;
+}
+
+} // namespace penumbra

@@ -1,0 +1,44 @@
+// A model as Assimp reads it: the one place that runs Assimp.
+#pragma once
+
+#include "io/model/GltfJson.h"
+#include "io/model/ModelFormat.h"
+#include "io/usd/layer/UsdDiagnostic.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+struct aiScene;
+
+namespace penumbra {
+
+/// A model that was read and checked: see checkModel().
+class ModelFile {
+public:
+    /// Throws SceneFileError, also for what crashes Assimp: it is tried in a copy of the process
+    /// first. Assimp's own warnings become diagnostics.
+    ModelFile(std::filesystem::path file, ModelFormat format, std::uintmax_t maxFileBytes,
+              Diagnostics& diagnostics);
+    ~ModelFile();
+
+    const std::filesystem::path& path() const { return file_; }
+    ModelFormat format() const { return format_; }
+    const aiScene& scene() const { return *scene_; }
+    const Gltf& gltf() const { return gltf_; } ///< empty if it is none
+    std::size_t animations() const { return animations_; }
+    /// All files that were read, the model itself first.
+    std::vector<std::filesystem::path> files() const;
+
+private:
+    struct Reader;
+    std::filesystem::path file_;
+    ModelFormat format_;
+    Gltf gltf_;
+    std::size_t animations_ = 0;
+    std::unique_ptr<Reader> reader_; // owns the scene
+    const aiScene* scene_ = nullptr;
+};
+
+} // namespace penumbra
