@@ -22,7 +22,8 @@ namespace penumbra {
 namespace {
 
 // Assimp 5.2 is not safe against damaged files: it is tried on a copy of the process first.
-constexpr unsigned kTrialSeconds = 30;
+constexpr unsigned kTrialSeconds = 30; // of the processor; by the clock it may take
+constexpr unsigned kTrialClock = 4;    // times that, where others work beside it
 constexpr std::uintmax_t kTrialBytesASecond = 1'000'000;
 
 /// Takes down what Assimp warns of.
@@ -181,7 +182,8 @@ ModelFile::ModelFile(std::filesystem::path file, ModelFormat format, std::uintma
     checkModelText(file_, format_);
     const Listening listening;
     const auto trial = [&] { Reader().read(file_, format_, maxFileBytes); };
-    if (!survivesTrial(trial, kTrialSeconds + unsigned(size / kTrialBytesASecond)))
+    const unsigned seconds = kTrialSeconds + unsigned(size / kTrialBytesASecond);
+    if (!survivesTrial(trial, seconds, kTrialClock * seconds))
         throw SceneFileError({file_.string()}, std::string("this can't be read as ") +
                                                    nameOf(format_) +
                                                    ": Assimp breaks down on it (export the model "

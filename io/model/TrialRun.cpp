@@ -13,8 +13,9 @@ namespace penumbra {
 namespace {
 
 // What it says when it breaks down is nobody's business, nor is its memory.
-void becomeQuiet(unsigned seconds) {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
+void becomeQuiet(unsigned seconds, unsigned byTheClock) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGALRM}) std::signal(signal, SIG_DFL);
+    ::alarm(byTheClock);
     const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
     if (nowhere >= 0) {
         ::dup2(nowhere, STDOUT_FILENO);
@@ -27,11 +28,11 @@ void becomeQuiet(unsigned seconds) {
 
 } // namespace
 
-bool survivesTrial(const std::function<void()>& work, unsigned seconds) {
+bool survivesTrial(const std::function<void()>& work, unsigned seconds, unsigned byTheClock) {
     const pid_t copy = ::fork();
     if (copy < 0) return true;
     if (copy == 0) {
-        becomeQuiet(seconds);
+        becomeQuiet(seconds, byTheClock);
         try {
             work();
         } catch (...) { // the same will be thrown where it is seen
