@@ -50,6 +50,11 @@ class CheckLayers(unittest.TestCase):
         self.fails_with("only radiosity/rays/ may include <embree3/rtcore.h>", "scenegraph/Mesh.cpp",
                         "#include <embree3/rtcore.h>")
 
+    def test_knows_a_library_with_two_homes(self):
+        line = "#include <nlohmann/json.hpp>"
+        self.assertEqual(check({"io/model/Json.cpp": line, "tools/Json.cpp": line})[0], 0)
+        self.fails_with("only io/model/ and tools/ may include <nlohmann/json.hpp>", "io/image/Json.cpp", line)
+
     def test_names_third_party_in_a_header(self):
         self.fails_with("<epoxy/gl.h> belongs in a .cpp file", "viewer/gl/Texture.h",
                         "#include <epoxy/gl.h>")

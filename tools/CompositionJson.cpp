@@ -1,7 +1,7 @@
 #include "tools/CompositionJson.h"
 
 #include "base/Error.h"
-#include "io/usd/crate/UsdFiles.h"
+#include "io/usd/scene/SceneFiles.h"
 #include "io/usd/stage/UsdReport.h"
 
 #include <fmt/format.h>
@@ -79,8 +79,8 @@ CompositionJson compositionJson(const std::filesystem::path& scene) {
     json["Entry"] = scene.filename().string();
     auto& prims = (json["Composing"] = Json::object()).get_ref<Json::object_t&>();
     Json errors = Json::array();
+    const SceneFiles files;
     try {
-        const UsdFiles files;
         UsdComposition composition(scene, {}, files);
         reportComposition(composition, [&](const UsdPrimReport& prim) {
             prims.emplace_back(prim.path, primOf(prim)); // paths differ: nothing to look up
@@ -89,12 +89,13 @@ CompositionJson compositionJson(const std::filesystem::path& scene) {
         for (const auto& error : composition.errors().list()) errors.push_back(textOf(error));
         result.files = composition.files();
         result.diagnostics = composition.diagnostics().take();
-    } catch (
-        const SceneFileError& fault) { // its root layer is refused: there is nothing to compose
+    } catch (const SceneFileError& fault) { // its root layer is refused: nothing is composed
         errors.push_back(fault.what());
         result.files.push_back(scene);
         result.fault = fault.what();
     }
+    const auto parts = files.parts();
+    result.files.insert(result.files.end(), parts.begin(), parts.end());
     if (!errors.empty()) json["Errors"] = std::move(errors);
     result.text = json.dump(4, ' ', false, Json::error_handler_t::replace) + "\n";
     return result;

@@ -84,32 +84,27 @@ void run(const ImportCommand& command) {
 
 void addImportCommand(CLI::App& app) {
     auto command = std::make_shared<ImportCommand>();
-    CLI::App* const import = app.add_subcommand(
+    CLI::App* const added = app.add_subcommand(
         "import", "A model of another format as a USD scene. It names what it assumes and leaves\n"
                   "out, a line each. The other commands open models directly as well.\n"
                   "Example: penumbra import kitchen.glb -o kitchen.usda");
-    import
+    added
         ->add_option("MODEL", command->model,
                      "glTF (.gltf, .glb), OBJ, FBX, Collada (.dae), PLY or STL")
         ->required();
-    import->add_option("-o,--output", command->output, "USD text file (.usda) to write")
-        ->required();
-    import->add_option("--unit", command->unit,
-                       "What a unit of the model is: mm, cm, m, km, in, ft or a number of metres\n"
-                       "(default: what the file says; metres for OBJ, PLY and STL)");
-    import
+    added->add_option("-o,--output", command->output, "USD text file (.usda) to write")->required();
+    added->add_option("--unit", command->unit,
+                      "What a unit of the model is: mm, cm, m, km, in, ft or a number of metres\n"
+                      "(default: what the file says; metres for OBJ, PLY and STL)");
+    const std::map<std::string, UpAxis> axes{{"y", UpAxis::y}, {"z", UpAxis::z}};
+    added
         ->add_option("--up", command->up,
                      "Which axis points up (default: what the file says; Y for OBJ and PLY,\n"
                      "Z for STL)")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, UpAxis>{{"y", UpAxis::y},
-                                                                          { "z",
-                                                                            UpAxis::z }},
-                                            CLI::ignore_case)
-                        .description("{y,z}"))
+        ->transform(CLI::CheckedTransformer(axes, CLI::ignore_case).description("{y,z}"))
         ->type_name("AXIS");
-    import->add_flag("--quiet", command->quiet, "Say nothing of what was assumed or left out");
-    import->callback([command] { run(*command);
-});
-} // namespace penumbra
+    added->add_flag("--quiet", command->quiet, "Say nothing of what was assumed or left out");
+    added->callback([command] { run(*command); });
+}
 
 } // namespace penumbra

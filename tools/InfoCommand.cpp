@@ -1,7 +1,7 @@
 #include "base/Error.h"
 #include "base/Parallel.h"
 #include "io/image/AtomicFile.h"
-#include "io/usd/crate/UsdFiles.h"
+#include "io/usd/scene/SceneFiles.h"
 #include "io/usd/scene/UsdScene.h"
 #include "io/usd/text/UsdLayerWriter.h"
 #include "radiosity/mesh/LightShapes.h"
@@ -214,8 +214,11 @@ void explain(const SolveSettings& settings, glm::vec3 point) {
 
 /// The layer of the file alone, without what it refers to.
 void writeText(const SolveSettings& settings, const std::string& output) {
-    checkOutputs({settings.scene}, {output});
-    const UsdLayer layer = readAnyUsdLayer(settings.scene);
+    const SceneFiles files;
+    const UsdLayer layer = files.layer(settings.scene, {});
+    auto read = files.parts();
+    read.push_back(settings.scene);
+    checkOutputs(read, {output});
     const std::string text = usdLayerText(layer);
     if (output == "-") {
         fmt::print("{}", text);
@@ -256,7 +259,8 @@ void addInfoCommand(CLI::App& app) {
     auto command = std::make_shared<InfoCommand>();
     CLI::App* const info = app.add_subcommand(
         "info", "What is in a scene, and what of it was not understood; with --at, why it is as\n"
-                "bright or dark as it is at a point; with --text, the file as USD text.\n"
+                "bright or dark as it is at a point; with --text, the file as USD text; with\n"
+                "--composition, what each prim is composed of, as JSON.\n"
                 "Example: penumbra info room.usda --at 1.5,1,0 --direct-only");
     addSolveOptions(*info, command->solve);
     for (const char* name : {"--frames", "--from-scratch", "--stats"})
@@ -276,11 +280,11 @@ void addInfoCommand(CLI::App& app) {
     CLI::Option* const text = info->add_option(
         "--text", command->text,
         "FILE.usda: write the scene's file as USD text, whatever its kind (binary,\n"
-        "package), and nothing else; - for standard output. One layer is written,\n"
+        "package, model), and nothing else; - for standard output. One layer is written,\n"
         "without those it refers to");
     text->excludes(at);
     info->add_option("--composition", command->composition,
-                     "write what each prim is composed of (layers, arcs, selections, targets) to\n"
+                     "Write what each prim is composed of (layers, arcs, selections, targets) to\n"
                      "this file, as JSON; - is standard output")
         ->type_name("OUT.json")
         ->excludes(at)

@@ -16,11 +16,10 @@ namespace {
 
 /// \return the exit code; what a command could not do is thrown
 int run(int argc, char** argv) {
-    CLI::App app{
-        "Penumbra: soft, physically right light for scenes in which things move.\n"
-        "Reads USD text (.usda) and models (glTF, OBJ, FBX, Collada, PLY, STL), solves radiosity,\n"
-        "shows it in a window or writes lit frames.\n",
-        "penumbra"};
+    CLI::App app{"Penumbra: soft, physically right light for scenes in which things move.\n"
+                 "Reads USD (text, binary, packages) and models (glTF, OBJ, FBX, Collada, PLY,\n"
+                 "STL), solves radiosity, shows it in a window or writes lit frames.\n",
+                 "penumbra"};
     app.set_version_flag("--version", "penumbra " PENUMBRA_VERSION);
     app.require_subcommand(1);
     app.footer(
@@ -55,6 +54,7 @@ int main(int argc, char** argv) {
     // A full disk or a closed pipe is reported by the failing write, not by a signal.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGCHLD, SIG_DFL); // who starts us may ignore it: then no child could be waited for
     penumbra::removeUnfinishedFilesOnSignals();
     penumbra::spareAddressSpaceIfLimited();
     try {

@@ -1,14 +1,13 @@
 #include "io/model/GltfJson.h"
 
 #include "base/Error.h"
-#include "base/SystemError.h"
+#include "io/model/ModelCheck.h"
 #include "io/model/PrimNames.h"
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
+#include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <numbers>
 
 namespace penumbra {
@@ -19,14 +18,6 @@ using Json = nlohmann::json;
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
     throw SceneFileError({file.string()}, why);
-}
-
-std::string bytesOf(const std::filesystem::path& file, std::uintmax_t maxFileBytes) {
-    std::error_code failed;
-    if (std::filesystem::file_size(file, failed) > maxFileBytes && !failed)
-        refuse(file, "the file is too large");
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
 }
 
 std::uint32_t wordAt(std::string_view bytes, std::size_t offset) {
@@ -164,8 +155,7 @@ void checkNodes(const std::filesystem::path& file, const Gltf& gltf) {
 
 } // namespace
 
-Gltf readGltf(const std::filesystem::path& file, std::uintmax_t maxFileBytes) {
-    const std::string bytes = bytesOf(file, maxFileBytes);
+Gltf readGltf(const std::filesystem::path& file, std::string_view bytes) {
     const std::string_view source = jsonOf(file, bytes);
     Gltf gltf;
     if (source.empty()) return gltf;

@@ -6,10 +6,10 @@
 
 #include <glm/glm.hpp>
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace penumbra {
@@ -37,11 +37,9 @@ struct Gltf {
     std::vector<std::string> required; ///< extensions without which the file can't be shown
 };
 
-/// Deepest nodes of nodes, in models of any format.
-inline constexpr std::size_t kMostNested = 500;
-
 /// Reads .gltf or .glb of version 2; what is older comes back empty. Throws SceneFileError if it is
 /// no JSON, if nodes are in a circle or too deep, or if a number points to what is not there.
-Gltf readGltf(const std::filesystem::path& file, std::uintmax_t maxFileBytes);
+/// \param bytes all of the file
+Gltf readGltf(const std::filesystem::path& file, std::string_view bytes);
 
 } // namespace penumbra

@@ -1,6 +1,8 @@
 #include "io/model/ImportedImages.h"
 
 #include "io/model/PrimNames.h"
+#include "io/usd/layer/UsdAssets.h"
+#include "io/usd/layer/UsdText.h"
 
 #include <assimp/scene.h>
 
@@ -67,13 +69,23 @@ std::optional<std::string> ImportedImages::search(const std::string& name) {
     const fs::path folder = model_.parent_path();
     for (const std::string& way : {name, slashed, withoutPercents(slashed)})
         for (const fs::path& file : {folder / way, folder / fs::path(way).filename()})
-            if (!way.empty() && isFile(file)) {
-                files_.push_back(file);
-                return relativeToLayer(file);
-            }
+            if (!way.empty() && isFile(file)) return take(file, name);
     diagnostics_.warn({model_.string()},
                       "picture '" + cleanText(name) + "' is not there: its colour is used alone");
     return std::nullopt;
+}
+
+// A layer is UTF-8; names of files may be any bytes.
+std::optional<std::string> ImportedImages::take(const fs::path& file, const std::string& name) {
+    std::string path = relativeAsset(file, layer_.empty() ? model_ : layer_);
+    if (firstBadUtf8(path) != std::string::npos) {
+        diagnostics_.warn({model_.string()},
+                          "picture '" + cleanText(name) +
+                              "' left out: its path is not valid UTF-8 (rename it)");
+        return std::nullopt;
+    }
+    files_.push_back(file);
+    return path;
 }
 
 std::optional<std::string> ImportedImages::keep(const aiTexture& texture, const std::string& name) {
@@ -82,27 +94,18 @@ std::optional<std::string> ImportedImages::keep(const aiTexture& texture, const 
                           "picture '" + cleanText(name) + "' within the model left out: " + why);
         return std::nullopt;
     };
+    const std::string stem = layer_.stem().string();
     if (texture.mHeight != 0 || texture.mWidth == 0 || !texture.pcData)
         return leaveOut("only PNG, JPEG and the like are taken");
     if (layer_.empty()) return leaveOut("penumbra import writes it to a file");
+    if (firstBadUtf8(stem) != std::string::npos)
+        return leaveOut("the name of the layer, of which it gets its own, is not valid UTF-8");
     const auto* bytes = reinterpret_cast<const std::byte*>(texture.pcData);
     ImportedImage image;
-    image.name = layer_.stem().string() + "-picture" + std::to_string(images_.size() + 1) +
-                 endingOf(texture);
+    image.name = stem + "-picture" + std::to_string(images_.size() + 1) + endingOf(texture);
     image.bytes.assign(bytes, bytes + texture.mWidth);
     images_.push_back(std::move(image));
     return "./" + images_.back().name;
-}
-
-std::string ImportedImages::relativeToLayer(const fs::path& file) const {
-    std::error_code failed;
-    const fs::path from = layer_.empty() ? model_ : layer_;
-    const fs::path folder = fs::weakly_canonical(fs::absolute(from, failed), failed).parent_path();
-    const fs::path target = fs::weakly_canonical(fs::absolute(file, failed), failed);
-    const fs::path relative = target.lexically_relative(folder);
-    if (relative.empty()) return target.generic_string();
-    const std::string text = relative.generic_string();
-    return text.starts_with("..") ? text : "./" + text;
 }
 
 } // namespace penumbra

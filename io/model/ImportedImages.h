@@ -34,8 +34,8 @@ public:
 
 private:
     std::optional<std::string> search(const std::string& name);
+    std::optional<std::string> take(const std::filesystem::path& file, const std::string& name);
     std::optional<std::string> keep(const aiTexture& texture, const std::string& name);
-    std::string relativeToLayer(const std::filesystem::path& file) const;
 
     const aiScene& scene_;
     std::filesystem::path model_, layer_;

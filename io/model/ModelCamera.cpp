@@ -2,6 +2,7 @@
 
 #include "io/model/PrimNames.h"
 #include "io/model/PrimSpecs.h"
+#include "io/model/VectorOf.h"
 
 #include <assimp/camera.h>
 
@@ -15,10 +16,6 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kAspect = 16.0 / 9.0;
 constexpr double kFarByNear = 1e6; // of a camera that sees without an end, as USD's standard has it
-
-glm::dvec3 vectorOf(const aiVector3D& v) {
-    return {double(v.x), double(v.y), double(v.z)};
-}
 
 bool usable(const glm::dmat4& m) {
     for (int c = 0; c < 4; ++c)

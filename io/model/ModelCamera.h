@@ -18,8 +18,8 @@ struct ModelCamera {
     double verticalFov = 0;       ///< the whole angle [rad]; 0: unknown
     double aspect = 0;            ///< width by height; 0: unknown
     double orthographicWidth = 0; ///< of the picture, in units of the file; 0: perspective
-    double nearPlane = 0,
-           farPlane = 0; ///< in units of the file; far not beyond near: there is no end
+    double nearPlane = 0;         ///< in units of the file
+    double farPlane = 0;          ///< the same; not beyond the near one: there is no end
 };
 
 ModelCamera modelCameraOf(const aiCamera& camera);

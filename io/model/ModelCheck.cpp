@@ -1,7 +1,6 @@
 #include "io/model/ModelCheck.h"
 
 #include "base/Error.h"
-#include "io/model/GltfJson.h"
 #include "io/model/PrimNames.h"
 
 #include <assimp/scene.h>

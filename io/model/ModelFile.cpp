@@ -1,7 +1,6 @@
 #include "io/model/ModelFile.h"
 
 #include "base/Error.h"
-#include "base/SystemError.h"
 #include "io/model/ModelCheck.h"
 #include "io/model/ModelText.h"
 #include "io/model/PrimNames.h"
@@ -74,8 +73,8 @@ public:
 
     Assimp::IOStream* Open(const char* file, const char* mode) override {
         std::error_code failed;
-        const bool large = std::filesystem::file_size(file, failed) > maxFileBytes_ && !failed;
-        if (large || std::filesystem::is_directory(file, failed)) return nullptr;
+        if (!std::filesystem::is_regular_file(file, failed)) return nullptr; // it may be a pipe
+        if (std::filesystem::file_size(file, failed) > maxFileBytes_ && !failed) return nullptr;
         Assimp::IOStream* stream = Assimp::DefaultIOSystem::Open(file, mode);
         if (stream && std::find(files_.begin(), files_.end(), file) == files_.end())
             files_.emplace_back(file);
@@ -169,43 +168,47 @@ struct ModelFile::Reader {
 
 ModelFile::ModelFile(std::filesystem::path file, ModelFormat format, std::uintmax_t maxFileBytes,
                      Diagnostics& diagnostics)
-    : file_(std::move(file)), format_(format), reader_(std::make_unique<Reader>()) {
-    const std::string why = whyUnreadable(file_.string());
-    if (!why.empty()) throw SceneFileError({file_.string()}, "can't read: " + why);
-    std::error_code failed;
-    const std::uintmax_t size = std::filesystem::file_size(file_, failed);
-    if (!failed && size == 0) throw SceneFileError({file_.string()}, "the file is empty");
-    if (!failed && size > maxFileBytes)
-        throw SceneFileError({file_.string()}, "the file is too large");
-    if (format_ == ModelFormat::gltf) gltf_ = readGltf(file_, maxFileBytes);
+    : file_(std::move(file)), format_(format), source_(file_.string(), maxFileBytes),
+      reader_(std::make_unique<Reader>()) {
+    if (bytes().empty()) throw SceneFileError({file_.string()}, "the file is empty");
+    if (format_ == ModelFormat::gltf) gltf_ = readGltf(file_, bytes());
     reader_->files.push_back(file_);
-    checkModelText(file_, format_);
+    checkModelText(file_, format_, bytes());
+    scene_ = tryAndRead(maxFileBytes, diagnostics);
+    animations_ = reader_->animations;
+}
+
+const aiScene* ModelFile::tryAndRead(std::uintmax_t maxFileBytes, Diagnostics& diagnostics) {
+    const std::string file = file_.string();
+    const std::string unreadable = std::string("this can't be read as ") + nameOf(format_) + ": ";
     const Listening listening;
     const auto trial = [&] { Reader().read(file_, format_, maxFileBytes); };
-    const unsigned seconds = kTrialSeconds + unsigned(size / kTrialBytesASecond);
+    const unsigned seconds = kTrialSeconds + unsigned(bytes().size() / kTrialBytesASecond);
     if (!survivesTrial(trial, seconds, kTrialClock * seconds))
-        throw SceneFileError({file_.string()}, std::string("this can't be read as ") +
-                                                   nameOf(format_) +
-                                                   ": Assimp breaks down on it (export the model "
-                                                   "again)");
+        throw SceneFileError({file},
+                             unreadable + "Assimp breaks down on it (export the model again)");
+    const aiScene* scene = nullptr;
     try {
-        scene_ = reader_->read(file_, format_, maxFileBytes);
-        animations_ = reader_->animations;
+        scene = reader_->read(file_, format_, maxFileBytes);
     } catch (const Error&) {
-        checkIndices(listening.warnings(), file_.string());
+        checkIndices(listening.warnings(), file);
         throw;
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {
-        throw SceneFileError({file_.string()}, std::string("this can't be read as ") +
-                                                   nameOf(format_) + ": " +
-                                                   cleanText(error.what()));
+        throw SceneFileError({file}, unreadable + cleanText(error.what()));
     }
-    checkIndices(listening.warnings(), file_.string());
-    reportWarnings(listening.warnings(), file_.string(), diagnostics);
+    checkIndices(listening.warnings(), file);
+    reportWarnings(listening.warnings(), file, diagnostics);
+    return scene;
 }
 
 ModelFile::~ModelFile() = default;
+
+std::string_view ModelFile::bytes() const {
+    const auto all = source_.bytes();
+    return {reinterpret_cast<const char*>(all.data()), all.size()};
+}
 
 std::vector<std::filesystem::path> ModelFile::files() const {
     return reader_->files;

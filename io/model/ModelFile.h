@@ -1,6 +1,7 @@
 // A model as Assimp reads it: the one place that runs Assimp.
 #pragma once
 
+#include "base/FileBytes.h"
 #include "io/model/GltfJson.h"
 #include "io/model/ModelFormat.h"
 #include "io/usd/layer/UsdDiagnostic.h"
@@ -8,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 struct aiScene;
@@ -24,6 +26,7 @@ public:
     ~ModelFile();
 
     const std::filesystem::path& path() const { return file_; }
+    std::string_view bytes() const; ///< of the file itself
     ModelFormat format() const { return format_; }
     const aiScene& scene() const { return *scene_; }
     const Gltf& gltf() const { return gltf_; } ///< empty if it is none
@@ -33,8 +36,11 @@ public:
 
 private:
     struct Reader;
+    const aiScene* tryAndRead(std::uintmax_t maxFileBytes, Diagnostics& diagnostics);
+
     std::filesystem::path file_;
     ModelFormat format_;
+    FileBytes source_;
     Gltf gltf_;
     std::size_t animations_ = 0;
     std::unique_ptr<Reader> reader_; // owns the scene

@@ -31,9 +31,4 @@ const char* nameOf(ModelFormat format) {
     return kNames[std::size_t(format)];
 }
 
-bool saysUnits(ModelFormat format) {
-    return format == ModelFormat::gltf || format == ModelFormat::fbx ||
-           format == ModelFormat::collada;
-}
-
 } // namespace penumbra

@@ -14,7 +14,4 @@ std::optional<ModelFormat> modelFormatOf(const std::filesystem::path& file);
 /// As people call it.
 const char* nameOf(ModelFormat format);
 
-/// Whether files of the format say in which unit they are, and which axis is up.
-bool saysUnits(ModelFormat format);
-
 } // namespace penumbra

@@ -8,19 +8,19 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <string_view>
 
 namespace penumbra {
 
 namespace {
 
 /// The unit and the axes of a model.
-struct Frame {
+struct ModelFrame {
     double metersPerUnit = 1;
     UpAxis up = UpAxis::y;
     glm::dmat4 turn{1};   ///< for axes that USD does not have
     double rootScale = 1; ///< that the reader has put on the root node
-    bool unitKnown = true, upKnown = true;
+    bool said = true;     ///< by the file; else a habit of its format
 };
 
 template <class T>
@@ -47,8 +47,8 @@ glm::dmat4 turnToY(int axis, bool negative) {
 }
 
 // FBX: UnitScaleFactor in centimetres; axes 0, 1, 2 with a sign each.
-Frame fbxFrame(const aiScene& scene) {
-    Frame frame;
+ModelFrame fbxFrame(const aiScene& scene) {
+    ModelFrame frame;
     const double centimetres = double(metadataOf<float>(scene, "UnitScaleFactor").value_or(1.0f));
     if (centimetres > 0 && std::isfinite(centimetres)) frame.metersPerUnit = centimetres / 100;
     const int axis = metadataOf<std::int32_t>(scene, "UpAxis").value_or(1);
@@ -60,26 +60,27 @@ Frame fbxFrame(const aiScene& scene) {
     return frame;
 }
 
+/// What is behind the first `begin`, up to `end` or the end of all; empty if there is no `begin`.
+std::string_view between(std::string_view text, std::string_view begin, std::string_view end) {
+    const std::size_t at = text.find(begin);
+    if (at == std::string_view::npos) return {};
+    text.remove_prefix(at + begin.size());
+    return text.substr(0, text.find(end));
+}
+
 // Collada: `<unit meter="0.01"/>` and `<up_axis>Z_UP</up_axis>` in the first <asset>. Assimp keeps
 // the unit as a scale of the root node, which is taken back; it was asked to leave the axes.
-Frame colladaFrame(const ModelFile& file) {
-    Frame frame;
-    std::ifstream in(file.path(), std::ios::binary);
-    std::string text(std::size_t(1) << 20, '\0'); // <asset> comes first
-    in.read(text.data(), std::streamsize(text.size()));
-    text.resize(std::size_t(in.gcount()));
-    text.resize(std::min(text.size(), text.find("</asset>")));
-    const std::size_t unit = text.find("<unit");
-    const std::size_t meter = unit == std::string::npos ? unit : text.find("meter=", unit);
-    if (meter != std::string::npos) {
-        const char* begin = text.data() + meter + 7;
-        double value = 1;
-        const auto read = std::from_chars(begin, text.data() + text.size(), value);
-        if (read.ec == std::errc() && value > 0 && std::isfinite(value))
-            frame.metersPerUnit = value;
-    }
-    if (text.find("Z_UP") != std::string::npos) frame.up = UpAxis::z;
-    if (text.find("X_UP") != std::string::npos) frame.turn = turnToY(0, false);
+ModelFrame colladaFrame(const ModelFile& file) {
+    ModelFrame frame;
+    const std::string_view asset = between(file.bytes(), "<asset", "</asset>");
+    const std::string_view meter = between(between(asset, "<unit", ">"), "meter=", " ");
+    double value = 0;
+    if (meter.size() > 1) // behind its quote
+        std::from_chars(meter.data() + 1, meter.data() + meter.size(), value);
+    if (value > 0 && std::isfinite(value)) frame.metersPerUnit = value;
+    const std::string_view up = between(asset, "<up_axis>", "</up_axis>");
+    if (up.find("Z_UP") != std::string::npos) frame.up = UpAxis::z;
+    if (up.find("X_UP") != std::string::npos) frame.turn = turnToY(0, false);
     const double scale = double(file.scene().mRootNode->mTransformation.a1);
     if (std::abs(scale / frame.metersPerUnit - 1) < 1e-5)
         frame.rootScale = scale; // that very float: nothing is left of it
@@ -88,20 +89,21 @@ Frame colladaFrame(const ModelFile& file) {
     return frame;
 }
 
-Frame frameOf(const ModelFile& file) {
-    Frame frame;
+ModelFrame frameOf(const ModelFile& file) {
+    ModelFrame frame;
     if (file.format() == ModelFormat::fbx) return fbxFrame(file.scene());
     if (file.format() == ModelFormat::collada) return colladaFrame(file);
     if (file.format() == ModelFormat::stl) frame.up = UpAxis::z; // the habit of what writes it
-    frame.unitKnown = frame.upKnown = saysUnits(file.format());
+    frame.said = file.format() == ModelFormat::gltf;
     return frame;
 }
 
-void sayWhatWasTaken(const Frame& frame, const ImportOptions& options, const ModelFile& file,
+void sayWhatWasTaken(const ModelFrame& frame, const ImportOptions& options, const ModelFile& file,
                      Diagnostics& diagnostics) {
+    if (frame.said) return;
     std::string taken;
-    if (!frame.unitKnown && !options.metersPerUnit) taken = "metres";
-    if (!frame.upKnown && !options.up)
+    if (!options.metersPerUnit) taken = "metres";
+    if (!options.up)
         taken +=
             std::string(taken.empty() ? "" : ", ") + (frame.up == UpAxis::z ? "Z" : "Y") + " up";
     if (!taken.empty())
@@ -144,7 +146,7 @@ void nameWhatIsLeftOut(const ModelFile& file, Diagnostics& diagnostics) {
 }
 
 /// Makes the one prim of the layer, and counts what is in it.
-void addRoot(ImportedModel& imported, const ModelFile& model, const Frame& frame, double unit,
+void addRoot(ImportedModel& imported, const ModelFile& model, const ModelFrame& frame, double unit,
              const ImportOptions& options, Diagnostics& diagnostics) {
     const std::string stem = model.path().stem().string();
     UsdPrimSpec root = makePrim("Xform", primName(stem, "Model"));
@@ -182,7 +184,7 @@ ImportedModel importModel(const std::filesystem::path& file, const ImportOptions
                                               "Collada are known by the ending of the name");
     Diagnostics diagnostics;
     const ModelFile model(file, *format, options.maxFileBytes, diagnostics);
-    const Frame frame = frameOf(model);
+    const ModelFrame frame = frameOf(model);
     sayWhatWasTaken(frame, options, model, diagnostics);
     nameWhatIsLeftOut(model, diagnostics);
     const double unit = options.metersPerUnit.value_or(frame.metersPerUnit);

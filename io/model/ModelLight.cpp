@@ -2,6 +2,7 @@
 
 #include "io/model/PrimNames.h"
 #include "io/model/PrimSpecs.h"
+#include "io/model/VectorOf.h"
 
 #include <assimp/light.h>
 
@@ -14,10 +15,6 @@ namespace penumbra {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-glm::dvec3 vectorOf(const aiVector3D& v) {
-    return {double(v.x), double(v.y), double(v.z)};
-}
 
 ModelLight::Kind kindOf(aiLightSourceType type) {
     switch (type) {

@@ -26,8 +26,8 @@ struct ModelLight {
     glm::dvec2 size{0};             ///< of a rect, in units of the file
 };
 
-/// A point has no area, so it can't be a light of radiosity: it becomes a sphere of this radius
-/// [m].
+/// Radius [m] of the sphere that a point becomes: without an area it can't be a light of
+/// radiosity.
 inline constexpr double kPointRadius = 0.05;
 
 ModelLight modelLightOf(const aiLight& light);
@@ -39,8 +39,11 @@ ModelLight modelLightOf(const aiLight& light);
 ///
 /// A spot has its cone as UsdLux shaping. A RectLight of area A has L = I / A. None, with a
 /// warning, for lights that have no place (directional, ambient, unknown).
-/// \param toWorld of the node (toParent included), column vectors, in units of the file: the sphere
-/// keeps its radius \param unit    metres a unit \param where   the file, for the warning
+///
+/// \param toWorld of the node (toParent included), column vectors, in units of the file: the
+///                sphere keeps its radius
+/// \param unit    metres a unit
+/// \param where   the file, for the warning
 std::optional<UsdPrimSpec> lightPrim(const ModelLight& light, const std::string& name,
                                      const glm::dmat4& toWorld, double unit,
                                      const SourceLocation& where, Diagnostics& diagnostics);

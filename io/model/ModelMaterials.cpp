@@ -28,20 +28,24 @@ struct ModelMaterials::Surface {
 
 namespace {
 
-std::string textOf(const aiMaterial& material, const char* key) {
+// The last three arguments are one of Assimp's AI_MATKEY_...
+std::string textOf(const aiMaterial& material, const char* key, unsigned type, unsigned index) {
     aiString text;
-    return material.Get(key, 0, 0, text) == aiReturn_SUCCESS ? std::string(text.C_Str()) : "";
+    return material.Get(key, type, index, text) == aiReturn_SUCCESS ? std::string(text.C_Str())
+                                                                    : "";
 }
 
-double numberOf(const aiMaterial& material, const char* key, double fallback) {
+double numberOf(const aiMaterial& material, double fallback, const char* key, unsigned type,
+                unsigned index) {
     ai_real number = 0;
-    const bool found = material.Get(key, 0, 0, number) == aiReturn_SUCCESS;
+    const bool found = material.Get(key, type, index, number) == aiReturn_SUCCESS;
     return found && std::isfinite(number) ? double(number) : fallback;
 }
 
-std::optional<glm::dvec3> colourOf(const aiMaterial& material, const char* key) {
+std::optional<glm::dvec3> colourOf(const aiMaterial& material, const char* key, unsigned type,
+                                   unsigned index) {
     aiColor4D c;
-    if (material.Get(key, 0, 0, c) != aiReturn_SUCCESS) return std::nullopt;
+    if (material.Get(key, type, index, c) != aiReturn_SUCCESS) return std::nullopt;
     if (!std::isfinite(c.r) || !std::isfinite(c.g) || !std::isfinite(c.b)) return std::nullopt;
     return glm::max(glm::dvec3(double(c.r), double(c.g), double(c.b)), glm::dvec3(0));
 }
@@ -69,17 +73,17 @@ ModelMaterials::ModelMaterials(const ModelFile& file, std::string scope, Importe
 // Assimp gives each mesh a material, also where the file has none: white, or grey, and nameless or
 // "DefaultMaterial".
 bool ModelMaterials::says(const aiMaterial& material, const aiMesh& mesh) const {
-    const std::string name = textOf(material, "?mat.name");
+    const std::string name = textOf(material, AI_MATKEY_NAME);
     const bool textured = material.GetTextureCount(aiTextureType_DIFFUSE) > 0 ||
                           material.GetTextureCount(aiTextureType_BASE_COLOR) > 0;
-    const auto emission = colourOf(material, "$clr.emissive").value_or(glm::dvec3(0));
+    const auto emission = colourOf(material, AI_MATKEY_COLOR_EMISSIVE).value_or(glm::dvec3(0));
     if (textured || emission != glm::dvec3(0)) return true;
     const bool gltf = file_.format() == ModelFormat::gltf;
     const bool last = mesh.mMaterialIndex + 1 == file_.scene().mNumMaterials;
     if (gltf && name.empty() && last) return false; // Assimp's own, behind those of the file
     if (!gltf && (name.empty() || name == AI_DEFAULT_MATERIAL_NAME)) return false;
-    const auto base = colourOf(material, "$clr.base");
-    const auto colour = base ? base : colourOf(material, "$clr.diffuse");
+    const auto base = colourOf(material, AI_MATKEY_BASE_COLOR);
+    const auto colour = base ? base : colourOf(material, AI_MATKEY_COLOR_DIFFUSE);
     return !(mesh.mColors[0] && colour == glm::dvec3(1)); // white times the colours of the mesh
 }
 
@@ -105,19 +109,20 @@ bool ModelMaterials::doubleSided(const aiMesh& mesh) const {
 
 ModelMaterials::Surface ModelMaterials::surfaceOf(const aiMaterial& material) {
     Surface made;
-    made.name = textOf(material, "?mat.name");
-    const auto base = colourOf(material, "$clr.base");
-    made.diffuse = base ? *base : colourOf(material, "$clr.diffuse").value_or(glm::dvec3(0.5));
+    made.name = textOf(material, AI_MATKEY_NAME);
+    const auto base = colourOf(material, AI_MATKEY_BASE_COLOR);
+    made.diffuse =
+        base ? *base : colourOf(material, AI_MATKEY_COLOR_DIFFUSE).value_or(glm::dvec3(0.5));
     made.emission = emissionOf(material, made.name);
-    made.roughness = std::clamp(numberOf(material, "$mat.roughnessFactor", 0.5), 0.0, 1.0);
-    made.opacity = std::clamp(numberOf(material, "$mat.opacity", 1), 0.0, 1.0);
+    made.roughness = std::clamp(numberOf(material, 0.5, AI_MATKEY_ROUGHNESS_FACTOR), 0.0, 1.0);
+    made.opacity = std::clamp(numberOf(material, 1, AI_MATKEY_OPACITY), 0.0, 1.0);
     made.diffuseTexture = textureOf(material, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
     made.emissionTexture =
         textureOf(material, {aiTextureType_EMISSION_COLOR, aiTextureType_EMISSIVE});
-    const std::string alpha = textOf(material, "$mat.gltf.alphaMode");
+    const std::string alpha = textOf(material, AI_MATKEY_GLTF_ALPHAMODE);
     if (file_.format() == ModelFormat::gltf) {
         if (alpha != "BLEND" && alpha != "MASK") made.opacity = 1;
-        if (alpha == "MASK") made.cutoff = numberOf(material, "$mat.gltf.alphaCutoff", 0.5);
+        if (alpha == "MASK") made.cutoff = numberOf(material, 0.5, AI_MATKEY_GLTF_ALPHACUTOFF);
         made.alphaOfTexture = alpha == "MASK" || alpha == "BLEND";
     } else if (made.opacity == 0) { // more often a slip of an exporter than meant
         made.opacity = 1;
@@ -147,7 +152,7 @@ void ModelMaterials::nameOtherPictures(const aiMaterial& material, const std::st
 }
 
 double ModelMaterials::metallicOf(const aiMaterial& material, const std::string& name) {
-    const double metallic = std::clamp(numberOf(material, "$mat.metallicFactor", 0), 0.0, 1.0);
+    const double metallic = std::clamp(numberOf(material, 0, AI_MATKEY_METALLIC_FACTOR), 0.0, 1.0);
     const auto warn = [&](const char* text) {
         diagnostics_.warn({file_.path().string()}, "material '" + cleanText(name) + "' " + text);
     };
@@ -162,7 +167,8 @@ double ModelMaterials::metallicOf(const aiMaterial& material, const std::string&
 }
 
 glm::dvec3 ModelMaterials::emissionOf(const aiMaterial& material, const std::string& name) {
-    const glm::dvec3 emissive = colourOf(material, "$clr.emissive").value_or(glm::dvec3(0));
+    const glm::dvec3 emissive =
+        colourOf(material, AI_MATKEY_COLOR_EMISSIVE).value_or(glm::dvec3(0));
     if (emissive == glm::dvec3(0)) return emissive;
     if (file_.format() == ModelFormat::gltf) return emissive * strengthOf(name, emissive);
     if (!emissionNamed_)
@@ -213,12 +219,12 @@ std::optional<ModelMaterials::Texture> ModelMaterials::textureOf(const aiMateria
 namespace {
 
 /// A texture, and what reads its coordinates, as prims of a material.
-/// \param scale, fallback red, green, blue
+/// \param scale, fallback red, green, blue, alpha
 void addTexture(UsdPrimSpec& material, const std::string& path, const std::string& name,
                 const std::string& file, const std::string& primvar, const std::string& wrapS,
-                const std::string& wrapT, glm::dvec3 scale, glm::dvec3 fallback) {
-    const auto four = [](glm::dvec3 c) {
-        return std::vector{float(c.r), float(c.g), float(c.b), 1.0f};
+                const std::string& wrapT, glm::dvec4 scale, glm::dvec4 fallback) {
+    const auto four = [](glm::dvec4 c) {
+        return std::vector{float(c.r), float(c.g), float(c.b), float(c.a)};
     };
     UsdPrimSpec reader = makePrim("Shader", name + "Coordinates");
     addText(reader, "token", "info:id", "UsdPrimvarReader_float2").uniform = true;
@@ -259,6 +265,7 @@ UsdPrimSpec ModelMaterials::prim(const Surface& surface, const std::string& name
         addColour(shader, "inputs:emissiveColor", surface.emission);
     addFloat(shader, "inputs:metallic", surface.metallic);
     addFloat(shader, "inputs:roughness", surface.roughness);
+    const double alpha = surface.alphaOfTexture ? surface.opacity : 1; // times the picture's
     if (surface.diffuseTexture && surface.alphaOfTexture)
         addConnection(shader, "float", "inputs:opacity", path + "/DiffuseTexture.outputs:a");
     else if (surface.opacity != 1)
@@ -268,10 +275,11 @@ UsdPrimSpec ModelMaterials::prim(const Surface& surface, const std::string& name
     material.children.push_back(std::move(shader));
     if (const auto& texture = surface.diffuseTexture)
         addTexture(material, path, "Diffuse", texture->file, textureCoordinates(texture->channel),
-                   texture->wrapS, texture->wrapT, surface.diffuse, 0.5 * surface.diffuse);
+                   texture->wrapS, texture->wrapT, {surface.diffuse, alpha},
+                   {0.5 * surface.diffuse, alpha});
     if (const auto& texture = surface.emissionTexture)
         addTexture(material, path, "Emission", texture->file, textureCoordinates(texture->channel),
-                   texture->wrapS, texture->wrapT, surface.emission, glm::dvec3(0));
+                   texture->wrapS, texture->wrapT, {surface.emission, 1}, {0, 0, 0, 1});
     keepDisplayName(material, surface.name);
     return material;
 }

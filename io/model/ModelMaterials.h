@@ -24,8 +24,9 @@ namespace penumbra {
 /// | its texture | UsdUVTexture; fallback: half of the colour, for who reads no textures |
 /// | emission, times its strength | emissiveColor [cd/m2]; formats other than glTF have no unit |
 /// | its texture | the same, its fallback is dark |
-/// | metallic, roughness, opacity | metallic (0 if a picture says where), roughness, opacity,
-/// opacityThreshold |
+/// | metallic | metallic; 0 if a picture says where |
+/// | roughness | roughness |
+/// | opacity (glTF: times the alpha of the base colour's texture) | opacity, opacityThreshold |
 ///
 /// Colours are taken as linear, as they are in the file.
 class ModelMaterials {

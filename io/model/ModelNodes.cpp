@@ -5,8 +5,6 @@
 
 #include <assimp/scene.h>
 
-#include <algorithm>
-
 namespace penumbra {
 
 namespace {

@@ -1,13 +1,11 @@
 #include "io/model/ModelText.h"
 
 #include "base/Error.h"
-#include "io/model/GltfJson.h"
+#include "io/model/ModelCheck.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstdint>
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -89,28 +87,24 @@ private:
 };
 
 template <class Check>
-void checkEach(std::ifstream& in, Check check) {
-    std::array<char, 65536> part;
-    while (in.read(part.data(), part.size()), in.gcount() > 0)
-        for (const char c : std::string_view(part.data(), std::size_t(in.gcount()))) check.take(c);
+void checkEach(std::string_view text, Check check) {
+    for (const char c : text) check.take(c);
 }
 
 // `element NAME COUNT`: each takes a byte at least.
-void checkPlyElement(const std::filesystem::path& file, std::istringstream& words) {
+void checkPlyElement(const std::filesystem::path& file, std::istringstream& words,
+                     std::size_t fileSize) {
     std::string name, count;
     words >> name >> count;
     std::uint64_t number = 0;
     const auto read = std::from_chars(count.data(), count.data() + count.size(), number);
-    std::error_code failed;
     if (count.empty() || read.ec != std::errc() || read.ptr != count.data() + count.size() ||
-        number > std::filesystem::file_size(file, failed))
+        number > fileSize)
         refuse(file, "the header has a wrong number of elements");
 }
 
-void checkPlyHeader(const std::filesystem::path& file, std::ifstream& in) {
-    std::string text(kLongestHeader, '\0');
-    in.read(text.data(), std::streamsize(text.size()));
-    text.resize(std::size_t(in.gcount()));
+void checkPlyHeader(const std::filesystem::path& file, std::string_view source) {
+    std::string text(source.substr(0, kLongestHeader));
     std::replace(text.begin(), text.end(), '\r', '\n');
     std::istringstream lines(text);
     bool first = true;
@@ -121,22 +115,18 @@ void checkPlyHeader(const std::filesystem::path& file, std::ifstream& in) {
         words >> word;
         if (first && word != "ply" && word != "PLY") refuse(file, "this is no PLY");
         if (word == "end_header" && line.ends_with(word)) return;
-        if (word == "element") checkPlyElement(file, words);
+        if (word == "element") checkPlyElement(file, words, source.size());
     }
     refuse(file, "the header has no end");
 }
 
 } // namespace
 
-void checkModelText(const std::filesystem::path& file, ModelFormat format) {
-    std::ifstream in(file, std::ios::binary);
-    if (format == ModelFormat::ply) checkPlyHeader(file, in);
-    if (format == ModelFormat::collada) checkEach(in, XmlCheck(file));
-    if (format != ModelFormat::fbx) return;
-    std::array<char, 18> begin{};
-    in.read(begin.data(), begin.size());
-    if (std::string_view(begin.data(), begin.size()) == "Kaydara FBX Binary") return;
-    checkEach(in, BraceCheck(file));
+void checkModelText(const std::filesystem::path& file, ModelFormat format, std::string_view text) {
+    if (format == ModelFormat::ply) checkPlyHeader(file, text);
+    if (format == ModelFormat::collada) checkEach(text, XmlCheck(file));
+    if (format == ModelFormat::fbx && !text.starts_with("Kaydara FBX Binary"))
+        checkEach(text, BraceCheck(file));
 }
 
 } // namespace penumbra

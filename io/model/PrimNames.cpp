@@ -1,6 +1,7 @@
 #include "io/model/PrimNames.h"
 
 #include "io/model/PrimSpecs.h"
+#include "io/usd/layer/UsdPath.h"
 #include "io/usd/layer/UsdText.h"
 
 #include <algorithm>
@@ -11,10 +12,6 @@ namespace {
 
 constexpr std::size_t kLongestName = 128;
 
-bool isWord(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
-
 } // namespace
 
 std::string primName(std::string_view text, std::string_view fallback) {
@@ -22,7 +19,7 @@ std::string primName(std::string_view text, std::string_view fallback) {
     for (const char c : text.substr(0, kLongestName)) {
         const auto byte = static_cast<unsigned char>(c);
         if ((byte & 0xc0) == 0x80) continue; // the rest of a character of several bytes
-        name += isWord(c) ? c : '_';
+        name += byte < 0x80 && isUsdIdentifierPart(c) ? c : '_';
     }
     if (std::all_of(name.begin(), name.end(), [](char c) { return c == '_'; })) name = fallback;
     if (name.front() >= '0' && name.front() <= '9') name.insert(name.begin(), '_');
@@ -31,9 +28,12 @@ std::string primName(std::string_view text, std::string_view fallback) {
 
 std::string PrimNames::take(std::string_view wanted, std::string_view fallback) {
     const std::string name = primName(wanted, fallback);
-    std::string unique = name;
-    for (std::size_t i = 1; !taken_.insert(unique).second; ++i)
-        unique = name + "_" + std::to_string(i);
+    const auto [entry, isNew] = taken_.try_emplace(name, 0);
+    if (isNew) return name;
+    std::size_t& last = entry->second; // stays where it is
+    std::string unique;
+    do unique = name + "_" + std::to_string(++last);
+    while (!taken_.try_emplace(unique, 0).second);
     return unique;
 }
 

@@ -3,9 +3,10 @@
 
 #include "io/usd/layer/UsdLayer.h"
 
+#include <cstddef>
 #include <string>
 #include <string_view>
-#include <unordered_set>
+#include <unordered_map>
 
 namespace penumbra {
 
@@ -20,7 +21,7 @@ public:
     std::string take(std::string_view wanted, std::string_view fallback);
 
 private:
-    std::unordered_set<std::string> taken_;
+    std::unordered_map<std::string, std::size_t> taken_; // with the last number given to it
 };
 
 /// Keeps the name that something had, if its prim has another one.

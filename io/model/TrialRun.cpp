@@ -1,6 +1,7 @@
 #include "io/model/TrialRun.h"
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,6 +15,7 @@ namespace {
 
 // What it says when it breaks down is nobody's business, nor is its memory.
 void becomeQuiet(unsigned seconds, unsigned byTheClock) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL); // who waits for it may be killed
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGALRM}) std::signal(signal, SIG_DFL);
     ::alarm(byTheClock);
     const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);

@@ -109,6 +109,28 @@ TEST_F(Import, NeverOverwritesWhatItReads) {
     EXPECT_THAT(here.files(), ElementsAre("a.mtl", "a.obj"));
 }
 
+TEST_F(Import, WhatCrashesAssimpIsRefusedAlsoWhereChildrenAreIgnored) {
+    std::string text = colladaText(""); // an array without a count, which Assimp 5.2 reads beyond
+    text.erase(text.find(R"( count="12")"), 11);
+    const Outcome outcome =
+        runPenumbra({"info", here.write("a.dae", text)}, {.childrenIgnored = true});
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("Assimp breaks down on it"));
+}
+
+TEST_F(Import, InfoWritesAModelAsTextAndSparesWhatItNames) {
+    here.write("a.mtl", "newmtl M\nKd 1 0 0\n");
+    const std::string model =
+        here.write("a.obj", std::string("mtllib a.mtl\nusemtl M\n") + kTriangle);
+    const Outcome outcome = runPenumbra({"info", model, "--text", "-"});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("def Mesh \"Roof\""));
+    EXPECT_THAT(runPenumbra({"info", model, "--composition", "-"}).out, HasSubstr("/a/Roof"));
+    for (const char* option : {"--text", "--composition"})
+        EXPECT_EQ(runPenumbra({"info", model, option, here.path("a.mtl")}).exitCode, 2) << option;
+    EXPECT_THAT(readFile(here.path("a.mtl")), HasSubstr("newmtl"));
+}
+
 TEST_F(Import, PicturesWithinTheModelAreWrittenBesideTheScene) {
     const std::string png("\x89PNG\r\n\x1a\n.", 9);
     const std::string model =

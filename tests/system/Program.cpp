@@ -9,6 +9,7 @@
 #include <fcntl.h>
 
 #include <algorithm>
+#include <csignal>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -31,6 +32,7 @@ void limit(int resource, rlim_t value) {
     limit(RLIMIT_CPU, limits.cpuSeconds);
     limit(RLIMIT_CORE, 0);
     if (limits.addressBytes) limit(RLIMIT_AS, *limits.addressBytes);
+    if (limits.childrenIgnored) std::signal(SIGCHLD, SIG_IGN);
     alarm(limits.seconds); // the program that it becomes keeps it
     if (limits.fileBytes) limit(RLIMIT_FSIZE, *limits.fileBytes);
     execv(PENUMBRA_PROGRAM, arguments.data());

@@ -21,6 +21,7 @@ struct RunLimits {
     std::optional<std::size_t> addressBytes = {}; ///< as `ulimit -v`
     unsigned seconds = 280;                       ///< then it is killed: it may wait for ever
     unsigned cpuSeconds = 60;                     ///< then it is killed
+    bool childrenIgnored = false;         ///< SIGCHLD is, as some who start programs have it
     std::string endWhenItWritesInto = {}; ///< gets SIGTERM when it creates a file in this folder
 };
 

@@ -2,8 +2,6 @@
 
 #include "base/FileBytes.h"
 
-#include <filesystem>
-
 namespace penumbra {
 
 namespace fs = std::filesystem;
@@ -24,6 +22,18 @@ UsdLayer UsdAssets::layer(const std::string& identifier, const UsdLayerLimits& l
 UsdAssetBytes UsdAssets::bytes(const std::string& identifier) const {
     const auto file = std::make_shared<const FileBytes>(identifier);
     return {file, file->bytes()};
+}
+
+std::string relativeAsset(const fs::path& file, const fs::path& layer) {
+    std::error_code failed;
+    const auto whole = [&](const fs::path& path) {
+        return fs::weakly_canonical(fs::absolute(path, failed), failed);
+    };
+    const fs::path target = whole(file);
+    const fs::path relative = target.lexically_relative(whole(layer).parent_path());
+    if (relative.empty()) return target.generic_string();
+    const std::string text = relative.generic_string();
+    return text.starts_with("..") ? text : "./" + text;
 }
 
 } // namespace penumbra

@@ -4,6 +4,7 @@
 #include "io/usd/layer/UsdLayer.h"
 
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -35,5 +36,9 @@ public:
     virtual UsdLayer layer(const std::string& identifier, const UsdLayerLimits& limits) const;
     virtual UsdAssetBytes bytes(const std::string& identifier) const;
 };
+
+/// How a layer names a file by a path relative to its own folder, beginning with a dot; the whole
+/// path if there is no such way. Links are followed, and neither needs to exist.
+std::string relativeAsset(const std::filesystem::path& file, const std::filesystem::path& layer);
 
 } // namespace penumbra

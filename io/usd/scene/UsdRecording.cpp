@@ -1,6 +1,7 @@
 #include "io/usd/scene/UsdRecording.h"
 
 #include "io/image/AtomicFile.h"
+#include "io/usd/layer/UsdAssets.h"
 #include "io/usd/text/UsdLayerText.h"
 
 #include <glm/gtc/quaternion.hpp>
@@ -132,16 +133,6 @@ struct Followed {
     Values track;
     std::uint64_t revision = 0;
 };
-
-std::string relativePath(const std::filesystem::path& file, const std::filesystem::path& layer) {
-    namespace fs = std::filesystem;
-    const fs::path folder = fs::weakly_canonical(fs::absolute(layer)).parent_path();
-    const fs::path target = fs::weakly_canonical(fs::absolute(file));
-    const fs::path relative = target.lexically_relative(folder);
-    if (relative.empty()) return target.generic_string();
-    const std::string text = relative.generic_string();
-    return text.starts_with("..") ? text : "./" + text;
-}
 
 } // namespace
 
@@ -301,7 +292,7 @@ std::string UsdRecording::text(const std::filesystem::path& path) const {
     layer.metadata("endTimeCode = " + usdText(impl_->lastCode));
     layer.metadata("metersPerUnit = " + usdText(scene.metersPerUnit));
     layer.metadata("startTimeCode = 1");
-    layer.metadata("subLayers = [\n        @" + relativePath(impl_->file, path) + "@\n    ]");
+    layer.metadata("subLayers = [\n        @" + relativeAsset(impl_->file, path) + "@\n    ]");
     layer.metadata("timeCodesPerSecond = " + usdText(kRate));
     layer.metadata(std::string("upAxis = ") + (scene.upAxis == UpAxis::z ? "\"Z\"" : "\"Y\""));
     impl_->writePlaces(layer);

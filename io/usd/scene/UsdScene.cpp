@@ -1,7 +1,6 @@
 #include "io/usd/scene/UsdScene.h"
 
-#include "io/model/ModelImport.h"
-#include "io/usd/crate/UsdFiles.h"
+#include "io/usd/scene/SceneFiles.h"
 #include "io/usd/scene/UsdCamera.h"
 #include "io/usd/scene/UsdContents.h"
 #include "io/usd/scene/UsdGprims.h"
@@ -322,24 +321,6 @@ LightRequest askedByDefaultPrim(const UsdStage& stage, double unit, Diagnostics&
     return asked;
 }
 
-/// Files of all kinds that become layers: USD's own, and models.
-class SceneFiles : public UsdFiles {
-public:
-    explicit SceneFiles(std::uintmax_t maxFileBytes) : UsdFiles(maxFileBytes) {}
-
-    UsdLayer layer(const std::string& identifier, const UsdLayerLimits& limits) const override {
-        if (!modelFormatOf(identifier)) return UsdFiles::layer(identifier, limits);
-        ImportedModel model = importModel(identifier, {.maxFileBytes = limits.fileBytes});
-        parts_.insert(parts_.end(), model.files.begin() + 1, model.files.end());
-        return std::move(model.layer);
-    }
-    /// What models name: their buffers and pictures.
-    const std::vector<std::filesystem::path>& parts() const { return parts_; }
-
-private:
-    mutable std::vector<std::filesystem::path> parts_;
-};
-
 } // namespace
 
 LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& options) {
@@ -367,7 +348,8 @@ LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& o
         if (name->text()) loaded.addresses.defaultPrim = *name->text();
     SceneBuilder(*stage, time, *tracks, loaded.addresses).build(scene.root);
     loaded.files = stage->files();
-    loaded.files.insert(loaded.files.end(), files.parts().begin(), files.parts().end());
+    const auto parts = files.parts();
+    loaded.files.insert(loaded.files.end(), parts.begin(), parts.end());
     if (!tracks->empty()) loaded.animation = tracks;
     const PlacedScene placed = placeScene(scene);
     if (placed.meshes.empty() && placed.lights.empty())

@@ -1,4 +1,4 @@
-// Loading a scene: USD text, or a model, to the scene graph.
+// Loading a scene, USD or a model, into the scene graph.
 #pragma once
 
 #include "base/LightRequest.h"
@@ -33,8 +33,8 @@ struct LoadedScene {
     std::vector<std::filesystem::path> files;
 };
 
-/// Reads a scene as a scene graph: USD text, or a model of another format, which is imported into a
-/// layer in memory (`io/model/ModelImport.h`), also where it is a sublayer. Below the root
+/// Reads a scene as a scene graph: USD of any kind, or a model of another format, which is imported
+/// into a layer in memory (`io/model/ModelImport.h`), also where it is a sublayer. Below the root
 /// everything is in metres, in the file's own axes: if its unit is another, the root is a Transform
 /// that scales.
 ///

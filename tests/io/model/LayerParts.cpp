@@ -1,6 +1,7 @@
 #include "tests/io/model/LayerParts.h"
 
 #include "io/usd/text/UsdLayerWriter.h"
+#include "tests/io/usd/crate/LayerDifference.h"
 
 #include <algorithm>
 #include <limits>
@@ -9,31 +10,6 @@
 namespace penumbra {
 
 namespace {
-
-template <class Item>
-bool sameEdits(const UsdListEdits<Item>& a, const UsdListEdits<Item>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
-        return x.op == y.op && x.items == y.items;
-    });
-}
-
-bool same(const UsdProperty& a, const UsdProperty& b) {
-    return a.name == b.name && a.typeName == b.typeName && a.type == b.type &&
-           a.relationship == b.relationship && a.custom == b.custom && a.uniform == b.uniform &&
-           a.value == b.value && a.samples.empty() && b.samples.empty() &&
-           sameEdits(a.targets, b.targets) && a.metadata == b.metadata;
-}
-
-bool same(const UsdPrimSpec& a, const UsdPrimSpec& b) {
-    const auto each = [](const auto& x, const auto& y) { return same(x, y); };
-    const bool arcs = a.arcs && b.arcs && sameEdits(a.arcs->apiSchemas, b.arcs->apiSchemas);
-    return a.specifier == b.specifier && a.typeName == b.typeName && a.name == b.name &&
-           a.metadata == b.metadata && (arcs || (!a.arcs && !b.arcs)) &&
-           std::equal(a.properties.begin(), a.properties.end(), b.properties.begin(),
-                      b.properties.end(), each) &&
-           std::equal(a.children.begin(), a.children.end(), b.children.begin(), b.children.end(),
-                      each);
-}
 
 const UsdProperty* propertyAt(const UsdLayer& layer, const std::string& prim,
                               const std::string& name) {
@@ -98,11 +74,8 @@ bool says(const ImportedModel& model, const std::string& text) {
         [&](const Diagnostic& one) { return one.text.find(text) != std::string::npos; });
 }
 
-bool sameAfterWriting(const UsdLayer& layer) {
-    const UsdLayer again = parseUsdLayer(usdLayerText(layer), layer.file);
-    return layer.metadata == again.metadata && layer.prims.size() == again.prims.size() &&
-           std::equal(layer.prims.begin(), layer.prims.end(), again.prims.begin(),
-                      [](const auto& a, const auto& b) { return same(a, b); });
+std::string differenceAfterWriting(const UsdLayer& layer) {
+    return differenceOf(layer, parseUsdLayer(usdLayerText(layer), layer.file));
 }
 
 } // namespace penumbra

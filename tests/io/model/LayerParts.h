@@ -27,7 +27,7 @@ std::string targetOf(const UsdLayer& layer, const std::string& prim, const std::
 /// Whether a diagnostic contains this text.
 bool says(const ImportedModel& model, const std::string& text);
 
-/// Whether the layer, written as text and read again, is the same.
-bool sameAfterWriting(const UsdLayer& layer);
+/// What differs when the layer is written as text and read again; empty: nothing.
+std::string differenceAfterWriting(const UsdLayer& layer);
 
 } // namespace penumbra

@@ -76,7 +76,7 @@ TEST_F(ModelMaterial, ATextureIsNamedByItsPathFromTheLayer) {
                 ElementsAre(0.8f, 0.4f, 0.2f, 1));
     EXPECT_THAT(floats(model, wood + "/DiffuseTexture", "inputs:fallback"),
                 ElementsAre(0.4f, 0.2f, 0.1f, 1));
-    EXPECT_TRUE(sameAfterWriting(model.layer));
+    EXPECT_EQ(differenceAfterWriting(model.layer), "");
 }
 
 TEST_F(ModelMaterial, APictureThatIsNotThereIsNamed) {
@@ -86,6 +86,15 @@ TEST_F(ModelMaterial, APictureThatIsNotThereIsNamed) {
         "textures": [{"source": 0}], "images": [{"uri": "gone.png"}])");
     EXPECT_TRUE(says(model, "picture 'gone.png' is not there"));
     EXPECT_THAT(floats(model, "/a/Materials/M/Surface", "inputs:diffuseColor"), Each(0.5f));
+}
+
+TEST_F(ModelMaterial, APictureWhoseNameIsNoUtf8IsLeftOut) { // a layer could not be read again
+    here.write("wood\xff.png", kPng);
+    here.write("a.mtl", "newmtl Wood\nKd 0.8 0.4 0.2\nmap_Kd wood\xff.png\n");
+    const auto model = importModel(
+        here.write("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl Wood\nf 1 2 3\n"));
+    EXPECT_TRUE(says(model, "'wood?.png' left out: its path is not valid UTF-8"));
+    EXPECT_EQ(differenceAfterWriting(model.layer), "");
 }
 
 TEST_F(ModelMaterial, PicturesOfAnythingElseAreNamed) {
@@ -107,6 +116,9 @@ TEST_F(ModelMaterial, APictureWithinTheModelIsHandedOverOrNamed) {
               kPng);
     EXPECT_EQ(textOf(model.layer, "/a/Materials/M/DiffuseTexture", "inputs:file"),
               "./b-picture1.png");
+    const auto odd = gltf(more, {.layer = here.path() / "b\xff.usda"});
+    EXPECT_TRUE(odd.images.empty());
+    EXPECT_TRUE(says(odd, "is not valid UTF-8"));
     const auto inMemory = gltf(more);
     EXPECT_TRUE(inMemory.images.empty());
     EXPECT_TRUE(says(inMemory, "penumbra import writes it"));
@@ -128,6 +140,18 @@ TEST_F(ModelMaterial, BothSidesAreShownWhereTheMaterialSaysSo) {
     EXPECT_THAT(numbersOf(model.layer, "/a/N/Square", "doubleSided"), ElementsAre(1));
     const auto one = gltf(R"(, "materials": [{"name": "M"}])");
     EXPECT_TRUE(numbersOf(one.layer, "/a/N/Square", "doubleSided").empty());
+}
+
+TEST_F(ModelMaterial, OpacityScalesTheAlphaOfTheTexture) {
+    here.write("leaf.png", kPng);
+    const auto model = gltf(R"(, "materials": [{"name": "M", "alphaMode": "BLEND",
+        "pbrMetallicRoughness": {"metallicFactor": 0, "baseColorFactor": [0.5, 1, 1, 0.25],
+         "baseColorTexture": {"index": 0}}}],
+        "textures": [{"source": 0}], "images": [{"uri": "leaf.png"}])");
+    EXPECT_EQ(targetOf(model.layer, "/a/Materials/M/Surface", "inputs:opacity"),
+              "/a/Materials/M/DiffuseTexture.outputs:a");
+    EXPECT_THAT(floats(model, "/a/Materials/M/DiffuseTexture", "inputs:scale"),
+                ElementsAre(0.5f, 1, 1, 0.25f));
 }
 
 TEST_F(ModelMaterial, WhatIsCutOutIsSo) {

@@ -65,7 +65,7 @@ void expectModel(const ImportedModel& model, const Expected& expected) {
     EXPECT_EQ(model.lights, expected.lights);
     EXPECT_EQ(model.cameras, expected.cameras);
     EXPECT_NEAR(numberIn(model.layer.metadata, "metersPerUnit"), expected.metersPerUnit, 1e-9);
-    EXPECT_TRUE(sameAfterWriting(model.layer));
+    EXPECT_EQ(differenceAfterWriting(model.layer), "");
 }
 
 TEST(SharedModels, EachIsImportedOrRefusedInOneLine) {
