@@ -4,11 +4,13 @@
 #include "io/usd/layer/UsdDiagnostic.h"
 
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 namespace penumbra {
 
-/// Collects errors. Each is a warning for people, and keeps the prim that was being composed.
+/// Collects errors. Each is a warning for people, and keeps the prim that was being composed. What
+/// is said again of a prim, because it is composed again, is left out.
 class UsdCompositionErrors {
 public:
     struct Error {
@@ -19,8 +21,13 @@ public:
     explicit UsdCompositionErrors(Diagnostics& diagnostics) : diagnostics_(&diagnostics) {}
     void setPrim(std::string path) { prim_ = std::move(path); }
     void report(const SourceLocation& where, const std::string& text) {
-        diagnostics_->warn(where, text);
-        if (list_.size() < kMost) list_.push_back({prim_, where.text() + ": " + text});
+        std::string line = where.text() + ": " + text;
+        if (!known_.contains(prim_ + "\n" + line)) {
+            diagnostics_->warn(where, text);
+            if (list_.size() >= kMost) return;
+            known_.insert(prim_ + "\n" + line);
+            list_.push_back({prim_, std::move(line)});
+        }
     }
     /// Something that isn't an error of the composition.
     void append(const std::vector<Diagnostic>& others) { diagnostics_->append(others); }
@@ -32,6 +39,7 @@ private:
     Diagnostics* diagnostics_;
     std::string prim_;
     std::vector<Error> list_;
+    std::unordered_set<std::string> known_; // prim and text of those in the list
 };
 
 } // namespace penumbra

@@ -9,6 +9,7 @@
 #include <deque>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 namespace penumbra {
@@ -64,11 +65,24 @@ struct UsdGraph {
     bool mayRepeat = true;                 ///< arcs to sites that are there already
     bool choosesVariants = false;          ///< the outermost one does
     std::array<std::deque<std::uint32_t>, kUsdTaskKinds> tasks;
+    std::unordered_set<std::uint32_t> implied; ///< nodes of tasks of kind impliedClasses
     UsdVariantQueue variants;
     /// Arcs whose prim must be there when all is done; variants may still bring it.
     std::vector<UsdExpectedPrim> expected;
 
-    void push(UsdTaskKind kind, std::uint32_t node) { tasks[std::size_t(kind)].push_back(node); }
+    /// Classes are implied from a node once, however often that is asked for before it is done.
+    void push(UsdTaskKind kind, std::uint32_t node) {
+        if (kind == UsdTaskKind::impliedClasses && !implied.insert(node).second) return;
+        tasks[std::size_t(kind)].push_back(node);
+    }
+    /// The first task of a kind that has some.
+    std::uint32_t pop(UsdTaskKind kind) {
+        auto& queue = tasks[std::size_t(kind)];
+        const std::uint32_t node = queue.front();
+        queue.pop_front();
+        if (kind == UsdTaskKind::impliedClasses) implied.erase(node);
+        return node;
+    }
     /// Whether the arcs from `parent` outward, in waiting graphs too, have a site above or below
     /// this one.
     bool isCycle(std::uint32_t parent, const UsdLayerStack* stack, UsdSitePath path) const;

@@ -161,11 +161,8 @@ void UsdIndexer::addTasks(Graph& graph, std::uint32_t node) {
 void UsdIndexer::run(Graph& graph) {
     do {
         for (std::size_t kind = 0; kind < kUsdTaskKinds; ++kind) {
-            auto& tasks = graph.tasks[kind];
-            if (tasks.empty()) continue;
-            const std::uint32_t node = tasks.front();
-            tasks.pop_front();
-            evaluate(graph, UsdTaskKind(kind), node);
+            if (graph.tasks[kind].empty()) continue;
+            evaluate(graph, UsdTaskKind(kind), graph.pop(UsdTaskKind(kind)));
             kind = std::size_t(-1); // it may have added tasks of lower kinds
         }
     } while (chooseVariant(graph));

@@ -74,8 +74,8 @@ private:
     void addReference(Graph& graph, std::uint32_t node, const UsdSiteReference& reference,
                       UsdArc kind, std::uint32_t sibling);
     void evaluateClasses(Graph& graph, std::uint32_t node, UsdClassKind kind);
-    UsdMappingPtr arcMapping(const UsdNode& node, UsdSitePath target, const UsdLayerOffset& offset,
-                             bool rooted);
+    UsdMappingPtr arcMapping(const UsdLayerStack& stack, UsdSitePath site, UsdSitePath target,
+                             const UsdLayerOffset& offset, bool rooted);
 
     // UsdImpliedClasses.cpp
     struct Transfer;

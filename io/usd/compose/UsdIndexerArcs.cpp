@@ -5,30 +5,6 @@
 
 namespace penumbra {
 
-namespace {
-
-const char* nameOf(UsdArc arc) {
-    switch (arc) {
-    case UsdArc::root:
-        return "root";
-    case UsdArc::inherit:
-        return "inherit";
-    case UsdArc::variant:
-        return "variant";
-    case UsdArc::relocate:
-        return "relocate";
-    case UsdArc::reference:
-        return "reference";
-    case UsdArc::payload:
-        return "payload";
-    case UsdArc::specialize:
-        return "specialize";
-    }
-    return "";
-}
-
-} // namespace
-
 bool UsdIndexer::mayAdd(const Graph& graph, const NewArc& arc) {
     const auto refuse = [&](const std::string& why) {
         errors_.report(arc.where, std::string(nameOf(arc.arc)) + " of <" + arc.path.text() +
@@ -40,8 +16,10 @@ bool UsdIndexer::mayAdd(const Graph& graph, const NewArc& arc) {
         return refuse("it leads in a circle");
     const bool mayRepeat = graph.mayRepeat && arc.mayRepeat && !isClassArc(arc.arc);
     if (!mayRepeat && arc.speaks && graph.speaksAlready(arc.stack, arc.path)) return false;
-    constexpr std::size_t kPairsPerNode = 16; // a mapping costs as much as that many nodes
-    return spend(1 + arc.mapping->pairs().size() / kPairsPerNode, graph.index);
+    constexpr std::size_t kPerNode =
+        16; // pairs of a mapping, and layers of a stack, cost as a node
+    const std::size_t more = arc.mapping->pairs().size() + arc.stack->layers.size();
+    return spend(1 + more / kPerNode, graph.index);
 }
 
 std::uint32_t UsdIndexer::addArc(Graph& graph, const NewArc& arc) {

@@ -69,21 +69,22 @@ void UsdIndexer::evaluateImpliedRelocate(Graph& graph, std::uint32_t node) {
     addArc(graph, arc);
 }
 
-// From what an arc brings to the node, with what the node's stack relocates applied last.
-UsdMappingPtr UsdIndexer::arcMapping(const UsdNode& node, UsdSitePath target,
-                                     const UsdLayerOffset& offset, bool rooted) {
-    const UsdSitePath path = node.path.plain();
+// From what an arc brings to the site that has it, with what its stack relocates applied last.
+UsdMappingPtr UsdIndexer::arcMapping(const UsdLayerStack& stack, UsdSitePath site,
+                                     UsdSitePath target, const UsdLayerOffset& offset,
+                                     bool rooted) {
+    const UsdSitePath path = site.plain();
     UsdMapping mapping({{target, path}}, offset);
     if (rooted) mapping = mapping.rooted();
-    if (node.stack->relocates.empty()) return std::make_shared<UsdMapping>(std::move(mapping));
+    if (stack.relocates.empty()) return std::make_shared<UsdMapping>(std::move(mapping));
     const auto [begin, end] = mappings_.equal_range(path);
     for (auto at = begin; at != end; ++at) {
         const KnownMapping& known = at->second;
-        if (known.stack == node.stack && known.target == target && known.rooted == rooted &&
+        if (known.stack == &stack && known.target == target && known.rooted == rooted &&
             known.offset.offset == offset.offset && known.offset.scale == offset.scale)
             return known.mapping;
     }
-    auto made = std::make_shared<UsdMapping>(node.stack->relocates.mappingAt(path).after(mapping));
+    auto made = std::make_shared<UsdMapping>(stack.relocates.mappingAt(path).after(mapping));
     if (rooted) *made = made->rooted();
     constexpr std::size_t kMostPairs = 1'000'000;
     knownPairs_ += made->pairs().size();
@@ -91,7 +92,7 @@ UsdMappingPtr UsdIndexer::arcMapping(const UsdNode& node, UsdSitePath target,
         mappings_.clear();
         knownPairs_ = made->pairs().size();
     }
-    mappings_.emplace(path, KnownMapping{node.stack, target, offset, rooted, made});
+    mappings_.emplace(path, KnownMapping{&stack, target, offset, rooted, made});
     return made;
 }
 
@@ -105,37 +106,37 @@ void UsdIndexer::evaluateReferences(Graph& graph, std::uint32_t node, UsdReferen
 
 void UsdIndexer::addReference(Graph& graph, std::uint32_t node, const UsdSiteReference& reference,
                               UsdArc kind, std::uint32_t sibling) {
-    const UsdNode n = graph.index[node];
+    const UsdLayerStack& stack = *graph.index[node].stack;
+    const UsdSitePath path = graph.index[node].path;
     const auto said = [&](const std::string& why) {
-        const std::string what = kind == UsdArc::payload ? "payload" : "reference";
-        return what + " @" + reference.asset + "@<" + reference.path + "> of <" + n.path.text() +
-               ">: " + why;
+        return std::string(nameOf(kind)) + " @" + reference.asset + "@<" + reference.path +
+               "> of <" + path.text() + ">: " + why;
     };
     const auto report = [&](const std::string& why) { errors_.report(reference.where, said(why)); };
     NewArc arc;
-    arc.stack = n.stack;
+    arc.stack = &stack;
     std::string problem;
     if (!reference.file.empty())
         arc.stack = reference.asset.find("://") != std::string::npos
                         ? nullptr
-                        : stacks_.find(reference.file, n.stack->variables, problem);
+                        : stacks_.find(reference.file, stack.variables, problem);
     if (!arc.stack) return report(problem.empty() ? "only files can be read" : problem);
     arc.arc = kind;
     arc.parent = arc.origin = node;
     arc.path =
-        reference.path.empty() ? defaultPrim(*arc.stack, n.path) : n.path.fromText(reference.path);
+        reference.path.empty() ? defaultPrim(*arc.stack, path) : path.fromText(reference.path);
     if (!arc.path) {
         report(reference.path.empty() ? "there is no default prim" : "not the path of a prim");
         if (!reference.path.empty()) return;
-        arc.path = n.path.root();
+        arc.path = path.root();
         arc.speaks = false;
     }
     const bool missing = arc.path.isRoot();
     UsdLayerOffset offset = reference.offset;
     offset.scale *= reference.timeCodes / arc.stack->timeCodesPerSecond;
-    arc.mapping = arcMapping(n, arc.path, offset, reference.file.empty());
+    arc.mapping = arcMapping(stack, path, arc.path, offset, reference.file.empty());
     arc.sibling = sibling;
-    arc.depth = n.path.levels();
+    arc.depth = path.levels();
     arc.ancestralOpinions = arc.path.length() > 1;
     arc.where = reference.where;
     const std::uint32_t made = addArc(graph, arc);
@@ -144,21 +145,22 @@ void UsdIndexer::addReference(Graph& graph, std::uint32_t node, const UsdSiteRef
 }
 
 void UsdIndexer::evaluateClasses(Graph& graph, std::uint32_t node, UsdClassKind kind) {
-    const UsdNode n = graph.index[node];
-    const auto classes = classesAt(*n.stack, n.path, kind);
+    const UsdLayerStack& stack = *graph.index[node].stack;
+    const UsdSitePath path = graph.index[node].path;
+    const auto classes = classesAt(stack, path, kind, errors_);
     for (std::size_t i = 0; i < classes.size(); ++i) {
         NewArc arc;
         arc.arc = kind == UsdClassKind::inherit ? UsdArc::inherit : UsdArc::specialize;
         arc.parent = arc.origin = node;
-        arc.stack = n.stack;
-        arc.mapping = arcMapping(n, classes[i], {}, true);
-        arc.path = arc.mapping->mapBack(n.path.plain());
+        arc.stack = &stack;
+        arc.mapping = arcMapping(stack, path, classes[i], {}, true);
+        arc.path = arc.mapping->mapBack(path.plain());
         if (!arc.path) continue;
-        arc.path = withChoicesOf(n.path, arc.path);
+        arc.path = withChoicesOf(path, arc.path);
         arc.sibling = std::uint32_t(i);
-        arc.depth = n.path.levels();
+        arc.depth = path.levels();
         arc.ancestralOpinions = true;
-        arc.where = locationAt(*n.stack, n.path);
+        arc.where = locationAt(stack, path);
         addArc(graph, arc);
     }
 }

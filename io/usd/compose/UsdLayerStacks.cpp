@@ -3,6 +3,8 @@
 #include "io/usd/compose/UsdExpression.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <unordered_set>
 
 namespace penumbra {
@@ -17,20 +19,30 @@ struct UsdLayerStacks::Open {
 
 namespace {
 
+// A text that can't be mistaken for the end of another one.
+std::string framed(std::string_view text) {
+    return std::to_string(text.size()).append(1, ':').append(text);
+}
+
+// What tells a value from others. Numbers are told apart bit for bit.
+std::string keyOf(const UsdValue& value) {
+    std::string key = std::to_string(int(value.type.kind)) + (value.type.array ? "[" : "(");
+    if (const auto* strings = value.as<std::string>())
+        for (const std::string& s : *strings) key += framed(s);
+    else
+        for (const double n : value.numbers())
+            key += std::to_string(std::bit_cast<std::uint64_t>(n)) + ",";
+    return key;
+}
+
 // What tells one set of variables from another.
 std::string keyOf(const UsdDictionary& variables) {
     std::vector<std::string> entries;
-    for (const UsdNamedValue& entry : variables) {
-        std::string text = entry.name + "=";
-        if (const auto* strings = entry.value.as<std::string>())
-            for (const std::string& s : *strings) text += "\"" + s + "\",";
-        else
-            for (const double n : entry.value.numbers()) text += std::to_string(n) + ",";
-        entries.push_back(std::move(text));
-    }
+    for (const UsdNamedValue& entry : variables)
+        entries.push_back(framed(entry.name) + framed(keyOf(entry.value)));
     std::sort(entries.begin(), entries.end());
     std::string key;
-    for (const std::string& entry : entries) key += entry + "\n";
+    for (const std::string& entry : entries) key += entry;
     return key;
 }
 
@@ -51,17 +63,21 @@ const std::string& UsdLayerStacks::canonical(const std::string& file) {
     return cached;
 }
 
+void UsdLayerStacks::read(UsdLoadedLayer& loaded, const std::string& file) {
+    loaded.file = file;
+    loaded.layer = std::make_shared<UsdLayer>(assets_.layer(file, limits_));
+    loaded.file = loaded.layer->file; // of a package: its root layer
+    loaded.index = std::make_shared<UsdLayerIndex>(*loaded.layer, paths_);
+    errors_.append(loaded.layer->diagnostics);
+    read_.push_back(&loaded);
+}
+
 const UsdLoadedLayer& UsdLayerStacks::load(const std::string& file) {
     const auto [entry, isNew] = layers_.try_emplace(canonical(file));
     UsdLoadedLayer& loaded = entry->second;
     if (!isNew) return loaded;
-    loaded.file = file;
     try {
-        loaded.layer = std::make_shared<UsdLayer>(assets_.layer(file, limits_));
-        loaded.file = loaded.layer->file; // of a package: its root layer
-        loaded.index = std::make_shared<UsdLayerIndex>(*loaded.layer, paths_);
-        errors_.append(loaded.layer->diagnostics);
-        read_.push_back(&loaded);
+        read(loaded, file);
     } catch (const SceneFileError& error) {
         loaded.problem = error.what();
         std::error_code failed;
@@ -73,12 +89,7 @@ const UsdLoadedLayer& UsdLayerStacks::load(const std::string& file) {
 
 const UsdLayerStack& UsdLayerStacks::open(const std::string& root) {
     UsdLoadedLayer& loaded = layers_[canonical(root)];
-    loaded.file = root;
-    loaded.layer = std::make_shared<UsdLayer>(assets_.layer(root, limits_));
-    loaded.file = loaded.layer->file;
-    loaded.index = std::make_shared<UsdLayerIndex>(*loaded.layer, paths_);
-    errors_.append(loaded.layer->diagnostics);
-    read_.push_back(&loaded);
+    read(loaded, root);
     return stackOf(root, loaded, variablesOf(*loaded.layer, {}));
 }
 
@@ -159,20 +170,27 @@ UsdLayerOffset UsdLayerStacks::combined(UsdLayerOffset outer, const UsdSubLayer&
 void UsdLayerStacks::readRelocates(UsdLayerStack& stack) {
     std::vector<UsdRelocates::Pair> authored;
     std::vector<SourceLocation> where;
+    std::vector<const UsdRelocate*> written;
     std::unordered_set<UsdSitePath> sources;
     for (const UsdStackedLayer& stacked : stack.layers)
         for (const UsdRelocate& one : stacked.layer->relocates) {
-            const UsdSitePath source = paths_.path(one.source);
+            UsdSitePath source = paths_.path(one.source);
             if (source && !sources.insert(source).second) continue;
-            authored.push_back({source, paths_.path(one.target)});
+            const UsdSitePath target = paths_.path(one.target);
+            if (!one.target.empty() && !target) source = {}; // refused: it is no removal
+            authored.push_back({source, target});
             where.push_back(stacked.layer->location(one.where));
+            written.push_back(&one);
         }
     if (authored.empty()) return;
     stack.relocates = UsdRelocates(authored, [&](std::size_t i, const std::string& why) {
-        const auto text = [](UsdSitePath path) { return path ? path.text() : std::string(); };
-        errors_.report(where[i], "relocate of <" + text(authored[i].source) + "> to <" +
-                                     text(authored[i].target) + "> left out: " + why);
+        errors_.report(where[i], "relocate of <" + written[i]->source + "> to <" +
+                                     written[i]->target + "> left out: " + why);
     });
+    if (stack.relocates.tracesEnd())
+        errors_.report({stack.rootLayer().file, 0, 0},
+                       "relocates below each other are too many or too deep: some are not traced "
+                       "back to where their sources came from");
 }
 
 std::vector<fs::path> UsdLayerStacks::files() const {

@@ -41,6 +41,8 @@ public:
 private:
     struct Open; // a stack that is being put together
 
+    /// Throws SceneFileError.
+    void read(UsdLoadedLayer& loaded, const std::string& file);
     const UsdLoadedLayer& load(const std::string& file);
     const std::string& canonical(const std::string& file);
     const UsdLayerStack& stackOf(const std::string& file, const UsdLoadedLayer& root,

@@ -4,6 +4,12 @@
 
 namespace penumbra {
 
+const char* nameOf(UsdArc arc) {
+    constexpr const char* kNames[] = {"root",      "inherit", "variant",   "relocate",
+                                      "reference", "payload", "specialize"};
+    return kNames[std::size_t(arc)];
+}
+
 std::size_t UsdPrimIndex::below(std::uint32_t node) const {
     const UsdNode& n = nodes[node];
     return n.parent == kNoNode ? 0 : nodes[n.parent].path.levels() - n.depth;

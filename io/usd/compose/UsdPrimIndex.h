@@ -20,6 +20,8 @@ enum class UsdArc : std::uint8_t {
     specialize
 };
 
+const char* nameOf(UsdArc arc);
+
 inline bool isClassArc(UsdArc arc) {
     return arc == UsdArc::inherit || arc == UsdArc::specialize;
 }

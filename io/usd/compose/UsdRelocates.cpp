@@ -97,13 +97,14 @@ void UsdRelocates::keepValid(std::vector<Pair> authored, const Refuse& refuse) {
               [](const Pair& a, const Pair& b) { return a.source.id() < b.source.id(); });
 }
 
-UsdSitePath UsdRelocates::traceBack(UsdSitePath source) const {
+UsdSitePath UsdRelocates::traceBack(UsdSitePath source) {
     constexpr int kMaxSteps = 64; // relocates that feed each other in a circle end here
     for (int step = 0; step < kMaxSteps; ++step) {
         UsdSitePath at = source;
         while (!at.isRoot() && !byTarget_.contains(at)) at = at.parent();
-        if (at.isRoot()) break;
+        if (at.isRoot() || tracesEnd()) break;
         source = source.replacePrefix(at, byTarget_.at(at));
+        traced_ += source.length();
     }
     return source;
 }

@@ -22,6 +22,10 @@ public:
     UsdRelocates(std::vector<Pair> authored, const Refuse& refuse);
 
     bool empty() const { return pairs_.empty(); }
+    /// Whether the paths of relocates below each other grew so long, together, that the rest was
+    /// not traced back.
+    bool tracesEnd() const { return traced_ >= kMaxTraced; }
+    static constexpr std::size_t kMaxTraced = 1'000'000; ///< elements of paths
     bool isSource(UsdSitePath path) const { return bySource_.contains(path); }
     /// The source whose target is `path`; empty if there is none.
     UsdSitePath sourceOf(UsdSitePath path) const;
@@ -34,8 +38,9 @@ public:
 
 private:
     void keepValid(std::vector<Pair> authored, const Refuse& refuse);
-    UsdSitePath traceBack(UsdSitePath source) const;
+    UsdSitePath traceBack(UsdSitePath source);
 
+    std::size_t traced_ = 0;  // elements of paths
     std::vector<Pair> pairs_; // in the order of their sources' ids
     std::vector<Pair> whole_; // sources traced back through relocates of their ancestors
     std::unordered_map<UsdSitePath, UsdSitePath> bySource_, byTarget_;

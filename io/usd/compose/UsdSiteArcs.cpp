@@ -3,6 +3,7 @@
 #include "io/usd/compose/UsdExpression.h"
 #include "io/usd/compose/UsdLayerStacks.h"
 #include "io/usd/layer/UsdListOps.h"
+#include "io/usd/layer/UsdText.h"
 
 namespace penumbra {
 
@@ -73,8 +74,8 @@ std::vector<UsdSiteReference> referencesAt(const UsdLayerStack& stack, UsdSitePa
     return list;
 }
 
-std::vector<UsdSitePath> classesAt(const UsdLayerStack& stack, UsdSitePath path,
-                                   UsdClassKind kind) {
+std::vector<UsdSitePath> classesAt(const UsdLayerStack& stack, UsdSitePath path, UsdClassKind kind,
+                                   UsdCompositionErrors& errors) {
     std::vector<std::string> list;
     fromWeakest(stack, path, [&](const UsdStackedLayer&, const UsdPrimSpec& spec) {
         if (!spec.arcs) return;
@@ -83,7 +84,12 @@ std::vector<UsdSitePath> classesAt(const UsdLayerStack& stack, UsdSitePath path,
     });
     std::vector<UsdSitePath> classes;
     for (const std::string& text : list)
-        if (const UsdSitePath found = path.fromText(text)) classes.push_back(found);
+        if (const UsdSitePath found = path.fromText(text))
+            classes.push_back(found);
+        else
+            errors.report(locationAt(stack, path), "class <" + printable(text) + "> of <" +
+                                                       path.text() +
+                                                       "> left out: not the path of a prim");
     return classes;
 }
 

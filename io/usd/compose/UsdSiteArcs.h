@@ -27,8 +27,9 @@ enum class UsdClassKind : std::uint8_t { inherit, specialize };
 /// In the order of strength. Errors of expressions and offsets are reported.
 std::vector<UsdSiteReference> referencesAt(const UsdLayerStack& stack, UsdSitePath path,
                                            UsdReferenceKind kind, UsdCompositionErrors& errors);
-/// Paths of the classes, in the order of strength.
-std::vector<UsdSitePath> classesAt(const UsdLayerStack& stack, UsdSitePath path, UsdClassKind kind);
+/// Paths of the classes, in the order of strength. Those that are none are reported.
+std::vector<UsdSitePath> classesAt(const UsdLayerStack& stack, UsdSitePath path, UsdClassKind kind,
+                                   UsdCompositionErrors& errors);
 /// Names of the variant sets.
 std::vector<std::string> variantSetsAt(const UsdLayerStack& stack, UsdSitePath path);
 /// The strongest choice for a set that is written here; empty text chooses no variant.

@@ -73,7 +73,7 @@ UsdSitePath UsdPathTable::path(std::string_view text) {
     while (!text.empty()) {
         const std::size_t slash = text.find('/');
         const std::string_view name = text.substr(0, slash);
-        if (!isUsdIdentifier(name)) return {};
+        if (!isUsdIdentifier(name) || path->length == kMaxLength) return {};
         path = child(path, name, {}, false);
         if (slash == std::string_view::npos) break;
         text.remove_prefix(slash + 1);

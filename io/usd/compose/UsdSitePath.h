@@ -46,7 +46,6 @@ public:
     std::size_t levels() const { return element_->levels; }
     /// Without choices.
     UsdSitePath plain() const { return UsdSitePath(element_->plain); }
-    bool isPlain() const { return element_->plain == element_; }
     UsdSitePath parent() const { return UsdSitePath(element_->parent); }
     /// The first `length` elements.
     UsdSitePath prefix(std::size_t length) const;
@@ -58,7 +57,8 @@ public:
     /// This path and the last element of `other`.
     UsdSitePath append(UsdSitePath other) const;
     UsdSitePath root() const;
-    /// A path of the same table. Empty if `text` is no absolute prim path without choices.
+    /// A path of the same table. Empty if `text` is no absolute prim path without choices, or
+    /// longer than UsdPathTable::kMaxLength.
     UsdSitePath fromText(std::string_view text) const;
     std::string text() const;
 
@@ -72,6 +72,9 @@ public:
     UsdPathTable();
     UsdPathTable(const UsdPathTable&) = delete;
     UsdPathTable& operator=(const UsdPathTable&) = delete;
+
+    /// Elements of a path that is read from text: beyond, it is none.
+    static constexpr std::size_t kMaxLength = 1024;
 
     UsdSitePath root() const { return UsdSitePath(&elements_.front()); }
     UsdSitePath path(std::string_view text);

@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -142,8 +141,5 @@ UsdLayer parseUsdLayer(const std::string& text, const std::string& file,
 /// Reads a layer from a text file. Throws SceneFileError, also for what isn't USD text: folders,
 /// missing and empty files, binary USD and packages (UsdFiles reads these).
 UsdLayer readUsdLayer(const std::filesystem::path& file, const UsdLayerLimits& limits = {});
-
-/// What makes a layer of a file: readUsdLayer(), or something that knows other formats as well.
-using UsdLayerReader = std::function<UsdLayer(const std::filesystem::path&, const UsdLayerLimits&)>;
 
 } // namespace penumbra

@@ -1,5 +1,6 @@
 #include "io/usd/stage/UsdReport.h"
 
+#include "io/usd/layer/UsdPath.h"
 #include "io/usd/stage/UsdComposedPrim.h"
 #include "io/usd/stage/UsdTargets.h"
 
@@ -14,13 +15,8 @@ namespace {
 std::string shortName(const UsdComposition& composition, const std::filesystem::path& file) {
     const std::filesystem::path first = composition.rootStack().layers.front().file;
     const auto root = first.parent_path();
-    return file.lexically_normal().lexically_relative(root.lexically_normal()).generic_string();
-}
-
-const char* nameOf(UsdArc arc) {
-    constexpr const char* kNames[] = {"root",      "inherit", "variant",   "relocate",
-                                      "reference", "payload", "specialize"};
-    return kNames[std::size_t(arc)];
+    const auto relative = file.lexically_normal().lexically_relative(root.lexically_normal());
+    return (relative.empty() ? file : relative).generic_string(); // one is absolute, one is not
 }
 
 bool isIdentity(const UsdLayerOffset& offset) {
@@ -134,7 +130,7 @@ private:
         while (node != kNoNode && index_[node].arc != UsdArc::inherit) node = index_[node].parent;
         if (node == kNoNode) return false;
         const UsdSitePath root = index_.path().root();
-        const UsdSitePath prim = root.fromText(target.substr(0, target.find('.')));
+        const UsdSitePath prim = root.fromText(usdPrimPart(target));
         const UsdSitePath begin = index_.pathAtIntroduction(node);
         const UsdSitePath inside = index_.toRoot(node).mapBack(prim);
         if (!prim || !inside || inside.hasPrefix(begin.plain())) return false;
@@ -176,8 +172,10 @@ void reportComposition(UsdComposition& composition,
     std::deque<Open> open;
     const auto root = std::make_shared<const UsdPrimIndex>(composition.root());
     for (std::string& name : childNames(*root).names) open.push_back({root, std::move(name)});
+    const UsdComposeLimits& limits = composition.limits();
+    std::size_t opinions = 0;
     for (std::size_t prims = 0; !open.empty(); ++prims) {
-        if (prims == composition.limits().prims) {
+        if (prims == limits.prims || opinions > limits.opinions) {
             composition.errors().report({composition.rootStack().rootLayer().file, 0, 0},
                                         "the composed scene is too large: its report ends here");
             return;
@@ -187,7 +185,15 @@ void reportComposition(UsdComposition& composition,
         auto index = std::make_shared<UsdPrimIndex>(composition.child(*next.parent, next.name));
         const UsdPrimReport report = PrimReporter(composition, *index).report();
         take(report);
-        if (index->path().levels() >= composition.limits().levels) continue;
+        opinions += report.primStack.size();
+        if (index->path().levels() >= limits.levels) {
+            if (report.childNames.empty()) continue;
+            composition.errors().setPrim(report.path);
+            composition.errors().report({composition.rootStack().rootLayer().file, 0, 0},
+                                        "<" + report.path + ">: prims nested too deeply: those " +
+                                            "below this one are left out of the report");
+            continue;
+        }
         for (std::size_t i = report.childNames.size(); i-- > 0;)
             open.push_front({index, report.childNames[i]});
     }

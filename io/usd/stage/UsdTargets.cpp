@@ -3,7 +3,7 @@
 #include "io/usd/layer/UsdListOps.h"
 #include "io/usd/layer/UsdPath.h"
 
-#include <algorithm>
+#include <unordered_set>
 
 namespace penumbra {
 
@@ -29,6 +29,7 @@ UsdComposedTargets
 composeTargets(const std::vector<UsdTargetOpinion>& opinions,
                const std::function<bool(std::size_t, const std::string&)>& allowed) {
     UsdComposedTargets result;
+    std::unordered_set<std::string> deleted;
     for (std::size_t i = opinions.size(); i-- > 0;) { // from the weakest
         UsdListEdits<std::string> edits;
         for (const auto& edit : opinions[i].property->targets) {
@@ -46,9 +47,7 @@ composeTargets(const std::vector<UsdTargetOpinion>& opinions,
             }
             if (edit.op == UsdListOp::remove)
                 for (const std::string& target : made.items)
-                    if (std::find(result.deleted.begin(), result.deleted.end(), target) ==
-                        result.deleted.end())
-                        result.deleted.push_back(target);
+                    if (deleted.insert(target).second) result.deleted.push_back(target);
         }
         applyUsdListEdits(edits, result.paths);
     }

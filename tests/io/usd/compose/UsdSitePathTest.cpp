@@ -16,6 +16,14 @@ TEST(UsdSitePath, IsMadeOnceAndKnowsItsParts) {
     EXPECT_EQ(table.path("/"), table.root());
 }
 
+TEST(UsdSitePath, TextOfTooManyElementsIsNone) {
+    UsdPathTable table;
+    std::string text;
+    for (std::size_t i = 0; i < UsdPathTable::kMaxLength; ++i) text += "/p";
+    EXPECT_EQ(table.path(text).length(), UsdPathTable::kMaxLength);
+    EXPECT_FALSE(table.path(text + "/p"));
+}
+
 TEST(UsdSitePath, ChoicesAreElementsButNoLevels) {
     UsdPathTable table;
     const UsdSitePath path = table.path("/a").withChoice("v", "x").child("b");

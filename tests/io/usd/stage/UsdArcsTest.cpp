@@ -45,6 +45,19 @@ using Paths = std::vector<std::string>;
 
 } // namespace
 
+TEST_F(Arcs, VariablesOfOtherTypesMakeOtherLayerStacks) {
+    layer("x.usda", "def \"p\"\n{\n float x = 7\n}\n");
+    layer("f.usda", "def \"f\" (references = @`if(${V}, \"x.usda\", \"\")`@</p>)\n{\n}\n");
+    for (const char* type : {"bool", "int"})
+        layer(std::string(type) + ".usda", std::string("(expressionVariables = { ") + type +
+                                               " V = 1 })\ndef \"g\" (references = "
+                                               "@f.usda@</f>)\n{\n}\n");
+    open("def \"a\" (references = @bool.usda@</g>)\n{\n}\n"
+         "def \"b\" (references = @int.usda@</g>)\n{\n}\n");
+    EXPECT_EQ(number("/a", "x"), 7);
+    EXPECT_EQ(number("/b", "x"), -1); // its variable is no condition
+}
+
 TEST_F(Arcs, AReferenceBringsAPrimAndIsWeaker) {
     layer("chair.usda",
           "(defaultPrim = \"Chair\")\ndef Xform \"Chair\"\n{\n float x = 1\n float y = 2\n"

@@ -122,6 +122,61 @@ TEST_F(HostileScenes, AHundredThousandArcsOfOnePrim) {
     EXPECT_TRUE(warns(stage, "too many arcs"));
 }
 
+TEST_F(HostileScenes, PathsOfThousandsOfElements) {
+    const TemporaryFolder folder;
+    std::string path;
+    for (int i = 0; i < 5'000; ++i) path += "/p";
+    UsdStage stage = UsdStage::open(folder.write(
+        "s.usda", kHeader + "(relocates = {</a/b>: <" + path + ">})\ndef \"a\" (references = <" +
+                      path + ">; inherits = <" + path + ">)\n{\n def \"b\"\n {\n }\n}\n"));
+    EXPECT_TRUE(stage.find("/a/b"));
+    EXPECT_TRUE(warns(stage, "relocate of </a/b> to <" + path + "> left out: not the path"));
+    EXPECT_TRUE(warns(stage, "of </a>: not the path of a prim"));
+    EXPECT_TRUE(warns(stage, "class </p/p"));
+}
+
+TEST_F(HostileScenes, RelocatesThatFeedEachOtherAndTwoThousandBelowThem) {
+    const TemporaryFolder folder;
+    std::string longPath;
+    for (int i = 0; i < 500; ++i) longPath += "/p";
+    std::string text =
+        "(relocates = {\n</a/b/c" + longPath + ">: </d/e>,\n</d/e/f" + longPath + ">: </a/b>,\n";
+    for (int i = 0; i < 2'000; ++i) {
+        const std::string n = std::to_string(i);
+        text += "</a/b/x" + n + ">: </q" + n + ">,\n";
+    }
+    UsdStage stage =
+        UsdStage::open(folder.write("s.usda", kHeader + text + "})\ndef \"a\"\n{\n}\n"));
+    EXPECT_TRUE(stage.find("/a"));
+    EXPECT_TRUE(warns(stage, "not traced back"));
+}
+
+TEST_F(HostileScenes, ThousandsOfClassesOfAReferencedPrim) { // each is implied where it is used
+    const TemporaryFolder folder;
+    std::string rig = "def \"R\" (inherits = [\n";
+    for (int i = 0; i < 3'000; ++i) rig += "</c" + std::to_string(i) + ">,\n";
+    folder.write("rig.usda", kHeader + rig + "])\n{\n}\n");
+    UsdStage stage = UsdStage::open(
+        folder.write("s.usda", kHeader + "def \"a\" (references = @rig.usda@</R>)\n{\n}\n"
+                                         "class \"c2999\"\n{\n int x = 1\n}\n"));
+    ASSERT_TRUE(stage.find("/a"));
+    EXPECT_TRUE(UsdStage::property(*stage.find("/a"), "x"));
+}
+
+TEST_F(HostileScenes, AStackOfThousandsOfLayersThatIsReferredToAThousandTimes) {
+    const TemporaryFolder folder;
+    folder.write("one.usda", kHeader + "def \"a\"\n{\n}\n");
+    std::string layers = "(subLayers = [\n", arcs;
+    for (int i = 0; i < 4'000; ++i) layers += "@one.usda@,\n";
+    folder.write("many.usda", kHeader + layers + "])\n");
+    for (int i = 0; i < 1'000; ++i)
+        arcs += "@many.usda@</a> (offset = " + std::to_string(i) + "),\n";
+    UsdStage stage = UsdStage::open(
+        folder.write("s.usda", kHeader + "def \"a\" (references = [\n" + arcs + "])\n{\n}\n"));
+    EXPECT_TRUE(stage.find("/a"));
+    EXPECT_TRUE(warns(stage, "too many arcs"));
+}
+
 TEST_F(HostileScenes, AHundredThousandVariantSets) {
     const TemporaryFolder folder;
     std::string names, sets, choices;
@@ -135,6 +190,7 @@ TEST_F(HostileScenes, AHundredThousandVariantSets) {
         folder.write("s.usda", kHeader + "def \"a\" (\n variantSets = [" + names +
                                    "]\n variants = {\n" + choices + "}\n)\n{\n" + sets + "}\n"));
     EXPECT_TRUE(stage.find("/a"));
+    EXPECT_TRUE(warns(stage, "too many arcs"));
 }
 
 } // namespace penumbra

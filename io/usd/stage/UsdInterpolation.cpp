@@ -1,5 +1,5 @@
 // Value resolution at a time: the strongest layer that has samples or a default decides.
-#include "io/usd/scene/UsdInterpolation.h"
+#include "io/usd/stage/UsdInterpolation.h"
 
 #include "io/usd/stage/UsdStage.h"
 
