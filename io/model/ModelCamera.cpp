@@ -1,8 +1,8 @@
 #include "io/model/ModelCamera.h"
 
 #include "io/model/PrimNames.h"
-#include "io/model/PrimSpecs.h"
 #include "io/model/VectorOf.h"
+#include "io/usd/layer/UsdPrimSpecs.h"
 
 #include <assimp/camera.h>
 

@@ -2,7 +2,7 @@
 
 #include "base/Error.h"
 #include "io/model/ModelNodes.h"
-#include "io/model/PrimSpecs.h"
+#include "io/usd/layer/UsdPrimSpecs.h"
 
 #include <assimp/scene.h>
 

@@ -1,7 +1,7 @@
 #include "io/model/ModelMaterials.h"
 
 #include "io/model/ModelMesh.h"
-#include "io/model/PrimSpecs.h"
+#include "io/usd/layer/UsdPrimSpecs.h"
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/material.h>

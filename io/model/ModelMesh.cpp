@@ -1,7 +1,7 @@
 #include "io/model/ModelMesh.h"
 
 #include "io/model/PrimNames.h"
-#include "io/model/PrimSpecs.h"
+#include "io/usd/layer/UsdPrimSpecs.h"
 
 #include <assimp/mesh.h>
 
@@ -170,8 +170,7 @@ std::optional<UsdPrimSpec> meshPrim(const aiMesh& mesh, const std::string& name,
     addAttribute(spec, "int[]", "faceVertexCounts", polygons.counts);
     addAttribute(spec, "int[]", "faceVertexIndices", polygons.indices);
     addText(spec, "token", "subdivisionScheme", "none").uniform = true;
-    if (doubleSided)
-        addAttribute(spec, "bool", "doubleSided", std::vector<std::uint8_t>{1}).uniform = true;
+    if (doubleSided) addBool(spec, "doubleSided", true).uniform = true;
     addNormals(spec, mesh, polygons, what, where, diagnostics);
     addCoordinates(spec, mesh, polygons, what, where, diagnostics);
     addColours(spec, mesh, polygons, what, where, diagnostics);

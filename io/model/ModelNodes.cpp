@@ -1,7 +1,7 @@
 #include "io/model/ModelNodes.h"
 
 #include "io/model/ModelMesh.h"
-#include "io/model/PrimSpecs.h"
+#include "io/usd/layer/UsdPrimSpecs.h"
 
 #include <assimp/scene.h>
 

@@ -1,7 +1,7 @@
 #include "io/model/PrimNames.h"
 
-#include "io/model/PrimSpecs.h"
 #include "io/usd/layer/UsdPath.h"
+#include "io/usd/layer/UsdPrimSpecs.h"
 #include "io/usd/layer/UsdText.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ std::string primName(std::string_view text, std::string_view fallback) {
 }
 
 std::string PrimNames::take(std::string_view wanted, std::string_view fallback) {
-    const std::string name = primName(wanted, fallback);
+    std::string name = primName(wanted, fallback);
     const auto [entry, isNew] = taken_.try_emplace(name, 0);
     if (isNew) return name;
     std::size_t& last = entry->second; // stays where it is

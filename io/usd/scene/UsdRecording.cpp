@@ -2,7 +2,8 @@
 
 #include "io/image/AtomicFile.h"
 #include "io/usd/layer/UsdAssets.h"
-#include "io/usd/text/UsdLayerText.h"
+#include "io/usd/layer/UsdPrimSpecs.h"
+#include "io/usd/text/UsdLayerWriter.h"
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -14,31 +15,57 @@ namespace penumbra {
 
 namespace {
 
-using Samples = std::vector<std::pair<double, std::string>>;
-
 /// The values of one attribute over time.
 class Track {
 public:
+    /// \param type as in USD text, e.g. `double3`
+    explicit Track(const char* type) : type_(type) {}
+
     /// A value from `code` on; before it the last one held until the code before.
-    void put(double code, const std::string& value) {
-        if (samples_.empty()) {
-            samples_.emplace_back(code, value);
-            return;
-        }
-        const auto [last, before] = samples_.back();
-        if (before == value) return;
-        if (last == code)
-            samples_.pop_back(); // the last of several within one time code counts
-        else if (last < code - 1)
-            samples_.emplace_back(code - 1, before);
-        samples_.emplace_back(code, value);
+    /// \param components of the C++ type that UsdValue stores
+    template <class T>
+    void put(double code, std::vector<T> components) {
+        for (T& component : components) component += T(0); // no -0
+        put(code, UsdValue{usdTypeNamed(type_), std::move(components)});
     }
-    const Samples& samples() const { return samples_; }
+    bool empty() const { return samples_.empty(); }
     bool changes() const { return samples_.size() > 1; }
+    std::vector<double> first() const { return samples_.front().value.numbers(); }
+
+    /// As an attribute of a prim: time samples, or one value that never changes.
+    void write(UsdPrimSpec& prim, std::string_view name) const {
+        UsdProperty& property = declareAttribute(prim, type_, name);
+        property.hasSamples = changes();
+        if (property.hasSamples)
+            property.samples = samples_;
+        else
+            property.value = samples_.front().value;
+    }
 
 private:
-    Samples samples_;
+    void put(double code, UsdValue value) {
+        if (!samples_.empty()) {
+            const UsdTimeSample last = samples_.back();
+            if (last.value == value) return;
+            if (last.time == code)
+                samples_.pop_back(); // the last of several within one time code counts
+            else if (last.time < code - 1)
+                samples_.push_back({code - 1, last.value});
+        }
+        samples_.push_back({code, std::move(value)});
+    }
+
+    const char* type_;
+    std::vector<UsdTimeSample> samples_;
 };
+
+template <class Vector>
+auto listOf(const Vector& v) {
+    return std::vector{v.x, v.y, v.z};
+}
+std::vector<float> listOf(Rgb c) {
+    return {c.r, c.g, c.b};
+}
 
 /// A transform as it is written: M = translate * orient * scale.
 struct Parts {
@@ -67,61 +94,60 @@ std::optional<Parts> partsOf(const glm::dmat4& matrix) {
 
 /// The transform of one prim over time, both ways it may be written.
 struct PoseTrack {
-    Track translate, orient, scale, matrix;
+    Track translate{"double3"}, orient{"quatd"}, scale{"double3"}, matrix{"matrix4d"};
     bool rigid = true; ///< translate, orient and scale say it all
 
     void put(double code, const glm::dmat4& value) {
-        matrix.put(code, usdText(value));
+        const double* const first = &value[0][0]; // USD's rows are our columns
+        matrix.put(code, std::vector<double>(first, first + 16));
         const auto parts = partsOf(value);
         rigid = rigid && parts;
         if (!rigid) return;
-        translate.put(code, usdText(parts->translate));
+        translate.put(code, listOf(parts->translate));
         const glm::dquat& q = parts->orient;
-        orient.put(code, usdText(glm::dvec4(q.w, q.x, q.y, q.z)));
-        scale.put(code, usdText(parts->scale));
+        orient.put(code, std::vector{q.w, q.x, q.y, q.z});
+        scale.put(code, listOf(parts->scale));
     }
     bool changes() const { return matrix.changes(); }
 
-    void write(UsdLayerText& layer, const std::string& prim, bool absolute) const {
-        std::string order = absolute ? "\"!resetXformStack!\", " : "";
+    void write(UsdPrimSpec& prim, bool absolute) const {
+        std::vector<std::string> order;
+        const auto add = [&](const Track& track, const char* op) {
+            track.write(prim, op);
+            order.emplace_back(op);
+        };
+        if (absolute) order.emplace_back("!resetXformStack!");
         if (rigid) {
-            layer.add(prim,
-                      usdAttribute("double3", "xformOp:translate:session", translate.samples()));
-            layer.add(prim, usdAttribute("quatd", "xformOp:orient:session", orient.samples()));
-            order += "\"xformOp:translate:session\", \"xformOp:orient:session\"";
-            if (scale.changes() || scale.samples().front().second != "(1, 1, 1)") {
-                layer.add(prim, usdAttribute("double3", "xformOp:scale:session", scale.samples()));
-                order += ", \"xformOp:scale:session\"";
-            }
+            add(translate, "xformOp:translate:session");
+            add(orient, "xformOp:orient:session");
+            if (scale.changes() || scale.first() != std::vector{1.0, 1.0, 1.0})
+                add(scale, "xformOp:scale:session");
         } else {
-            layer.add(prim,
-                      usdAttribute("matrix4d", "xformOp:transform:session", matrix.samples()));
-            order += "\"xformOp:transform:session\"";
+            add(matrix, "xformOp:transform:session");
         }
-        layer.add(prim, "uniform token[] xformOpOrder = [" + order + "]");
+        addAttribute(prim, "token[]", "xformOpOrder", std::move(order)).uniform = true;
     }
 };
 
 /// A luminance as UsdLux has it: a colour whose largest channel is 1, times an intensity.
 struct LightTrack {
-    Track colour, intensity;
+    Track colour{"color3f"}, intensity{"float"};
     void put(double code, Rgb nits) {
         const float most = maxChannel(nits);
         if (most > 0)
-            colour.put(code, usdText(glm::vec3(nits.r, nits.g, nits.b) / most));
-        else if (colour.samples().empty())
-            colour.put(code, "(1, 1, 1)");
-        intensity.put(code, usdText(most));
+            colour.put(code, listOf(glm::vec3(nits.r, nits.g, nits.b) / most));
+        else if (colour.empty())
+            colour.put(code, listOf(glm::vec3(1)));
+        intensity.put(code, std::vector{most});
     }
     bool changes() const { return colour.changes() || intensity.changes(); }
 };
 
 struct PaintTrack {
-    Track diffuse, emissive;
+    Track diffuse{"color3f"}, emissive{"color3f"};
     void put(double code, const Material& material) {
-        const Rgb rho = material.reflectance(), nits = material.emission();
-        diffuse.put(code, usdText(glm::vec3(rho.r, rho.g, rho.b)));
-        emissive.put(code, usdText(glm::vec3(nits.r, nits.g, nits.b)));
+        diffuse.put(code, listOf(material.reflectance()));
+        emissive.put(code, listOf(material.emission()));
     }
     bool changes() const { return diffuse.changes() || emissive.changes(); }
 };
@@ -147,15 +173,15 @@ struct UsdRecording::Impl {
     std::vector<Followed<UsdAddresses::Paint, PaintTrack>> paints;
     std::vector<UsdAddresses::Choice> choices;
     PoseTrack eye;
-    Track focalLength, aperture, clipping;
+    Track focalLength{"float"}, aperture{"float"}, clipping{"float2"};
     double lastCode = 1;
 
     void sample(double code, bool all);
     void sample(double code, const glm::dmat4& cameraToWorld, const Lens& lens);
-    void writePlaces(UsdLayerText& layer) const;
-    void writeLights(UsdLayerText& layer) const;
-    void writePaints(UsdLayerText& layer) const;
-    void writeCamera(UsdLayerText& layer) const;
+    void writePlaces(UsdLayer& layer) const;
+    void writeLights(UsdLayer& layer) const;
+    void writePaints(UsdLayer& layer) const;
+    void writeCamera(UsdLayer& layer) const;
 };
 
 namespace {
@@ -191,10 +217,10 @@ void UsdRecording::Impl::sample(double code, const glm::dmat4& cameraToWorld, co
     glm::dmat4 place = cameraToWorld; // [m] to the file's unit
     place[3] = glm::dvec4(glm::dvec3(place[3]) / scene->metersPerUnit, 1);
     eye.put(code, place);
-    focalLength.put(code, usdText(lens.focalLength));
-    aperture.put(code, usdText(lens.horizontalAperture));
+    focalLength.put(code, std::vector{lens.focalLength});
+    aperture.put(code, std::vector{lens.horizontalAperture});
     const float unit = float(scene->metersPerUnit);
-    clipping.put(code, usdText(glm::vec2(lens.clippingRange) / unit));
+    clipping.put(code, std::vector{lens.clippingRange.x / unit, lens.clippingRange.y / unit});
 }
 
 UsdRecording::UsdRecording(const LoadedScene& scene, std::filesystem::path file)
@@ -223,83 +249,104 @@ void UsdRecording::sample(double seconds, const glm::dmat4& cameraToWorld, const
     impl_->sample(code, cameraToWorld, lens);
 }
 
-void UsdRecording::Impl::writePlaces(UsdLayerText& layer) const {
+void UsdRecording::Impl::writePlaces(UsdLayer& layer) const {
     for (const auto& [address, track, revision] : transforms) {
         const bool held = animated && address.node->movable();
         if (!track.changes() && !held) continue;
-        if (address.node->movable()) layer.add(address.prim, "bool penumbra:movable = 1");
-        track.write(layer, address.prim, false);
+        UsdPrimSpec& prim = overAt(layer, address.prim);
+        if (address.node->movable()) addBool(prim, "penumbra:movable", true);
+        track.write(prim, false);
     }
     for (const auto& [node, prim] : choices)
-        layer.add(prim, std::string("token visibility = ") +
-                            (node->visible() ? "\"inherited\"" : "\"invisible\""));
+        addText(overAt(layer, prim), "token", "visibility",
+                node->visible() ? "inherited" : "invisible");
 }
 
-void UsdRecording::Impl::writeLights(UsdLayerText& layer) const {
+void UsdRecording::Impl::writeLights(UsdLayer& layer) const {
     for (const auto& [address, track, revision] : lights) {
         if (!track.changes() && !animated) continue;
-        layer.add(address.prim, usdAttribute("color3f", "inputs:color", track.colour.samples()));
-        layer.add(address.prim,
-                  usdAttribute("float", "inputs:intensity", track.intensity.samples()));
-        for (const char* line :
-             {"float inputs:exposure = 0", "float inputs:diffuse = 1", "bool inputs:normalize = 0",
-              "bool inputs:enableColorTemperature = 0"})
-            layer.add(address.prim, line);
+        UsdPrimSpec& light = overAt(layer, address.prim);
+        track.colour.write(light, "inputs:color");
+        track.intensity.write(light, "inputs:intensity");
+        addFloat(light, "inputs:exposure", 0);
+        addFloat(light, "inputs:diffuse", 1);
+        addBool(light, "inputs:normalize", false);
+        addBool(light, "inputs:enableColorTemperature", false);
     }
 }
 
-void UsdRecording::Impl::writePaints(UsdLayerText& layer) const {
+namespace {
+
+void define(UsdPrimSpec& prim, const char* type) {
+    prim.specifier = UsdSpecifier::def;
+    prim.typeName = type;
+}
+
+/// A material for meshes that have none of their own. \return the path of its shader
+std::string addPaint(UsdLayer& layer, const std::vector<std::string>& meshes) {
+    const std::string path = meshes.front() + "/SessionPaint";
+    std::string shader = path + "/Surface";
+    UsdPrimSpec& material = overAt(layer, path);
+    define(material, "Material");
+    addConnection(material, "token", "outputs:surface", shader + ".outputs:surface");
+    UsdPrimSpec& surface = overAt(layer, shader);
+    define(surface, "Shader");
+    addText(surface, "token", "info:id", "UsdPreviewSurface").uniform = true;
+    declareAttribute(surface, "token", "outputs:surface");
+    for (const std::string& mesh : meshes)
+        addRelationship(overAt(layer, mesh), "material:binding", path);
+    return shader;
+}
+
+} // namespace
+
+void UsdRecording::Impl::writePaints(UsdLayer& layer) const {
+    const UsdListEdits<std::string> noConnection{{UsdListOp::explicitly, {}}};
     for (const auto& [address, track, revision] : paints) {
         if (!track.changes() && !(animated && !address.shader.empty())) continue;
         std::string shader = address.shader;
         if (shader.empty()) {
             if (address.meshes.empty()) continue; // see missed()
-            const std::string material = address.meshes.front() + "/SessionPaint";
-            shader = material + "/Surface";
-            layer.define(material, "Material");
-            layer.define(shader, "Shader");
-            layer.add(material, "token outputs:surface.connect = <" + shader + ".outputs:surface>");
-            layer.add(shader, "uniform token info:id = \"UsdPreviewSurface\"");
-            layer.add(shader, "token outputs:surface");
-            for (const std::string& mesh : address.meshes)
-                layer.add(mesh, "rel material:binding = <" + material + ">");
+            shader = addPaint(layer, address.meshes);
         }
-        layer.add(shader, usdAttribute("color3f", "inputs:diffuseColor", track.diffuse.samples()));
-        layer.add(shader,
-                  usdAttribute("color3f", "inputs:emissiveColor", track.emissive.samples()));
-        for (const char* input : {"inputs:diffuseColor", "inputs:emissiveColor"})
-            layer.add(shader, std::string("color3f ") + input + ".connect = None");
-        layer.add(shader, "float inputs:metallic = 0");
-        layer.add(shader, "float inputs:opacity = 1");
+        UsdPrimSpec& surface = overAt(layer, shader);
+        track.diffuse.write(surface, "inputs:diffuseColor");
+        surface.properties.back().targets = noConnection;
+        track.emissive.write(surface, "inputs:emissiveColor");
+        surface.properties.back().targets = noConnection;
+        addFloat(surface, "inputs:metallic", 0);
+        addFloat(surface, "inputs:opacity", 1);
     }
 }
 
-void UsdRecording::Impl::writeCamera(UsdLayerText& layer) const {
-    if (eye.matrix.samples().empty()) return;
-    if (ownCamera) layer.define(camera, "Camera");
-    layer.add(camera, usdAttribute("float", "focalLength", focalLength.samples()));
-    layer.add(camera, usdAttribute("float", "horizontalAperture", aperture.samples()));
-    layer.add(camera, usdAttribute("float2", "clippingRange", clipping.samples()));
-    eye.write(layer, camera, true);
+void UsdRecording::Impl::writeCamera(UsdLayer& layer) const {
+    if (eye.matrix.empty()) return;
+    UsdPrimSpec& prim = overAt(layer, camera);
+    if (ownCamera) define(prim, "Camera");
+    focalLength.write(prim, "focalLength");
+    aperture.write(prim, "horizontalAperture");
+    clipping.write(prim, "clippingRange");
+    eye.write(prim, true);
 }
 
 std::string UsdRecording::text(const std::filesystem::path& path) const {
-    UsdLayerText layer;
+    UsdLayer layer;
     const Scene& scene = *impl_->scene;
+    UsdDictionary& metadata = layer.metadata;
     if (!impl_->defaultPrim.empty())
-        layer.metadata("defaultPrim = " + usdQuoted(impl_->defaultPrim));
-    layer.metadata("doc = \"A recorded session of Penumbra.\"");
-    layer.metadata("endTimeCode = " + usdText(impl_->lastCode));
-    layer.metadata("metersPerUnit = " + usdText(scene.metersPerUnit));
-    layer.metadata("startTimeCode = 1");
-    layer.metadata("subLayers = [\n        @" + relativeAsset(impl_->file, path) + "@\n    ]");
-    layer.metadata("timeCodesPerSecond = " + usdText(kRate));
-    layer.metadata(std::string("upAxis = ") + (scene.upAxis == UpAxis::z ? "\"Z\"" : "\"Y\""));
+        addMetadata(metadata, "defaultPrim", UsdKind::token, impl_->defaultPrim);
+    addMetadata(metadata, "doc", UsdKind::string, "A recorded session of Penumbra.");
+    addMetadata(metadata, "endTimeCode", impl_->lastCode);
+    addMetadata(metadata, "metersPerUnit", scene.metersPerUnit);
+    addMetadata(metadata, "startTimeCode", 1);
+    addMetadata(metadata, "timeCodesPerSecond", kRate);
+    addMetadata(metadata, "upAxis", UsdKind::token, scene.upAxis == UpAxis::z ? "Z" : "Y");
+    layer.subLayers.push_back({relativeAsset(impl_->file, path), {}, {}});
     impl_->writePlaces(layer);
     impl_->writeLights(layer);
     impl_->writePaints(layer);
     impl_->writeCamera(layer);
-    return layer.text();
+    return usdLayerText(layer);
 }
 
 void UsdRecording::write(const std::filesystem::path& layer) const {

@@ -1,7 +1,6 @@
 // A session as a layer, and back.
 #include "io/usd/scene/UsdRecording.h"
 
-#include "io/usd/text/UsdLayerText.h"
 #include "scenegraph/Mesh.h"
 #include "scenegraph/Objects.h"
 #include "tests/support/TemporaryFolder.h"
@@ -291,42 +290,13 @@ TEST_F(UsdRecordingTest, AnUntouchedSessionSaysNothingButTheCamera) {
     EXPECT_EQ(text.find("timeSamples"), text.npos);
 }
 
-TEST(UsdLayerText, NumbersReadBackAsTheSameAndTextIsEscaped) {
-    EXPECT_EQ(usdText(0.1), "0.1");
-    EXPECT_EQ(usdText(0.1f), "0.1");
-    EXPECT_EQ(usdText(-0.0), "0");
-    EXPECT_EQ(usdText(glm::dvec3(1, 2.5, 1e-20)), "(1, 2.5, 1e-20)");
-    EXPECT_EQ(std::stod(usdText(1.0 / 3)), 1.0 / 3);
-    EXPECT_EQ(usdQuoted("a \"b\" \\ c"), "\"a \\\"b\\\" \\\\ c\"");
-}
-
-TEST(UsdLayerText, PrimsAreNestedInTheOrderOfTheirFirstMention) {
-    UsdLayerText layer;
-    layer.metadata("upAxis = \"Z\"");
-    layer.add("/A/B", "int x = 1");
-    layer.add("/C", "int y = 2");
-    layer.add("/A", "int z = 3");
-    layer.define("/A/B", "Camera");
-    EXPECT_EQ(layer.text(), R"(#usda 1.0
-(
-    upAxis = "Z"
-)
-
-over "A"
-{
-    int z = 3
-
-    def Camera "B"
-    {
-        int x = 1
-    }
-}
-
-over "C"
-{
-    int y = 2
-}
-)");
+TEST_F(UsdRecordingTest, ASceneWithAnOddNameIsFoundAgain) {
+    const auto odd = folder / "ro@o\"m.usda";
+    std::filesystem::copy_file(folder / "room.usda", odd);
+    const LoadedScene loaded = loadUsdScene(odd);
+    const UsdRecording other(loaded, odd);
+    other.write(folder / "odd.usda");
+    EXPECT_EQ(loadUsdScene(folder / "odd.usda").files.back().lexically_normal(), odd);
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 
 #include <cassert>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,10 @@
 namespace penumbra {
 
 UsdPrimSpec makePrim(std::string_view type, std::string_view name);
+
+/// The prim at an absolute path: an over, as are those above it, unless it is there already. What
+/// was returned before may have moved.
+UsdPrimSpec& overAt(UsdLayer& layer, std::string_view path);
 
 /// Adds an attribute without a value. \param type as in USD text, e.g. `point3f[]`
 UsdProperty& declareAttribute(UsdPrimSpec& spec, std::string_view type, std::string_view name);
@@ -28,6 +33,9 @@ UsdProperty& addAttribute(UsdPrimSpec& spec, std::string_view type, std::string_
 }
 inline UsdProperty& addFloat(UsdPrimSpec& spec, std::string_view name, double value) {
     return addAttribute(spec, "float", name, std::vector{float(value)});
+}
+inline UsdProperty& addBool(UsdPrimSpec& spec, std::string_view name, bool value) {
+    return addAttribute(spec, "bool", name, std::vector<std::uint8_t>{value});
 }
 /// Of type token, string or asset.
 UsdProperty& addText(UsdPrimSpec& spec, std::string_view type, std::string_view name,

@@ -1,4 +1,6 @@
-#include "io/model/PrimSpecs.h"
+#include "io/usd/layer/UsdPrimSpecs.h"
+
+#include <algorithm>
 
 namespace penumbra {
 
@@ -7,6 +9,26 @@ UsdPrimSpec makePrim(std::string_view type, std::string_view name) {
     spec.typeName = type;
     spec.name = name;
     return spec;
+}
+
+UsdPrimSpec& overAt(UsdLayer& layer, std::string_view path) {
+    assert(path.size() > 1 && path.front() == '/');
+    std::vector<UsdPrimSpec>* siblings = &layer.prims;
+    UsdPrimSpec* spec = nullptr;
+    while (!path.empty()) {
+        path.remove_prefix(1); // a slash
+        const std::string_view name = path.substr(0, path.find('/'));
+        path.remove_prefix(name.size());
+        auto found = std::find_if(siblings->begin(), siblings->end(),
+                                  [&](const UsdPrimSpec& one) { return one.name == name; });
+        if (found == siblings->end()) {
+            found = siblings->insert(found, makePrim("", name));
+            found->specifier = UsdSpecifier::over;
+        }
+        spec = &*found;
+        siblings = &spec->children;
+    }
+    return *spec;
 }
 
 UsdProperty& declareAttribute(UsdPrimSpec& spec, std::string_view type, std::string_view name) {
