@@ -71,9 +71,14 @@ public:
     RecordedFiles(std::uintmax_t maxFileBytes, std::vector<std::filesystem::path>& files)
         : maxFileBytes_(maxFileBytes), files_(files) {}
 
-    Assimp::IOStream* Open(const char* file, const char* mode) override {
+    // A pipe would be waited for: Assimp opens what it asks for.
+    bool Exists(const char* file) const override {
         std::error_code failed;
-        if (!std::filesystem::is_regular_file(file, failed)) return nullptr; // it may be a pipe
+        return std::filesystem::is_regular_file(file, failed);
+    }
+    Assimp::IOStream* Open(const char* file, const char* mode) override {
+        if (!Exists(file)) return nullptr;
+        std::error_code failed;
         if (std::filesystem::file_size(file, failed) > maxFileBytes_ && !failed) return nullptr;
         Assimp::IOStream* stream = Assimp::DefaultIOSystem::Open(file, mode);
         if (stream && std::find(files_.begin(), files_.end(), file) == files_.end())
