@@ -6,6 +6,8 @@
 #include "scenegraph/Transform.h"
 #include "scenegraph/Visitor.h"
 
+#include <algorithm>
+
 namespace penumbra {
 
 namespace {
@@ -38,7 +40,9 @@ public:
         hidden_ -= !node.visible();
     }
     void visit(const Transform& transform) override {
-        const bool begins = transform.movable() || (depth_ == 0 && HoldsGeometry::test(transform));
+        const bool object =
+            transform.beginsObject() || (depth_ == 0 && HoldsGeometry::test(transform));
+        const bool begins = transform.movable() || (object && !pending_.movable);
         const glm::dmat4 outerFrame = toObject_;
         if (!begins) {
             toObject_ = toObject_ * transform.matrix();
@@ -104,6 +108,15 @@ PlacedScene placeScene(const Scene& scene) {
     Placer placer(placed);
     scene.root->accept(placer);
     return placed;
+}
+
+bool hasLights(const PlacedScene& scene) {
+    const auto emits = [](const Placed<Mesh>& mesh) {
+        const auto& materials = mesh.node->data().materials;
+        return std::any_of(materials.begin(), materials.end(),
+                           [](const auto& material) { return material->emissive(); });
+    };
+    return !scene.lights.empty() || std::any_of(scene.meshes.begin(), scene.meshes.end(), emits);
 }
 
 } // namespace penumbra

@@ -19,4 +19,10 @@ void Transform::setMovable(bool movable) {
     touch();
 }
 
+void Transform::setBeginsObject(bool begins) {
+    if (begins == beginsObject_) return;
+    beginsObject_ = begins;
+    touch();
+}
+
 } // namespace penumbra

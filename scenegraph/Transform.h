@@ -21,9 +21,15 @@ public:
     bool movable() const { return movable_; }
     void setMovable(bool movable);
 
+    /// Whether it begins an object that does not move by itself: what people would pick up as one
+    /// thing.
+    bool beginsObject() const { return beginsObject_; }
+    void setBeginsObject(bool begins);
+
 private:
     glm::dmat4 matrix_{1.0};
     bool movable_ = false;
+    bool beginsObject_ = false;
 };
 
 } // namespace penumbra

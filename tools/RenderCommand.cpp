@@ -3,6 +3,7 @@
 #include "io/image/ExrWriter.h"
 #include "io/image/PngWriter.h"
 #include "radiosity/query/DrawnView.h"
+#include "radiosity/query/FallbackLight.h"
 #include "radiosity/query/LitSurface.h"
 #include "radiosity/query/TracedPicture.h"
 #include "scenegraph/Camera.h"
@@ -41,6 +42,7 @@ struct RenderCommand {
     std::vector<std::string> cameras;
     std::string quality = "drawn";
     std::string pixels = "half";
+    std::string fallback = "headlight";
     int width = 1280;
     int height = 0; ///< 0: the camera's shape
 };
@@ -107,9 +109,11 @@ public:
 
 private:
     View chooseView(const Shot& shot);
-    FrameLayers draw(const View& view, const ToneMap& tone);
+    FrameLayers draw(const View& view, const Lighting& light, const ToneMap& tone);
     void writeExrFile(const std::string& path, const FrameLayers& frame, const View& view);
-    float middleGrey(const View& view);
+    float middleGrey(const View& view, const Lighting& light);
+    /// The solution's, or what stands in for it where the scene has no lights.
+    Lighting lightFor(const View& view) const;
     void say(const std::string& line) const {
         if (!command_.solve.quiet) fmt::print(stderr, "{}\n", line);
     }
@@ -132,24 +136,29 @@ View FrameWriter::chooseView(const Shot& shot) {
     return viewOf(placed, solution_.scene().upAxis, shot.camera, file, command_.width, height_);
 }
 
-float FrameWriter::middleGrey(const View& view) {
+Lighting FrameWriter::lightFor(const View& view) const {
+    return hasLights(solution_.placed()) ? solution_.lighting()
+                                         : fallbackLight(solution_.patches(), view);
+}
+
+float FrameWriter::middleGrey(const View& view, const Lighting& light) {
     if (command_.display.exposure) return middleGreyAt(*command_.display.exposure);
-    const std::vector<float> metered = solution_.timed(
-        "meter", [&] { return meterView(solution_.patches(), view, solution_.lighting()); });
+    const std::vector<float> metered =
+        solution_.timed("meter", [&] { return meterView(solution_.patches(), view, light); });
     return middleGreyOf(metered).value_or(kUnmeasuredGrey);
 }
 
-FrameLayers FrameWriter::draw(const View& view, const ToneMap& tone) {
+FrameLayers FrameWriter::draw(const View& view, const Lighting& light, const ToneMap& tone) {
     if (command_.quality == "final") {
         FinalOptions options;
         options.tone = tone;
         options.progress = [&](double done) { solution_.progress().show("tracing", done); };
-        return traceFrame(solution_.patches(), solution_.rays(), solution_.lighting(), view,
-                          command_.width, height_, options);
+        return traceFrame(solution_.patches(), solution_.rays(), light, view, command_.width,
+                          height_, options);
     }
     OffscreenContext context(std::size_t(command_.width) * std::size_t(height_));
     Renderer renderer;
-    const LitBranch lit(solution_.patches(), solution_.lighting());
+    const LitBranch lit(solution_.patches(), light);
     return renderFrame(context, renderer, lit, view, command_.width, height_, tone);
 }
 
@@ -171,9 +180,10 @@ void FrameWriter::write(const Shot& shot, int number) {
     const std::string output = numberedPath(shot.output, number);
     const std::string png = numberedPath(shot.png, number);
     const ToneStyle style = command_.display.tone.value_or(ToneStyle::agx);
-    const float grey = png.empty() ? 1 : middleGrey(view);
+    const Lighting light = lightFor(view);
+    const float grey = png.empty() ? 1 : middleGrey(view, light);
     const FrameLayers frame = solution_.timed(
-        "draw", [&] { return draw(view, png.empty() ? ToneMap() : toneMap(grey, style)); });
+        "draw", [&] { return draw(view, light, png.empty() ? ToneMap() : toneMap(grey, style)); });
     solution_.progress().clear();
     if (!output.empty()) writeExrFile(output, frame, view);
     if (png.empty()) return;
@@ -201,6 +211,18 @@ void checkFormats(const RenderCommand& command) {
                                    fmt::format("'{}' would be PNG: name it .png", command.png));
 }
 
+/// A scene without lights is shown by a headlight, and that is said; or it is refused.
+void checkLights(const RenderCommand& command, const SceneSolution& solution) {
+    if (hasLights(solution.placed())) return;
+    if (command.fallback == "none")
+        throw SceneFileError({command.solve.scene}, std::string(kNoLights));
+    if (!command.solve.quiet)
+        fmt::print(stderr,
+                   "{}: warning: {}: shown by a headlight and even light from all round "
+                   "(--fallback-light none refuses)\n",
+                   command.solve.scene, kNoLights);
+}
+
 void run(RenderCommand command) {
     const ThreadLimit limit(command.solve.threads);
     if (command.output.empty() && command.png.empty())
@@ -220,6 +242,7 @@ void run(RenderCommand command) {
     SceneSolution solution(command.solve);
     for (const Shot& shot : shots) // all names first, and then the pictures
         chooseCamera(solution.placed(), shot.camera, command.solve.scene);
+    checkLights(command, solution);
     FrameWriter writer(command, solution);
     for (int frame = range.first; frame <= range.last; ++frame) {
         if (frame > range.first) solution.show(frame);
@@ -256,6 +279,12 @@ void addRenderCommand(CLI::App& app) {
                      "final: traced, direct light evaluated in every pixel")
         ->capture_default_str()
         ->check(CLI::IsMember({"drawn", "final"}));
+    render
+        ->add_option("--fallback-light", command->fallback,
+                     "What a scene without lights is shown by: headlight (with even light from\n"
+                     "all round, 100 lux together, no shadows), or none: it is refused")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"headlight", "none"}));
     render->add_option("--pixels", command->pixels, "half (16 bit) or float (32 bit)")
         ->capture_default_str()
         ->check(CLI::IsMember({"half", "float"}));

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace CLI {
@@ -58,6 +59,9 @@ FrameRange frameRange(const std::string& text);
 std::string numberedPath(const std::string& pattern, int frame);
 /// Refuses a name that would be written again and again. \throws CLI::ValidationError
 void checkNumbered(const std::string& pattern, const std::string& frames);
+
+/// Of a scene, for people.
+inline constexpr std::string_view kNoLights = "nothing in it gives light that is understood";
 
 /// Prints to standard error what the reader had to say: one summary line, or every line.
 void reportDiagnostics(const std::vector<Diagnostic>& diagnostics, bool verbose);

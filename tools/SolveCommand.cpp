@@ -4,6 +4,7 @@
 #include "radiosity/query/LitSurface.h"
 #include "radiosity/query/PointGather.h"
 #include "radiosity/rays/Margins.h"
+#include "scenegraph/Objects.h"
 #include "tools/Commands.h"
 #include "tools/OutputFiles.h"
 #include "tools/SceneSolution.h"
@@ -68,6 +69,8 @@ void run(SolveCommand command) {
     if (!command.sensors.empty()) sensors = readSensors(command.sensors);
     const bool everyFrame = command.values.find('#') != std::string::npos;
     SceneSolution solution(command.solve);
+    if (!command.solve.quiet && !hasLights(solution.placed()))
+        fmt::print(stderr, "{}: warning: {}: all values are 0\n", command.solve.scene, kNoLights);
     for (int frame = range.first; frame <= range.last; ++frame) {
         if (frame > range.first) solution.show(frame);
         if (sensors.empty() || (!everyFrame && frame < range.last)) continue;

@@ -364,8 +364,8 @@ BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& option
     leftOut.say(built.warnings);
     const bool dark = std::all_of(out.emitters.begin(), out.emitters.end(),
                                   [](const Emitter& e) { return maxChannel(e.exitance) <= 0; });
-    if (dark)
-        built.warnings.push_back("the scene has no light: nothing emits, everything will be black");
+    if (dark && hasLights(scene))
+        built.warnings.push_back("none of the scene's lights is on: everything is black");
     return built;
 }
 

@@ -68,6 +68,42 @@ TEST_F(Render, WritesAnExrAndAPngAndNothingElse) {
     EXPECT_EQ(readFile(here.path("a.png")).substr(1, 3), "PNG");
 }
 
+/// A lit room's box without the light: nothing in the file says what it is seen by.
+std::string darkScene() {
+    return "#usda 1.0\n(\n    metersPerUnit = 1\n    upAxis = \"Z\"\n)\ndef Cube \"Box\"\n{\n"
+           "    double size = 1\n}\n";
+}
+
+TEST_F(Render, ShowsASceneWithoutLightsByAHeadlightAndSaysSo) {
+    room = here.write("dark.usda", darkScene());
+    for (const char* quality : {"drawn", "final"}) {
+        const Outcome outcome = render("a.exr", {"--quality", quality});
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr("nothing in it gives light that is understood: shown by "
+                                           "a headlight"));
+        // neutral: 0.5 / pi * 100 lux at most, half of that where it is seen edge-on
+        EXPECT_THAT(statistics("a.exr", " --ch R"), ContainsRegex("Stats Max: 1[0-5]\\."))
+            << quality;
+    }
+}
+
+TEST_F(Render, RefusesASceneWithoutLightsIfAsked) {
+    room = here.write("dark.usda", darkScene());
+    const Outcome outcome = render("a.exr", {"--fallback-light", "none"});
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("dark.usda: error: nothing in it gives light"));
+    EXPECT_THAT(here.files(), ElementsAre("dark.usda", "room.usda"));
+}
+
+TEST_F(Render, LeavesASceneDarkWhoseLightsAreSwitchedOff) {
+    room = here.write("off.usda", darkScene() + "def SphereLight \"Off\"\n{\n    float "
+                                                "inputs:intensity = 0\n}\n");
+    const Outcome outcome = render("a.exr");
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, testing::Not(HasSubstr("headlight")));
+    EXPECT_THAT(statistics("a.exr", " --ch R"), HasSubstr("Stats Max: 0.000000"));
+}
+
 TEST_F(Render, TellsWhoNamesAnotherFormatThanItWrites) {
     const Outcome output = render("a.PNG");
     EXPECT_EQ(output.exitCode, 2);

@@ -66,6 +66,8 @@ private:
     void openScene(ReadyScene ready);
     void lightScene();
     void reload();
+    void openFile(const std::string& file);
+    void takeOver();
     void advance(double seconds);
     void draw(double seconds);
     void drawPanelsOver();
@@ -77,7 +79,7 @@ private:
     OverlayView blockers() const;
 
     const ViewerOptions& options_;
-    const std::string name_; ///< of the scene's file
+    std::string scene_, name_; ///< path of the scene's file, and its name
     ViewerSettings settings_;
     Signals signals_; // before any thread
     std::optional<SceneLoader> loader_;
@@ -103,8 +105,9 @@ private:
 };
 
 Viewer::Viewer(const ViewerOptions& options)
-    : options_(options), name_(std::filesystem::path(options.scene).filename().string()),
-      settings_(loadSettings()), loader_(std::in_place, options.scene, options.frame),
+    : options_(options), scene_(options.scene),
+      name_(std::filesystem::path(options.scene).filename().string()), settings_(loadSettings()),
+      loader_(std::in_place, options.scene, options.frame),
       window_({.width = settings_.width,
                .height = settings_.height,
                .title = name_ + " (loading) - Penumbra",
@@ -113,6 +116,8 @@ Viewer::Viewer(const ViewerOptions& options)
       renderer_({.samples = options.samples > 0 ? options.samples : (software_ ? 1 : 4)}) {
     gui_.emplace(window_);
     state_.sceneName = name_;
+    state_.scenePath = scene_;
+    state_.recent = settings_.recent;
     state_.renderer = window_.renderer();
     state_.tone = options.tone.value_or(settings_.tone);
     state_.showPanels = settings_.panels;
@@ -149,6 +154,7 @@ void Viewer::takeScene() {
     if (!loader_) return;
     try {
         auto ready = loader_->take();
+        if (ready && loader_->file() != scene_) takeOver();
         if (ready) openScene(std::move(*ready));
         if (!loader_->busy()) loader_.reset();
     } catch (const Error& error) {
@@ -158,14 +164,37 @@ void Viewer::takeScene() {
     }
 }
 
+/// Leaves the scene for another one, which has been read.
+void Viewer::takeOver() {
+    if (session_) session_->finish();
+    session_.reset();
+    replay_.reset();
+    light_.reset();
+    state_.walk = nullptr;
+    walk_.reset();
+    scene_ = loader_->file();
+    name_ = std::filesystem::path(scene_).filename().string();
+    state_.sceneName = name_;
+    state_.scenePath = scene_;
+    state_.light = {};
+    state_.certificates = {};
+    state_.patchSize = state_.elementSize = 0; // those were of the other scene
+}
+
 void Viewer::openScene(ReadyScene ready) {
     const bool again = walk_.has_value();
+    const bool first = !again && scene_ == options_.scene;
     std::optional<CameraRig> before;
     if (again) before = walk_->rig();
     light_.reset();
     replay_.reset();
-    if (!again && options_.opened) options_.opened(ready.loaded.files);
-    if (!again && options_.reported) options_.reported(ready.loaded.diagnostics);
+    if (first && options_.opened) options_.opened(ready.loaded.files);
+    if (first && options_.reported)
+        options_.reported(ready.loaded.diagnostics);
+    else if (!again && !ready.loaded.diagnostics.empty())
+        state_.notify(summary(ready.loaded.diagnostics), 15);
+    addRecent(settings_, scene_);
+    state_.recent = settings_.recent;
     watcher_ = FileWatcher(ready.loaded.files);
     fromFile_ = ready.settings;
     walk_.emplace(std::move(ready));
@@ -179,12 +208,11 @@ void Viewer::openScene(ReadyScene ready) {
                        .collision = settings_.collision,
                        .eyeHeight = settings_.eyeHeight};
     walk_->controls().sensitivity = settings_.sensitivity;
-    if (!again && !options_.camera.empty()) walk_->goTo(options_.camera, options_.scene);
+    if (first && !options_.camera.empty()) walk_->goTo(options_.camera, scene_);
     state_.walk = &*walk_;
-    if (walk_->loaded().animation) replay_.emplace(*walk_, options_.replay && !again);
+    if (walk_->loaded().animation) replay_.emplace(*walk_, options_.replay && first);
     state_.hasAnimation = replay_.has_value();
-    if (!again && !options_.record.empty())
-        session_.emplace(*walk_, options_.scene, options_.record);
+    if (first && !options_.record.empty()) session_.emplace(*walk_, scene_, options_.record);
     state_.recording = session_.has_value();
     if (!again) {
         const RadiosityOptions how = optionsFor(options_.asked.orElse(fromFile_));
@@ -211,8 +239,18 @@ void Viewer::reload() {
         state_.notify("The file is not read again while a session is being recorded");
         return;
     }
-    loader_.emplace(options_.scene, options_.frame);
+    loader_.emplace(scene_, scene_ == options_.scene ? options_.frame : std::nullopt);
     state_.notify("Reading " + name_ + " again");
+}
+
+/// Another scene; this one stays until it has been read, or if it can't be.
+void Viewer::openFile(const std::string& file) {
+    if (loader_) {
+        state_.notify("Another scene is still being read");
+        return;
+    }
+    loader_.emplace(file);
+    state_.notify("Reading " + file);
 }
 
 void Viewer::perform(const Command& command) {
@@ -232,6 +270,9 @@ void Viewer::perform(const Command& command) {
         break;
     case Action::reload:
         state_.wantsReload = true;
+        break;
+    case Action::open:
+        state_.showOpen = !state_.showOpen;
         break;
     case Action::play:
         if (replay_)
@@ -274,7 +315,7 @@ bool Viewer::performOnPicture(const Command& command) {
         state_.overlay = after(state_.overlay, -1);
         return true;
     case Action::cancel:
-        return std::exchange(state_.showHelp, false);
+        return std::exchange(state_.showHelp, false) || std::exchange(state_.showOpen, false);
     default:
         return false;
     }
@@ -284,6 +325,7 @@ bool Viewer::performOnPicture(const Command& command) {
 void Viewer::doAsAsked() {
     if (std::exchange(state_.wantsUpdate, false) && light_) light_->requestUpdate();
     if (std::exchange(state_.wantsReload, false)) reload();
+    if (const std::string file = std::exchange(state_.wantsOpen, {}); !file.empty()) openFile(file);
     if (std::exchange(state_.wantsRestart, false) && walk_) lightScene();
     if (light_) light_->setTrigger(state_.trigger);
     if (light_) light_->setPolicy(state_.policy);
@@ -301,6 +343,10 @@ void Viewer::takeEvents() {
         if (!lets && typed && gui_->wantsKeyboard()) continue;
         const bool pointed = button || std::holds_alternative<ScrollEvent>(event);
         if (!lets && pointed && gui_->wantsPointer()) continue;
+        if (const auto* const drop = std::get_if<DropEvent>(&event)) {
+            state_.wantsOpen = drop->files.front();
+            if (drop->files.size() > 1) state_.notify("One scene at a time: the first is opened");
+        }
         if (const auto command = commandOf(event)) perform(*command);
         if (walk_) walk_->take(event, window_.pixels());
     }
@@ -391,7 +437,8 @@ void Viewer::advance(double seconds) {
     state_.light = light_->state();
     if (std::exchange(previewOf_, walk_->revision()) != walk_->revision()) {
         stale_ = kAfterglow;
-        if (!light_->complete()) preview_ = unlitLighting(walk_->placed());
+        state_.noLights = light_->dark();
+        if (state_.noLights || !light_->complete()) preview_ = unlitLighting(walk_->placed());
     }
     if (watcher_.changed(state_.time)) reload();
 }
@@ -414,6 +461,7 @@ void Viewer::drawPanelsOver() {
     drawPanels(state_);
     drawLegend(state_);
     drawStatusLine(state_);
+    drawOpen(state_);
     drawHelp(state_);
     gui_->end();
 }

@@ -23,6 +23,8 @@ struct Field {
     std::function<void(ViewerSettings&, double)> read;
 };
 
+const std::string kRecent = "recent = "; // the rest of the line is a path
+
 std::string decimal(double value) {
     char digits[32];
     return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
@@ -62,9 +64,19 @@ std::vector<Field> fields() {
 
 } // namespace
 
+void addRecent(ViewerSettings& settings, const std::filesystem::path& file) {
+    std::error_code failed;
+    const std::string path = std::filesystem::absolute(file, failed).lexically_normal().string();
+    if (failed || path.find('\n') != std::string::npos) return;
+    std::erase(settings.recent, path);
+    settings.recent.insert(settings.recent.begin(), path);
+    if (settings.recent.size() > kMostRecent) settings.recent.resize(kMostRecent);
+}
+
 std::string textOf(const ViewerSettings& settings) {
     std::string text = "# Penumbra's walkthrough; written when it is closed\n";
     for (const Field& field : fields()) text += field.name + " = " + field.text(settings) + "\n";
+    for (const std::string& file : settings.recent) text += kRecent + file + "\n";
     return text;
 }
 
@@ -73,6 +85,8 @@ ViewerSettings settingsFrom(const std::string& text) {
     const std::vector<Field> known = fields();
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with(kRecent) && settings.recent.size() < kMostRecent)
+            settings.recent.push_back(line.substr(kRecent.size()));
         std::istringstream words(line);
         std::string name, equals, number;
         if (!(words >> name >> equals >> number) || equals != "=") continue;

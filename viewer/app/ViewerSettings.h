@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace penumbra {
 
@@ -19,8 +20,13 @@ struct ViewerSettings {
     double sensitivity = 1;
     bool gravity = true, collision = false;
     Trigger trigger = Trigger::continuous;
+    std::vector<std::string> recent; ///< whole paths of scenes, the latest first
     friend bool operator==(const ViewerSettings&, const ViewerSettings&) = default;
 };
+
+/// Puts a file first among the recent ones, each of which is there once, kMostRecent at most.
+void addRecent(ViewerSettings& settings, const std::filesystem::path& file);
+inline constexpr std::size_t kMostRecent = 8;
 
 /// As `name = value` lines.
 std::string textOf(const ViewerSettings& settings);

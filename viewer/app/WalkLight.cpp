@@ -117,6 +117,7 @@ bool WalkLight::complete() const {
 }
 
 DrawList WalkLight::listVisible(const Frustum& frustum) const {
+    if (dark()) return penumbra::listVisible(scene_, frustum);
     DrawList list = penumbra::listVisible(node_->lit(), frustum);
     for (DrawItem& item : list.items) item.shown = blend_.shown(*item.geometry);
     if (complete()) return list;

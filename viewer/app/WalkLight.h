@@ -4,6 +4,7 @@
 #include "radiosity/process/LightingLink.h"
 #include "radiosity/process/RadiosityNode.h"
 #include "scenegraph/Frustum.h"
+#include "scenegraph/Objects.h"
 #include "viewer/overlay/BlockAges.h"
 #include "viewer/preview/DrawList.h"
 #include "viewer/preview/LightBlend.h"
@@ -60,6 +61,8 @@ public:
     const Group& lit() const { return node_->lit(); }
     /// Whether all that is visible has light.
     bool complete() const;
+    /// Whether the scene has nothing to be lit by: all of it is listed as unlit.
+    bool dark() const { return !hasLights(node_->placed()); }
 
     std::span<const LitObject> objects() const { return node_->objects(); }
     const PlacedScene& placed() const { return node_->placed(); }

@@ -1,6 +1,7 @@
 #include "viewer/gl/UnlitLighting.h"
 
 #include "radiosity/mesh/LightShapes.h"
+#include "radiosity/query/FallbackLight.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Mesh.h"
 
@@ -100,7 +101,7 @@ UnlitLighting unlitLighting(const PlacedScene& scene) {
         if (lighting.lights.size() < UnlitLighting::kMostLights)
             lighting.lights.push_back(candidate.source);
     }
-    if (!(luminance(lighting.ambient) > 0)) lighting.ambient = Rgb(100);
+    if (!(luminance(lighting.ambient) > 0)) lighting.ambient = Rgb(kFallbackIlluminance);
     return lighting;
 }
 

@@ -31,7 +31,8 @@ struct UnlitLighting {
     Rgb ambient;
 };
 
-/// Lights and emissive meshes of a scene as it is. Without any: a headlight alone, 100 lux.
+/// Lights and emissive meshes of a scene as it is. Without any:
+/// fallbackLight().
 UnlitLighting unlitLighting(const PlacedScene& scene);
 
 } // namespace penumbra

@@ -6,7 +6,9 @@
 #include <array>
 #include <bitset>
 #include <cstdint>
+#include <string>
 #include <variant>
+#include <vector>
 
 namespace penumbra {
 
@@ -93,8 +95,13 @@ struct FocusEvent {
     bool focused = false;
 };
 
+/// Files were dropped on the window.
+struct DropEvent {
+    std::vector<std::string> files; ///< paths; at least one
+};
+
 using InputEvent =
-    std::variant<KeyEvent, TextEvent, MoveEvent, ButtonEvent, ScrollEvent, FocusEvent>;
+    std::variant<KeyEvent, TextEvent, MoveEvent, ButtonEvent, ScrollEvent, FocusEvent, DropEvent>;
 
 /// What is held down at the moment, and where the pointer is.
 class InputState {

@@ -9,7 +9,7 @@ namespace {
 constexpr std::array kHelp = std::to_array<HelpLine>({
     {"Move", "W A S D", "ahead, left, back, right (Shift: run)"},
     {"Move", "E Q", "up, down (flying, or without gravity)"},
-    {"Move", "right mouse button", "look around; also the left one, on what can't be moved"},
+    {"Move", "right mouse button", "look around; also the left one, beside what can be dragged"},
     {"Move", "mouse wheel", "forward, back; sideways: turn"},
     {"Move", "middle button, Alt+left", "circle around what is under the pointer"},
     {"Move", "Shift+middle, Alt+middle", "shift the view (Alt+right: nearer, farther)"},
@@ -20,6 +20,7 @@ constexpr std::array kHelp = std::to_array<HelpLine>({
     {"Move", "Home", "the whole scene"},
     {"Move", "F", "what is selected"},
     {"Edit", "left mouse button", "select; drag along what the thing stands or hangs on"},
+    {"Edit", "...", "(what the file does not call movable: click on it first)"},
     {"Edit", "... with Shift", "up and down"},
     {"Edit", "... with Ctrl", "turn"},
     {"Edit", "arrows, Page up, down", "nudge what is selected by 1 cm (Shift: 10 cm)"},
@@ -37,6 +38,7 @@ constexpr std::array kHelp = std::to_array<HelpLine>({
     {"View", "F11", "full screen"},
     {"View", "?", "this help"},
     {"View", "Ctrl+Q", "end"},
+    {"Scene", "Ctrl+O", "open another scene or model; or drop its file on the window"},
     {"Scene", "U", "update the light now"},
     {"Scene", "P", "play the file's animation, pause"},
     {"Scene", "F5", "read the file again; also when it has been saved"},
@@ -67,6 +69,8 @@ std::optional<Command> ofLetter(char letter, Modifiers modifiers) {
     const bool shift = modifiers.shift;
     if (modifiers.control) {
         switch (letter) {
+        case 'O':
+            return Command{Action::open};
         case 'Q':
             return Command{Action::quit};
         case 'Z':

@@ -39,6 +39,7 @@ enum class Action {
     play,
     save,
     reload,
+    open,
 };
 
 /// A line of the help.

@@ -12,6 +12,15 @@ namespace {
 constexpr double kReach = 1e6;     // of the search for what is under the pointer [m]
 constexpr double kClickPixels = 4; // less is no drag
 
+/// A move, after which the thing is movable if it was not.
+EditHistory::Step moveStep(const std::shared_ptr<Transform>& node, bool movable,
+                           const glm::dmat4& before, const glm::dmat4& after) {
+    EditHistory::Step step;
+    if (!movable) step.push_back(LoosenEdit{node, false, true});
+    step.push_back(MoveEdit{node, before, after});
+    return step;
+}
+
 } // namespace
 
 Walkthrough::Walkthrough(ReadyScene ready)
@@ -59,18 +68,26 @@ void Walkthrough::press(const ButtonEvent& button, glm::ivec2 picture) {
     pointerHeld_ = button.button == MouseButton::right && gesture == Gesture::look;
 }
 
-/// Selects what is under the pointer; whether it can be dragged.
+/// Selects what is under the pointer. \return whether it can be dragged: at once if the file says
+/// that it is movable; all else when it was selected before, so that nobody drags the floor away
+/// who wants to look around
 bool Walkthrough::takeHold(const ButtonEvent& button, glm::ivec2 picture) {
     const SightLine sight = sightAt(button.position, picture);
     const auto touch = rays_->touch(sight.origin, sight.direction, kReach);
+    const std::string before = selection_ ? selection_->objectPath : std::string();
     selection_.reset();
     if (!touch) return false;
     selection_ = selectionOf(scene(), placed_, *touch);
-    if (!selection_->movable()) return false;
+    if (!selection_->node) return false;
+    if (!selection_->movable() && selection_->objectPath != before) return false;
     const SupportPlane plane = supportOf(*rays_, touch->object, rig_.compass());
     const glm::dmat4& toWorld = placed_.objects[touch->object.value].toWorld;
-    held_ = Held{selection_->node, touch->object, selection_->node->matrix(),
-                 Drag(touch->position, toWorld, plane, rig_.compass()), button.position};
+    held_ = Held{selection_->node,
+                 touch->object,
+                 selection_->node->matrix(),
+                 Drag(touch->position, toWorld, plane, rig_.compass()),
+                 button.position,
+                 selection_->movable()};
     return true;
 }
 
@@ -78,6 +95,7 @@ void Walkthrough::dragTo(const MoveEvent& move, glm::ivec2 picture) {
     if (!held_->moving) {
         if (glm::distance(move.position, held_->from) < kClickPixels) return;
         held_->moving = true;
+        if (!held_->movable) loosenHeld();
         held_->drag.moved(sightAt(held_->from, picture), Drag::Mode::slide, 0);
     }
     const Modifiers modifiers = controls_.state().modifiers();
@@ -93,15 +111,26 @@ void Walkthrough::dragTo(const MoveEvent& move, glm::ivec2 picture) {
     changed();
 }
 
+/// What is dragged is movable from now on; objects may have other numbers then.
+void Walkthrough::loosenHeld() {
+    held_->node->setMovable(true);
+    changed();
+    const std::string& path = selection_->objectPath;
+    for (std::size_t o = 0; o < placed_.objects.size(); ++o)
+        if (placed_.objects[o].path == path) held_->object.value = std::uint32_t(o);
+    selection_->object = held_->object;
+}
+
 /// \param keep false: it goes back to where it was
 void Walkthrough::letGo(bool keep) {
     if (!held_) return;
-    const MoveEdit edit{held_->node, held_->before, held_->node->matrix()};
+    EditHistory::Step step =
+        moveStep(held_->node, held_->movable, held_->before, held_->node->matrix());
     held_.reset();
     if (keep)
-        history_.note({edit});
+        history_.note(step);
     else
-        takeBack(edit);
+        std::for_each(step.rbegin(), step.rend(), [](const SceneEdit& edit) { takeBack(edit); });
     changed();
 }
 
@@ -150,13 +179,13 @@ void Walkthrough::make(const EditHistory::Step& step) {
 
 void Walkthrough::place(const Selection& selection, const glm::dmat4& toWorld) {
     const glm::dmat4& now = placed_.objects[selection.object.value].toWorld;
-    make({MoveEdit{selection.node, selection.node->matrix(),
-                   matrixFor(*selection.node, now, toWorld)}});
+    make(moveStep(selection.node, selection.movable(), selection.node->matrix(),
+                  matrixFor(*selection.node, now, toWorld)));
 }
 
 /// Along the axis of the scene that comes nearest to what the camera calls that direction.
 void Walkthrough::nudge(NudgeDirection way, double metres) {
-    if (!selection_ || !selection_->movable()) return;
+    if (!selection_ || !selection_->node) return;
     const Compass& compass = rig_.compass();
     const glm::dvec3 right = rig_.pose().right(compass);
     const bool eastward = std::abs(glm::dot(right, compass.east)) > std::sqrt(0.5);
@@ -170,7 +199,7 @@ void Walkthrough::nudge(NudgeDirection way, double metres) {
 }
 
 void Walkthrough::turnSelected(double angle) {
-    if (!selection_ || !selection_->movable()) return;
+    if (!selection_ || !selection_->node) return;
     const glm::dmat4& now = placed_.objects[selection_->object.value].toWorld;
     place(*selection_, turned(now, glm::dvec3(now[3]), rig_.compass().up, angle));
 }

@@ -189,6 +189,9 @@ void Window::Impl::listen(GLFWwindow* window) {
                                             held(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL),
                                             held(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT)}});
     });
+    glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+        if (count > 0) of(w).events.push_back(DropEvent{{paths, paths + count}});
+    });
     glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
         of(w).pointerKnown = false;
         of(w).events.push_back(FocusEvent{focused == GLFW_TRUE});

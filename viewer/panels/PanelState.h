@@ -6,6 +6,7 @@
 #include "radiosity/process/RadiosityOptions.h"
 #include "radiosity/process/RadiosityState.h"
 #include "viewer/gl/DrawStatistics.h"
+#include "viewer/input/SceneBrowser.h"
 #include "viewer/input/Walkthrough.h"
 #include "viewer/overlay/Legend.h"
 #include "viewer/overlay/Overlay.h"
@@ -59,14 +60,18 @@ struct PanelState {
     History certificates;      ///< log10 of certificateOfLit()
     float patchSize = 0;       ///< that was asked for [m]; 0: chosen for the scene
     float elementSize = 0;
-    std::string sceneName, renderer;
-    bool showPanels = true, showHelp = false;
+    std::string sceneName, scenePath, renderer;
+    std::vector<std::string> recent;     ///< paths of scenes that were opened, the latest first
+    std::optional<SceneBrowser> browser; ///< while another scene is chosen
+    bool showPanels = true, showHelp = false, showOpen = false;
+    bool noLights = false; ///< the scene has none: a headlight stands in for them
     bool recording = false, playing = false, hasAnimation = false;
     double time = 0; ///< since the start [s]
     std::deque<Notice> notices;
 
     // Asked for by a panel, and done by the main loop.
     bool wantsUpdate = false, wantsSave = false, wantsReload = false, wantsRestart = false;
+    std::string wantsOpen; ///< a file; empty: none
 
     void notify(std::string text, double seconds = 6) {
         notices.push_back({std::move(text), time + seconds});

@@ -17,6 +17,9 @@ void drawPanels(PanelState& state) {
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
                          ImGuiWindowFlags_NoFocusOnAppearing)) {
         ImGui::PushItemWidth(10 * em);
+        if (ImGui::Button("Open ...")) state.showOpen = true;
+        ImGui::SameLine();
+        ImGui::TextDisabled("Ctrl+O, or drop a file here");
         if (state.walk && ImGui::CollapsingHeader("Light", ImGuiTreeNodeFlags_DefaultOpen))
             drawLightPanel(state);
         if (ImGui::CollapsingHeader("View")) drawViewPanel(state);

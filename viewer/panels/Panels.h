@@ -19,6 +19,8 @@ void drawStatusLine(PanelState& state);
 void drawLegend(const PanelState& state);
 /// The box around the selected object.
 void drawSelectionBox(const PanelState& state);
+/// The choice of another scene.
+void drawOpen(PanelState& state);
 /// All keys.
 void drawHelp(PanelState& state);
 

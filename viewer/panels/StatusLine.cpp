@@ -23,8 +23,9 @@ void drawStatusLine(PanelState& state) {
     ImGui::SetNextWindowBgAlpha(0.55f);
     ImGui::SetNextWindowPos({em / 2, display.y - em / 2}, ImGuiCond_Always, {0, 1});
     if (ImGui::Begin("##status", nullptr, kPlain)) {
-        const std::string words =
-            state.walk ? lightWords(state.light) : "reading " + state.sceneName;
+        const std::string words = !state.walk      ? "reading " + state.sceneName
+                                  : state.noLights ? "no light in this file: shown by a headlight"
+                                                   : lightWords(state.light);
         ImGui::TextUnformatted(words.c_str());
         if (state.walk) {
             ImGui::SameLine(0, 2 * em);

@@ -7,6 +7,7 @@
 #include "io/usd/scene/UsdLight.h"
 #include "io/usd/scene/UsdMaterial.h"
 #include "io/usd/scene/UsdMesh.h"
+#include "io/usd/scene/UsdObjects.h"
 #include "io/usd/scene/UsdTracks.h"
 #include "io/usd/scene/UsdXform.h"
 #include "io/usd/stage/UsdStage.h"
@@ -51,6 +52,10 @@ bool isXformable(std::string_view type) {
            isUnsupportedShape(type);
 }
 
+bool isShape(std::string_view type) {
+    return type == "Mesh" || isUsdGprim(type) || isUsdAreaLight(type);
+}
+
 // What a prim hands down to those below it.
 struct Place {
     std::shared_ptr<Group> container; // takes the children's nodes; null: nothing below is loaded
@@ -61,16 +66,18 @@ struct Place {
 
 class SceneBuilder {
 public:
-    SceneBuilder(UsdStage& stage, UsdTime time, UsdTracks& tracks, UsdAddresses& addresses)
+    SceneBuilder(UsdStage& stage, UsdTime time, UsdTracks& tracks, UsdAddresses& addresses,
+                 double metersPerUnit)
         : stage_(stage), tracks_(tracks), addresses_(addresses), time_(time),
           warnings_(stage.diagnostics()), materials_(stage, time, warnings_),
-          places_(stage.prims().size()) {}
+          objects_(stage, isShape), metersPerUnit_(metersPerUnit), places_(stage.prims().size()) {}
 
     void build(std::shared_ptr<Group> root) {
         places_[0].container = std::move(root);
         for (std::size_t i = 1; i < stage_.prims().size(); ++i) add(i);
         tracks_.addMaterials(materials_);
         notePaints();
+        objects_.mark();
     }
 
 private:
@@ -86,6 +93,7 @@ private:
         }
         Place place = clusterOf(attributes, parent);
         const auto transform = makeTransform(attributes, parent, place);
+        if (transform) objects_.addTransform(index, transform);
         const bool shares = transform || hasChildren(prim); // its path, with what holds it
         const NodePtr leaf =
             place.drawn ? makeLeaf(shares ? std::string() : prim.name, attributes, place) : nullptr;
@@ -93,6 +101,7 @@ private:
         if (const auto camera = std::dynamic_pointer_cast<Camera>(leaf))
             tracks_.addCamera(camera, prim);
         if (leaf) noteLeaf(leaf, prim);
+        noteShape(index, leaf, place);
         attach(prim, parent, place, transform, leaf);
         places_[index] = std::move(place);
     }
@@ -128,7 +137,10 @@ private:
         if (isXformable(prim.typeName)) local = usdLocalTransform(attributes, warnings_);
         const bool movable =
             local.animated || comesAndGoes(prim) || attributes.flag("penumbra:movable", false);
-        if (prim.typeName != "Xform" && !local.authored && !movable) return nullptr;
+        const bool structure = prim.typeName == "Xform";
+        if (!structure && !local.authored && !movable &&
+            !(isShape(prim.typeName) && objects_.needsTransform(prim)))
+            return nullptr;
         if (local.resetsStack) local.matrix = relativeToParent(local, parent.toWorld);
         auto transform = std::make_shared<Transform>(comesAndGoes(prim) ? "" : prim.name);
         transform->setMatrix(local.matrix);
@@ -199,6 +211,16 @@ private:
         return choice;
     }
 
+    void noteShape(std::size_t index, const NodePtr& leaf, const Place& place) {
+        Bounds box;
+        if (const auto mesh = std::dynamic_pointer_cast<Mesh>(leaf)) box = mesh->bounds();
+        if (const auto light = std::dynamic_pointer_cast<Light>(leaf)) box = light->bounds();
+        if (box.empty()) return;
+        glm::dmat4 toMetres(metersPerUnit_);
+        toMetres[3][3] = 1;
+        objects_.addShape(index, transformed(box, toMetres * place.toWorld));
+    }
+
     // Where a leaf comes from; its paint is noted when all materials are known.
     void noteLeaf(const NodePtr& leaf, const UsdPrim& prim) {
         if (const auto camera = std::dynamic_pointer_cast<Camera>(leaf))
@@ -238,6 +260,8 @@ private:
     UsdTime time_;
     Diagnostics& warnings_;
     UsdMaterials materials_;
+    UsdObjects objects_;
+    double metersPerUnit_; // of a unit of the stage [m]
     std::vector<Place> places_;
 
     struct Painted {
@@ -346,7 +370,7 @@ LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& o
     const auto tracks = std::make_shared<UsdTracks>(stage);
     if (const UsdValue* name = find(stage->rootLayer().metadata, "defaultPrim"))
         if (name->text()) loaded.addresses.defaultPrim = *name->text();
-    SceneBuilder(*stage, time, *tracks, loaded.addresses).build(scene.root);
+    SceneBuilder(*stage, time, *tracks, loaded.addresses, scene.metersPerUnit).build(scene.root);
     loaded.files = stage->files();
     const auto parts = files.parts();
     loaded.files.insert(loaded.files.end(), parts.begin(), parts.end());

@@ -25,6 +25,7 @@ public:
         group(node, Kind::transform);
         out_.matrix = node.matrix();
         out_.movable = node.movable();
+        out_.beginsObject = node.beginsObject();
     }
     void visit(const Mesh& node) override {
         out_.kind = Kind::mesh;
@@ -84,6 +85,7 @@ std::uint32_t SceneDiff::enter(const NodePtr& node) {
     snapshot.children = seen.children;
     snapshot.visible = seen.visible;
     snapshot.movable = seen.movable;
+    snapshot.beginsObject = seen.beginsObject;
     snapshot.matrix = seen.matrix;
     snapshot.shape = seen.shape;
     snapshot.luminance = seen.luminance;
@@ -128,8 +130,9 @@ void SceneDiff::diffNode(std::uint32_t number, Change& change) {
     const NodeSnapshot before = seen_[number];
     describe(number);
     const NodeSnapshot& now = seen_[number];
-    if (now.movable != before.movable) {
+    if (now.movable != before.movable || now.beginsObject != before.beginsObject) {
         snapshot_.nodes[number].movable = now.movable;
+        snapshot_.nodes[number].beginsObject = now.beginsObject;
         change.structure = true;
     }
     if (now.matrix != before.matrix) change.edits.push_back(SetMatrix{number, now.matrix});

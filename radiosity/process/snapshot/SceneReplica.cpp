@@ -42,6 +42,7 @@ NodePtr SceneReplica::makeNode(const NodeSnapshot& snapshot) const {
         auto node = std::make_shared<Transform>(snapshot.name);
         node->setMatrix(snapshot.matrix);
         node->setMovable(snapshot.movable);
+        node->setBeginsObject(snapshot.beginsObject);
         return node;
     }
     case Kind::light:

@@ -116,6 +116,7 @@ void writeNode(ByteWriter& out, const NodeSnapshot& node) {
     case Kind::transform:
         out.put(node.matrix);
         out.put(std::uint8_t(node.movable));
+        out.put(std::uint8_t(node.beginsObject));
         out.list(node.children);
         break;
     case Kind::choice:
@@ -153,6 +154,7 @@ NodeSnapshot readNode(ByteReader& in) {
     case Kind::transform:
         node.matrix = in.get<glm::dmat4>();
         node.movable = in.get<std::uint8_t>() != 0;
+        node.beginsObject = in.get<std::uint8_t>() != 0;
         node.children = in.list<std::uint32_t>();
         break;
     case Kind::choice:

@@ -22,12 +22,24 @@ ViewerSettings unusual() {
             .sensitivity = 0.3,
             .gravity = false,
             .collision = true,
-            .trigger = Trigger::onDemand};
+            .trigger = Trigger::onDemand,
+            .recent = {"/rooms/a room.usda", "/b.glb"}};
 }
 
 TEST(ViewerSettings, ComeBackAsTheyWereWritten) {
     EXPECT_EQ(settingsFrom(textOf(unusual())), unusual());
     EXPECT_EQ(settingsFrom(textOf({})), ViewerSettings{});
+}
+
+TEST(ViewerSettings, RememberTheLatestScenesEachOnce) {
+    ViewerSettings settings;
+    for (const char* file : {"/a.usda", "/b.usda", "/rooms/../a.usda"}) addRecent(settings, file);
+    EXPECT_EQ(settings.recent, (std::vector<std::string>{"/a.usda", "/b.usda"}));
+    for (int i = 0; i < 20; ++i) addRecent(settings, "/" + std::to_string(i) + ".usda");
+    EXPECT_EQ(settings.recent.size(), kMostRecent);
+    EXPECT_EQ(settings.recent.front(), "/19.usda");
+    addRecent(settings, "/two\nlines.usda"); // would be garbled
+    EXPECT_EQ(settings.recent.front(), "/19.usda");
 }
 
 TEST(ViewerSettings, TheFirstWindowFitsASmallScreenWithItsFrameAndATaskBar) {

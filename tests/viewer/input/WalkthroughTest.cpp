@@ -31,6 +31,9 @@ ReadyScene field() {
         movable("box", {polygon("front", {{-.5f, 0, 0}, {.5f, 0, 0}, {.5f, 0, 1}, {-.5f, 0, 1}})});
     box->setMatrix(glm::translate(glm::dmat4(1.0), {0, 4, 0}));
     scene.root->add(box);
+    scene.root->add(
+        placed("crate", glm::translate(glm::dmat4(1.0), {3, 4, 0}),
+               {polygon("side", {{-.5f, 0, 0}, {.5f, 0, 0}, {.5f, 0, 1}, {-.5f, 0, 1}})}));
     scene.root->add(placed("hook", glm::translate(glm::dmat4(1.0), {-3, 4, 3}), {light("lamp")}));
     ready.placed = placeScene(scene);
     ready.rays = std::make_unique<SceneRays>(ready.placed);
@@ -116,6 +119,56 @@ TEST(Walkthrough, DragsAThingOverTheFloorAndTakesThatBack) {
     EXPECT_EQ(place(), glm::dvec3(0, 4, 0));
     walk.perform({Action::redo});
     EXPECT_LT(glm::distance(place(), glm::dvec3(1, 5, 0)), 1e-4);
+}
+
+TEST(Walkthrough, WhatIsNotMarkedIsSelectedByOneClickAndDraggedByTheNext) {
+    Walkthrough walk(field());
+    const glm::dvec2 from = pixelOf(walk, {3, 4, 0.5}), to = pixelOf(walk, {2, 5, 0.5});
+    press(walk, from);
+    ASSERT_TRUE(walk.selection());
+    EXPECT_EQ(walk.selection()->objectPath, "/crate");
+    EXPECT_EQ(walk.inHand(), nullptr) << "the view turns, nothing is moved";
+    press(walk, from, false);
+    EXPECT_EQ(walk.revision(), 1u);
+    const glm::dvec2 again = pixelOf(walk, {3, 4, 0.5});
+    press(walk, again);
+    EXPECT_NE(walk.inHand(), nullptr);
+    EXPECT_FALSE(walk.selection()->movable()) << "a click, so far";
+    moveTo(walk, again, to);
+    EXPECT_TRUE(walk.selection()->movable());
+    press(walk, to, false);
+    const auto place = [&] { return glm::dvec3(walk.selection()->node->matrix()[3]); };
+    EXPECT_LT(glm::distance(place(), glm::dvec3(2, 5, 0)), 1e-4);
+    EXPECT_EQ(walk.placed().objects[walk.selection()->object.value].path, "/crate");
+    walk.perform({Action::undo});
+    EXPECT_EQ(place(), glm::dvec3(3, 4, 0));
+    EXPECT_FALSE(walk.selection()->movable());
+    walk.perform({Action::redo});
+    EXPECT_TRUE(walk.selection()->movable());
+    EXPECT_LT(glm::distance(place(), glm::dvec3(2, 5, 0)), 1e-4);
+}
+
+TEST(Walkthrough, EscapePutsBackWhatIsNotMarkedAsItWas) {
+    Walkthrough walk(field());
+    const glm::dvec2 from = pixelOf(walk, {3, 4, 0.5});
+    press(walk, from);
+    press(walk, from, false);
+    press(walk, from);
+    moveTo(walk, from, from + glm::dvec2(100, 0));
+    walk.perform({Action::cancel});
+    EXPECT_EQ(glm::dvec3(walk.selection()->node->matrix()[3]), glm::dvec3(3, 4, 0));
+    EXPECT_FALSE(walk.selection()->movable());
+    EXPECT_EQ(walk.history().undoable(), 0u);
+}
+
+TEST(Walkthrough, NudgesWhatIsNotMarked) {
+    Walkthrough walk(field());
+    const glm::dvec2 at = pixelOf(walk, {3, 4, 0.5});
+    press(walk, at);
+    press(walk, at, false);
+    walk.perform({Action::nudge, int(NudgeDirection::right), true});
+    EXPECT_LT(glm::distance(glm::dvec3(walk.selection()->node->matrix()[3]), {3.1, 4, 0}), 1e-6);
+    EXPECT_TRUE(walk.selection()->movable());
 }
 
 TEST(Walkthrough, EscapePutsBackWhatIsBeingDragged) {

@@ -1,0 +1,65 @@
+// Which prims people would pick up as one thing.
+#pragma once
+
+#include "base/Bounds.h"
+#include "io/usd/stage/UsdStage.h"
+#include "scenegraph/Transform.h"
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace penumbra {
+
+/// Finds the objects of a stage that the file does not mark as movable itself. From the root
+/// downwards the first rule that fits decides; nothing below an object is looked at again.
+///
+/// 1. A smallest model is an object: `kind` is component or model, with no such prim below it. One
+///    that holds all of the scene is none: nothing in it could be moved against the rest.
+/// 2. A shape that has a transform of its own is an object.
+/// 3. An Xform that holds shapes is one object with all that is below it if that fits into a cube
+///    of kMostSize, has at most kMostParts parts, all of which touch each other (their boxes, to
+///    within kTouching), and is not all of the scene.
+/// 4. Otherwise its shapes without a transform are an object, if they are at most kMostShapes, and
+///    what is below it is asked in turn. More of them are a pile: each is an object.
+class UsdObjects {
+public:
+    static constexpr float kMostSize = 2.5f;  ///< [m]
+    static constexpr float kTouching = 0.01f; ///< [m]
+    static constexpr std::size_t kMostParts = 64;
+    static constexpr std::size_t kMostShapes = 16;
+
+    /// \param isShape whether a prim of that type is seen, or gives light
+    UsdObjects(const UsdStage& stage, bool (*isShape)(std::string_view type));
+
+    /// Whether a shape without a transform needs one, to be an object.
+    bool needsTransform(const UsdPrim& prim) const;
+
+    void addTransform(std::size_t prim, const std::shared_ptr<Transform>& transform);
+    /// \param box of the shape at a prim [m, world]
+    void addShape(std::size_t prim, const Bounds& box);
+
+    /// Marks the transforms that begin objects, when all have been added.
+    void mark() const;
+
+private:
+    struct Entry {
+        std::shared_ptr<Transform> transform;
+        std::uint32_t shapesHeld = 0; ///< children that are shapes
+        bool shape = false;
+        bool model = false;          ///< a smallest one
+        std::uint32_t firstPart = 0; ///< parts of it and of what is below it
+        std::uint32_t partCount = 0;
+    };
+
+    void findModels(const UsdStage& stage);
+    bool isObject(const Entry& entry) const;
+    bool isThing(const Entry& entry) const;
+
+    const UsdStage& stage_;
+    std::vector<Entry> entries_; ///< one a prim
+    std::vector<Bounds> parts_;  ///< in the order of the prims
+};
+
+} // namespace penumbra
