@@ -5,6 +5,7 @@ find_package(TBB REQUIRED CONFIG)
 find_package(Boost REQUIRED) # Interprocess: headers only
 find_package(embree 3 REQUIRED CONFIG)
 find_package(OpenEXR REQUIRED CONFIG)
+find_package(OpenImageIO REQUIRED CONFIG)
 find_package(PNG REQUIRED)
 find_package(assimp 5 REQUIRED CONFIG)
 find_package(CLI11 REQUIRED CONFIG)
