@@ -5,7 +5,6 @@ find_package(TBB REQUIRED CONFIG)
 find_package(Boost REQUIRED) # Interprocess: headers only
 find_package(embree 3 REQUIRED CONFIG)
 find_package(OpenEXR REQUIRED CONFIG)
-find_package(OpenImageIO REQUIRED CONFIG)
 find_package(PNG REQUIRED)
 find_package(assimp 5 REQUIRED CONFIG)
 find_package(CLI11 REQUIRED CONFIG)
@@ -24,6 +23,16 @@ add_library(OpenSubdiv::osdCPU UNKNOWN IMPORTED)
 set_target_properties(OpenSubdiv::osdCPU PROPERTIES
   IMPORTED_LOCATION ${OPENSUBDIV_CPU_LIBRARY}
   INTERFACE_INCLUDE_DIRECTORIES ${OPENSUBDIV_INCLUDE_DIR})
+
+# Debian's OpenImageIOConfig.cmake wants headers of OpenCV, which its package does not depend on.
+find_path(OPENIMAGEIO_INCLUDE_DIR OpenImageIO/imageio.h REQUIRED)
+find_library(OPENIMAGEIO_LIBRARY OpenImageIO REQUIRED)
+find_library(OPENIMAGEIO_UTIL_LIBRARY OpenImageIO_Util REQUIRED)
+add_library(OpenImageIO::OpenImageIO UNKNOWN IMPORTED)
+set_target_properties(OpenImageIO::OpenImageIO PROPERTIES
+  IMPORTED_LOCATION ${OPENIMAGEIO_LIBRARY}
+  INTERFACE_INCLUDE_DIRECTORIES ${OPENIMAGEIO_INCLUDE_DIR}
+  INTERFACE_LINK_LIBRARIES "${OPENIMAGEIO_UTIL_LIBRARY};Imath::Imath")
 
 if(BUILD_TESTING)
   find_package(GTest REQUIRED CONFIG)
