@@ -34,6 +34,43 @@ std::string formatOf(std::span<const std::byte> bytes, const std::string& name) 
     return end == ".tga" ? "targa" : "";
 }
 
+std::uint32_t bigEndian(std::span<const std::byte> bytes) {
+    std::uint32_t value = 0;
+    for (const std::byte b : bytes.first(4)) value = value << 8 | std::uint32_t(b);
+    return value;
+}
+
+std::uint32_t crc32(std::span<const std::byte> bytes) { // ISO 3309, as PNG has it
+    std::uint32_t crc = 0xffffffffu;
+    for (const std::byte b : bytes) {
+        crc ^= std::uint32_t(b);
+        for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0);
+    }
+    return ~crc;
+}
+
+/// A PNG file without all that has no part in its colours, checked: what libpng does not like it
+/// writes to standard error itself, profiles that nobody asked for included.
+std::vector<std::byte> plainPng(std::span<const std::byte> bytes, const std::string& name) {
+    constexpr std::size_t kHead = 8, kAround = 12; // signature; length, type and sum of a chunk
+    std::vector<std::byte> plain(bytes.begin(), bytes.begin() + kHead);
+    bool ends = false;
+    for (bytes = bytes.subspan(kHead); bytes.size() >= kAround && !ends;) {
+        const std::size_t length = bigEndian(bytes);
+        if (length > bytes.size() - kAround) break;
+        const auto chunk = bytes.first(length + kAround);
+        const auto body = chunk.subspan(4, length + 4);
+        if (crc32(body) != bigEndian(chunk.last(4))) break;
+        const std::string type(reinterpret_cast<const char*>(body.data()), 4);
+        if (type == "IHDR" || type == "PLTE" || type == "IDAT" || type == "IEND")
+            plain.insert(plain.end(), chunk.begin(), chunk.end());
+        ends = type == "IEND";
+        bytes = bytes.subspan(chunk.size());
+    }
+    if (!ends) throw Error(name + ": a damaged PNG file");
+    return plain;
+}
+
 [[noreturn]] void refuse(OIIO::ImageInput& input, const std::string& name) {
     std::string why = input.geterror();
     why = why.substr(0, why.find('\n'));
@@ -74,6 +111,11 @@ std::shared_ptr<const TextureImage> readImage(std::span<const std::byte> bytes,
                                               const std::string& name, PictureCoding coding) {
     const std::string format = formatOf(bytes, name);
     if (format.empty()) throw Error(name + ": not a picture of a kind that is read");
+    std::vector<std::byte> plain;
+    if (format == "png") {
+        if (bytes.size() < 8) throw Error(name + ": a damaged PNG file");
+        bytes = plain = plainPng(bytes, name);
+    }
     OIIO::attribute("threads", 1); // all threads are ours, see base/Parallel.h
     const auto input = OIIO::ImageInput::create(format);
     if (!input) throw Error(name + ": OpenImageIO reads no " + format + " here");

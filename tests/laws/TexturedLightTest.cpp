@@ -53,12 +53,14 @@ TEST(TexturedLight, AfterAMoveIsThatOfANewStart) {
     const Texture tiles{redAndWhite(3, 8)};
     Solution moving(room(papered(tiles), 1.5), kCoarse);
     const auto means = moving.patches().textures.patches;
-    const Scene there = room(papered(tiles), 2.5);
-    moving.lit.follow(placeScene(there));
+    const auto board = std::dynamic_pointer_cast<Transform>(moving.scene.root->children()[1]);
+    board->setMatrix(moved(2.5, 1, 0.8));
+    moving.lit.follow(placeScene(moving.scene));
     moving.lit.solver().settle();
     EXPECT_EQ(moving.patches().textures.patches, means); // read once
     const Solution fresh(room(papered(tiles), 2.5), kCoarse);
     const Lighting light = moving.solver.lighting();
+    ASSERT_GE(light.direct.size(), std::size_t(fresh.patches().firstPrivate));
     for (std::size_t v = 0; v < fresh.patches().firstPrivate; ++v)
         EXPECT_EQ(light.direct[v], fresh.lighting.direct[v]);
 }

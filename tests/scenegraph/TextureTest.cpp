@@ -52,7 +52,7 @@ TEST(TextureImage, DecodesSrgbAndLeavesRawNumbersAsTheyAre) {
 
 TEST(TextureImage, KeepsFloatsOfAnyRange) {
     const TextureImage image("lights", 2, 1, {0.01f, 1, 5000, -1, NAN, 20000});
-    EXPECT_NEAR(image.texel(0, 0, 0).r, 0.01f, 1e-4f);
+    EXPECT_NEAR(image.texel(0, 0, 0).r, 0.01f, 2e-4f); // of 20000
     EXPECT_NEAR(image.texel(0, 0, 0).b, 5000, 1);
     EXPECT_EQ(image.texel(0, 1, 0).r, 0);
     EXPECT_EQ(image.texel(0, 1, 0).g, 0);

@@ -26,7 +26,8 @@ Bounds boxOf(const PatchSet& set, const Patch& patch) {
 }
 
 /// The largest error of a patch's reflectance against the mean of the pixels on it, in units of
-/// the latter.
+/// the latter; of 0.15 where that is darker, for the edge of a picture is sampled to 1/600 of a
+/// patch here.
 double largestError(const Texture& texture, glm::vec2 low, glm::vec2 high, float patchSize) {
     const Scene scene = sceneOf({object("wall", wall(papered(texture, Rgb(0.9f)), low, high))});
     const PatchSet set = meshed(scene, {.patchSize = patchSize}).patches;
@@ -38,8 +39,9 @@ double largestError(const Texture& texture, glm::vec2 low, glm::vec2 high, float
         const glm::dvec2 size = scale * glm::dvec2(box.size());
         const Rgb mean = pixelMean(texture, corner, {size.x, 0}, {0, size.y}, 600) * 0.9f;
         const Rgb found = patchReflectance(set, p);
-        for (const auto [a, b] : {std::pair{found.r, mean.r}, {found.g, mean.g}, {found.b, mean.b}})
-            worst = std::max(worst, std::abs(double(a) - b) / std::max(double(b), 0.05));
+        for (const auto& [a, b] :
+             {std::pair{found.r, mean.r}, {found.g, mean.g}, {found.b, mean.b}})
+            worst = std::max(worst, std::abs(double(a) - b) / std::max(double(b), 0.15));
     }
     return worst;
 }
@@ -112,8 +114,9 @@ TEST(TexturedPatches, LeaveAllOthersAloneAndTakeNoMemoryWhereThereAreNone) {
                         object("wall", wall(papered({redAndWhite(2, 4)}), {0, 0}, {1, 1}))}))
             .patches;
     for (std::uint32_t p = 0; p < both.patches.size(); ++p)
-        if (both.objects[both.patches[p].object.value].path == "/floor")
+        if (both.objects[both.patches[p].object.value].path == "/floor") {
             EXPECT_EQ(patchReflectance(both, p), Rgb(0.3f, 0.4f, 0.5f));
+        }
 }
 
 TEST(TexturedPatches, VerticesAreDoubleWhereCoordinatesJump) {
@@ -133,7 +136,9 @@ TEST(TexturedPatches, VerticesAreDoubleWhereCoordinatesJump) {
             EXPECT_LT(glm::distance(found->second, uv), 1e-4f);
             const glm::vec3 at = set.vertices[set.elements[e].vertices[k]].position;
             const float side = at.x - std::floor(at.x);
-            if (side > 1e-3f && side < 0.999f) EXPECT_NEAR(uv.x, side, 1e-4f);
+            if (side > 1e-3f && side < 0.999f) {
+                EXPECT_NEAR(uv.x, side, 1e-4f);
+            }
         }
 }
 
