@@ -24,6 +24,16 @@ set_target_properties(OpenSubdiv::osdCPU PROPERTIES
   IMPORTED_LOCATION ${OPENSUBDIV_CPU_LIBRARY}
   INTERFACE_INCLUDE_DIRECTORIES ${OPENSUBDIV_INCLUDE_DIR})
 
+# Debian's OpenImageIOConfig.cmake wants headers of OpenCV, which its package does not depend on.
+find_path(OPENIMAGEIO_INCLUDE_DIR OpenImageIO/imageio.h REQUIRED)
+find_library(OPENIMAGEIO_LIBRARY OpenImageIO REQUIRED)
+find_library(OPENIMAGEIO_UTIL_LIBRARY OpenImageIO_Util REQUIRED)
+add_library(OpenImageIO::OpenImageIO UNKNOWN IMPORTED)
+set_target_properties(OpenImageIO::OpenImageIO PROPERTIES
+  IMPORTED_LOCATION ${OPENIMAGEIO_LIBRARY}
+  INTERFACE_INCLUDE_DIRECTORIES ${OPENIMAGEIO_INCLUDE_DIR}
+  INTERFACE_LINK_LIBRARIES "${OPENIMAGEIO_UTIL_LIBRARY};Imath::Imath")
+
 if(BUILD_TESTING)
   find_package(GTest REQUIRED CONFIG)
   find_package(rapidcheck REQUIRED CONFIG)

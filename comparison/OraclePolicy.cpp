@@ -25,9 +25,9 @@ OraclePolicy::OraclePolicy(const PatchSet& patches, std::span<const Row> now,
                            const VertexFactors& settled, const DrawnView& drawn, double adaptation)
     : patches_(patches), now_(now), settled_(settled), pixels_(drawn.vertexPixels()),
       reflectance_(patches.vertices.size()), perThreshold_(patches.vertices.size()) {
-    for (const Element& element : patches.elements)
-        for (std::uint32_t v : element.vertices)
-            reflectance_[v] = luminance(patches.materials[element.material].reflectance);
+    for (std::uint32_t e = 0; e < patches.elements.size(); ++e)
+        for (std::uint32_t v : patches.elements[e].vertices)
+            reflectance_[v] = luminance(elementReflectance(patches, e));
     for (std::size_t v = 0; v < perThreshold_.size(); ++v) {
         double light = 0; // [lux]
         for (std::size_t row = 0; row < settled.size(); ++row)

@@ -4,6 +4,7 @@
 #include "base/Bounds.h"
 #include "base/ObjectId.h"
 #include "base/Rgb.h"
+#include "scenegraph/Material.h"
 #include "scenegraph/Node.h"
 
 #include <glm/glm.hpp>
@@ -19,6 +20,7 @@ namespace penumbra {
 struct LitMaterial {
     Rgb reflectance; ///< Lambertian rho
     Rgb emission;    ///< own luminance [nit]
+    MaterialTextures textures = {}; ///< factors of the two, point by point
     friend bool operator==(const LitMaterial&, const LitMaterial&) = default;
 };
 
@@ -35,6 +37,7 @@ struct LitMeshData {
     /// Which patch a triangle is part of: any number, the same for those of one patch. As long as
     /// triangleMaterial; empty: nobody knows.
     std::vector<std::uint32_t> trianglePatch = {};
+    std::vector<glm::vec2> uvs = {}; ///< as long as positions; empty: no textures
 };
 
 /// The lit surface of one object. Its light comes in blocks of kBlock consecutive vertices: one

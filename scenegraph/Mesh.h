@@ -44,6 +44,8 @@ struct MeshData {
 
     std::vector<std::shared_ptr<Material>> materials; ///< at least one
     std::vector<std::uint16_t> faceMaterial; ///< index into materials; empty: all faces use 0
+    /// Texture coordinates, one a corner as in faceVertexIndices; empty: no material has a texture.
+    std::vector<glm::vec2> uvs = {};
 
     const std::shared_ptr<Material>& materialOf(std::size_t face) const {
         return materials[faceMaterial.empty() ? 0 : faceMaterial[face]];

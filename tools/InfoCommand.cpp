@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 
@@ -83,6 +84,26 @@ void printMeshes(const PlacedScene& placed) {
                placed.objects.size(), placed.meshes.size(), cages, emissive, faces, points);
 }
 
+/// The pictures on its surfaces, and what they take.
+void printTextures(const PlacedScene& placed) {
+    std::map<const TextureImage*, std::size_t> images; // by address only to count each once
+    int width = 0, height = 0;
+    for (const auto& mesh : placed.meshes)
+        for (const auto& material : mesh.node->data().materials)
+            for (const auto& texture :
+                 {material->textures().reflectance, material->textures().emission})
+                if (texture) images[texture->image.get()] = texture->image->bytes();
+    std::size_t bytes = 0;
+    for (const auto& [image, size] : images) {
+        bytes += size;
+        if (image->width() * image->height() > width * height)
+            width = image->width(), height = image->height();
+    }
+    if (images.empty()) return;
+    fmt::print("  {} texture{}, the largest {} x {}, {:.1f} MB with their means\n", images.size(),
+               images.size() == 1 ? "" : "s", width, height, double(bytes) / 1e6);
+}
+
 /// What may be moved, hidden and shown without lighting everything anew.
 void printMovables(const PlacedScene& placed) {
     constexpr std::size_t kMost = 8; // lines
@@ -118,6 +139,7 @@ void describeScene(const SolveSettings& command) {
                size.y, size.z);
     printFrames(loaded);
     printMeshes(placed);
+    printTextures(placed);
     printMovables(placed);
     fmt::print("  {} lights\n", placed.lights.size());
     printLights(placed);

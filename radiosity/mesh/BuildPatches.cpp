@@ -11,8 +11,10 @@
 #include "scenegraph/Mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <span>
 
 namespace penumbra {
 
@@ -124,8 +126,10 @@ public:
           large_(std::max(4 * built.patches.patchSize, float(std::sqrt(emissiveArea / 32)))),
           sources_(built.emitterSources), out_(built.patches) {}
 
-    void add(const Material& material, const std::vector<glm::vec3>& outline) {
-        if (outline.size() != 4) return addPiece(material, outline);
+    /// \param uvs of the outline's corners; empty: no textures
+    void add(const Material& material, const std::vector<glm::vec3>& outline,
+             std::span<const glm::vec2> uvs) {
+        if (outline.size() != 4) return addPiece(material, outline, {uvs.begin(), uvs.end()});
         const auto parts = [&](float a, float b) {
             return std::max(1, int(std::ceil(std::max(a, b) / large_ - 1e-3f)));
         };
@@ -136,16 +140,43 @@ public:
             const float s = float(i) / float(nu), t = float(j) / float(nv);
             return glm::mix(glm::mix(q[0], q[1], s), glm::mix(q[3], q[2], s), t);
         };
+        const auto uvAt = [&](int i, int j) {
+            const float s = float(i) / float(nu), t = float(j) / float(nv);
+            return glm::mix(glm::mix(uvs[0], uvs[1], s), glm::mix(uvs[3], uvs[2], s), t);
+        };
         for (int j = 0; j < nv; ++j)
-            for (int i = 0; i < nu; ++i)
-                addPiece(material, {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+            for (int i = 0; i < nu; ++i) {
+                std::vector<glm::vec2> part;
+                if (!uvs.empty())
+                    part = {uvAt(i, j), uvAt(i + 1, j), uvAt(i + 1, j + 1), uvAt(i, j + 1)};
+                addPiece(material, {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)}, part);
+            }
     }
 
 private:
-    void addPiece(const Material& material, std::vector<glm::vec3> outline) {
+    /// Mean of the texture of emission over a convex piece.
+    static Rgb meanOf(const Material& material, const std::vector<glm::vec3>& outline,
+                      std::span<const glm::vec2> uvs) {
+        const auto& texture = material.textures().emission;
+        if (!texture || uvs.empty()) return Rgb(1);
+        Rgb sum;
+        float area = 0;
+        for (std::size_t i = 2; i < outline.size(); ++i) {
+            const std::array<glm::vec3, 4> at{outline[0], outline[i - 1], outline[i], outline[i]};
+            const float part = glm::length(glm::cross(at[1] - at[0], at[2] - at[0]));
+            sum += part * textureMean(*texture, at, {uvs[0], uvs[i - 1], uvs[i], uvs[i]});
+            area += part;
+        }
+        return area > 0 ? sum * (1 / area) : Rgb();
+    }
+
+    void addPiece(const Material& material, std::vector<glm::vec3> outline,
+                  const std::vector<glm::vec2>& uvs) {
         constexpr std::size_t kMostPolygons = 64;
         const double area = polygonArea(outline);
         if (!(area > 0)) return;
+        const Rgb mean = meanOf(material, outline, uvs);
+        if (!(maxChannel(mean) > 0)) return; // a dark part of a texture never emits
         Group& group = groups_[&material];
         Bounds grown = group.bounds;
         for (glm::vec3 point : outline) grown.add(point);
@@ -155,7 +186,6 @@ private:
             group = {out_.emitters.size(), 0, {}};
             for (glm::vec3 point : outline) group.bounds.add(point);
             Emitter emitter;
-            emitter.exitance = lambertianExitance(material.emission());
             emitter.object = surface_.object;
             emitter.path = surface_.path;
             out_.emitters.push_back(std::move(emitter));
@@ -166,6 +196,8 @@ private:
         ++group.count;
         Emitter& emitter = out_.emitters[group.emitter];
         emitter.area += area;
+        emitter.texture += (mean - emitter.texture) * float(area / emitter.area);
+        emitter.exitance = lambertianExitance(material.emission()) * emitter.texture;
         emitter.polygons.push_back(std::move(outline));
     }
 
@@ -202,7 +234,7 @@ void addEmitters(const Surface& surface, const Tessellation& tessellation, Built
             std::vector<glm::vec3> outline;
             for (std::uint32_t corner : mesh.cornersOf(face))
                 outline.push_back(mesh.points[corner]);
-            collector.add(mesh.materialOf(face), outline);
+            collector.add(mesh.materialOf(face), outline, mesh.uvsOf(face));
         }
         return;
     }
@@ -210,7 +242,11 @@ void addEmitters(const Surface& surface, const Tessellation& tessellation, Built
         const Material& material = mesh.materialOf(mesh.faces[cell.face]);
         if (!material.emissive()) continue;
         const auto first = tessellation.outline.begin() + cell.firstCorner;
-        collector.add(material, {first, first + cell.cornerCount});
+        collector.add(material, {first, first + cell.cornerCount},
+                      tessellation.outlineUvs.empty()
+                          ? std::span<const glm::vec2>()
+                          : std::span(tessellation.outlineUvs)
+                                .subspan(cell.firstCorner, cell.cornerCount));
     }
 }
 

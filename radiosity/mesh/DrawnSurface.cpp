@@ -57,6 +57,13 @@ RayMesh meshOf(const PatchSet& patches, std::uint32_t object,
 
 } // namespace
 
+glm::vec2 uvOf(const PatchSet& patches, const DrawnHit& hit) {
+    if (patches.textures.uvs.empty()) return glm::vec2(0);
+    const auto& uv = patches.textures.uvs[hit.element];
+    return hit.weights[0] * uv[0] + hit.weights[1] * uv[hit.second ? 2 : 1] +
+           hit.weights[2] * uv[hit.second ? 3 : 2];
+}
+
 DrawnSurface::DrawnSurface(const PatchSet& patches, Which which)
     : patches_(patches), partOf_(patches.objects.size()), rays_(meshes(which), patches.skin) {
     for (std::uint32_t p = 0; p < parts_.size(); ++p)
@@ -94,7 +101,7 @@ DrawnHit DrawnSurface::nearest(glm::vec3 origin, glm::vec3 direction, float reac
     hit.element = triangle / 2;
     hit.distance = ray.distance;
     const auto& v = patches_.elements[hit.element].vertices;
-    const bool second = triangle % 2 == 1;
+    const bool second = hit.second = triangle % 2 == 1;
     hit.vertices = {v[0], v[second ? 2 : 1], v[second ? 3 : 2]};
     hit.weights = {1 - ray.u - ray.v, ray.u, ray.v};
     return hit;

@@ -16,10 +16,14 @@ struct DrawnHit {
     std::uint32_t element = Element::kNone;
     std::array<std::uint32_t, 3> vertices{}; ///< of the triangle that is drawn there
     std::array<float, 3> weights{};          ///< barycentric
+    bool second = false; ///< of a quadrilateral's halves; its corners are then 0 2 3, else 0 1 2
     float distance = 0;                      ///< in units of the ray's direction
 
     bool met() const { return element != Element::kNone; }
 };
+
+/// Texture coordinates of a hit; zero if there are no textures.
+glm::vec2 uvOf(const PatchSet& patches, const DrawnHit& hit);
 
 /// The elements' triangles, cut as the renderer cuts them. Only fronts are met. Each object is a
 /// geometry of its own, so that one that moves is refitted and the others stay.

@@ -179,6 +179,22 @@ int FaceSurface::toSubFace(glm::vec2 uv, glm::vec2& st) const {
     return parameterization(size_).ConvertCoordToNormalizedSubFace(&uv.x, &st.x);
 }
 
+glm::vec2 FaceSurface::uvAt(glm::vec2 coord, std::span<const glm::vec2> corners) const {
+    std::array<glm::vec2, 4> q{};
+    glm::vec2 st = coord;
+    if (hasSubFaces()) {
+        const int n = size(), i = toSubFace(coord, st);
+        const auto corner = [&](int k) { return corners[std::size_t((k + n) % n)]; };
+        glm::vec2 centre(0);
+        for (const glm::vec2 uv : corners) centre += uv / float(n);
+        q = {corner(i), 0.5f * (corner(i) + corner(i + 1)), centre,
+             0.5f * (corner(i) + corner(i - 1))};
+    } else {
+        std::copy(corners.begin(), corners.end(), q.begin());
+    }
+    return glm::mix(glm::mix(q[0], q[1], st.x), glm::mix(q[3], q[2], st.x), st.y);
+}
+
 std::array<glm::vec2, 4> FaceSurface::kite(int subFace) const {
     const float step = 2 * std::numbers::pi_v<float> / float(size_);
     const auto corner = [&](int k) {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace penumbra {
@@ -56,6 +57,10 @@ public:
 
     /// \param rates parts each edge is cut into, then inner rates (see Bfr::Tessellation)
     DomainPattern pattern(const std::vector<int>& rates) const;
+
+    /// Texture coordinates at a point of the domain, bilinear over its (sub-)quadrilaterals.
+    /// \param corners one a corner
+    glm::vec2 uvAt(glm::vec2 coord, std::span<const glm::vec2> corners) const;
 
 protected:
     explicit FaceSurface(int size) : size_(size) {}

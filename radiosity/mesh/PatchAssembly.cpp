@@ -50,7 +50,10 @@ std::uint32_t PatchAssembly::materialIndex(const Material& material, bool emits)
     const auto [found, fresh] =
         materials_.try_emplace({&material, emits}, std::uint32_t(out_.materials.size()));
     if (fresh) {
-        out_.materials.push_back({material.reflectance(), emits ? material.emission() : Rgb()});
+        MaterialTextures textures = material.textures();
+        if (!emits) textures.emission.reset();
+        out_.materials.push_back(
+            {material.reflectance(), emits ? material.emission() : Rgb(), std::move(textures)});
         materialSources_.push_back({&material, emits});
     }
     return found->second;
@@ -122,11 +125,11 @@ void PatchAssembly::addSheet(const SurfaceMesh& mesh, const Tessellation& tessel
         }
         cells_.push_back(std::move(sheet));
     }
-    addElements(tessellation, firstCell, object, back);
+    addElements(tessellation, firstCell, object, back, !mesh.uvs.empty());
 }
 
 void PatchAssembly::addElements(const Tessellation& tessellation, std::uint32_t firstCell,
-                                ObjectId object, bool back) {
+                                ObjectId object, bool back, bool textured) {
     std::vector<std::uint32_t> index(tessellation.vertices.size(), kNone);
     const auto vertex = [&](std::uint32_t v) {
         if (index[v] != kNone) return index[v];
@@ -140,18 +143,23 @@ void PatchAssembly::addElements(const Tessellation& tessellation, std::uint32_t 
         if (!cells_[cell].present) continue;
         const std::size_t count = facet.vertices[2] == facet.vertices[3] ? 3 : 4;
         Element element;
-        CornerCoordinates st;
+        CornerCoordinates st, uv;
         for (std::size_t k = 0; k < 4; ++k) { // the back is wound the other way round, st mirrored
             const std::size_t corner = std::min(k, count - 1);
             const std::size_t from = back ? (count - corner) % count : corner;
             element.vertices[k] = vertex(facet.vertices[from]);
             st[k] = back ? glm::vec2(facet.st[from].y, facet.st[from].x) : facet.st[from];
+            uv[k] = facet.uv[from];
         }
         element.material = cells_[cell].material;
         out_.elements.push_back(element);
         out_.elementObject.push_back(object);
         elementCell_.push_back(cell);
         elementSt_.push_back(st);
+        if (textured) {
+            out_.textures.uvs.resize(out_.elements.size());
+            out_.textures.uvs.back() = uv;
+        }
     }
 }
 
@@ -188,6 +196,7 @@ void PatchAssembly::finish() {
     out_.uncoveredNodes = out_.nodes;
     out_.uncoveredElements = out_.elements;
     out_.firstPrivate = std::uint32_t(out_.vertices.size());
+    findTextureMeans(out_);
     placeMovables();
 }
 

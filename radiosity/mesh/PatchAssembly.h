@@ -64,7 +64,7 @@ private:
     void addSheet(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object,
                   bool back);
     void addElements(const Tessellation& tessellation, std::uint32_t firstCell, ObjectId object,
-                     bool back);
+                     bool back, bool textured);
     void addRays(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object);
     std::uint32_t materialIndex(const Material& material, bool emits);
     void resolveFixedContacts(std::vector<std::uint8_t>& free);

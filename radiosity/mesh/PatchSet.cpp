@@ -1,8 +1,87 @@
 #include "radiosity/mesh/PatchSet.h"
 
+#include "base/Parallel.h"
 #include "radiosity/rays/Margins.h"
 
+#include <algorithm>
+
 namespace penumbra {
+
+namespace {
+
+Rgb bounded(Rgb rho) {
+    constexpr float kMost = Material::kMaxReflectance;
+    return {std::min(rho.r, kMost), std::min(rho.g, kMost), std::min(rho.b, kMost)};
+}
+
+/// A corner of a half of a quadrilateral, cut as it is drawn.
+constexpr std::array<std::array<std::size_t, 3>, 2> kHalves{{{0, 1, 2}, {0, 2, 3}}};
+
+} // namespace
+
+Rgb elementReflectance(const PatchSet& set, std::uint32_t element) {
+    const Rgb rho = set.materials[set.elements[element].material].reflectance;
+    return set.textures.elements.empty() ? rho : bounded(rho * set.textures.elements[element]);
+}
+
+Rgb patchReflectance(const PatchSet& set, std::uint32_t patch) {
+    const Rgb rho = set.materials[set.patches[patch].material].reflectance;
+    return set.textures.patches.empty() ? rho : bounded(rho * set.textures.patches[patch]);
+}
+
+LitMaterial surfaceAt(const PatchSet& set, std::uint32_t element, glm::vec2 uv) {
+    const LitMaterial& material = set.materials[set.elements[element].material];
+    LitMaterial there{material.reflectance, material.emission};
+    if (const auto& texture = material.textures.reflectance)
+        there.reflectance = there.reflectance * texture->at(uv);
+    if (const auto& texture = material.textures.emission)
+        there.emission = there.emission * texture->at(uv);
+    return there;
+}
+
+Rgb textureMean(const Texture& texture, const std::array<glm::vec3, 4>& positions,
+                const std::array<glm::vec2, 4>& uvs) {
+    Rgb sum;
+    float area = 0;
+    for (const auto& [a, b, c] : kHalves) {
+        const float half =
+            glm::length(glm::cross(positions[b] - positions[a], positions[c] - positions[a]));
+        if (!(half > 0)) continue;
+        sum += half * texture.mean(std::array{uvs[a], uvs[b], uvs[c]});
+        area += half;
+    }
+    return area > 0 ? sum * (1 / area) : texture.at(uvs[0]);
+}
+
+void findTextureMeans(PatchSet& set) {
+    SurfaceTextures& textures = set.textures;
+    if (textures.uvs.empty()) return;
+    textures.uvs.resize(set.elements.size());
+    textures.elements.assign(set.elements.size(), Rgb(1));
+    parallelFor(set.elements.size(), 256, [&](std::size_t first, std::size_t last) {
+        for (std::size_t e = first; e < last; ++e) {
+            const Element& element = set.elements[e];
+            const auto& texture = set.materials[element.material].textures.reflectance;
+            if (!texture || element.patch == Element::kNone) continue;
+            std::array<glm::vec3, 4> positions;
+            for (std::size_t k = 0; k < 4; ++k)
+                positions[k] = set.vertices[element.vertices[k]].position;
+            textures.elements[e] = textureMean(*texture, positions, textures.uvs[e]);
+        }
+    });
+    for (const Patch& patch : set.patches) {
+        Rgb sum;
+        float area = 0;
+        for (std::uint32_t i = patch.firstElement; i < patch.firstElement + patch.elementCount; ++i) {
+            const std::uint32_t e = set.patchElements[i];
+            const float part = elementArea(set, set.elements[e]);
+            sum += part * textures.elements[e];
+            area += part;
+        }
+        const bool textured = set.materials[patch.material].textures.reflectance != nullptr;
+        textures.patches.push_back(textured && area > 0 ? sum * (1 / area) : Rgb(1));
+    }
+}
 
 Receiver placedReceiver(const Receiver& own, const Pose& pose, float skin) {
     Receiver receiver{pose.point(own.position), pose.direction(own.normal)};

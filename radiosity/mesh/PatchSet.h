@@ -78,6 +78,7 @@ struct Emitter {
     glm::vec3 axis{};   ///< of a disk: unit normal of the emitting side
     float radius = 0;   ///< of a disk or sphere [m]
     double area = 0;    ///< emitting area [m^2]
+    Rgb texture{1};     ///< mean of its part of a texture: exitance has this as a factor
     ObjectId object;
     std::string path; ///< of the light or mesh in the scene
 };
@@ -133,6 +134,14 @@ struct Wall {
     std::vector<glm::vec3> outline; ///< counter-clockwise around the normal [m, world]
 };
 
+/// What textures say of elements and patches, found once, when the scene is meshed. All of it is
+/// empty if no surface has a texture of reflectance or emission.
+struct SurfaceTextures {
+    std::vector<std::array<glm::vec2, 4>> uvs; ///< of the corners of each element
+    /// Mean reflectance over each, as a factor of that of its material; 1 without a texture.
+    std::vector<Rgb> elements, patches;
+};
+
 /// A scene, meshed: hot loops see these arrays and nothing else. The fixed part never changes;
 /// movable objects are brought to their poses by placeObject(), and what they cover of
 /// each other and of the fixed part is kept up to date by Coverage.
@@ -159,6 +168,7 @@ struct PatchSet {
     std::vector<Receiver> nodes;              ///< where indirect light is received
     std::vector<Receiver> uncoveredNodes;     ///< the same when nothing movable is near
     std::vector<LitMaterial> materials;
+    SurfaceTextures textures;
     std::vector<Emitter> emitters;
     std::vector<ObjectPart> objects;
     std::vector<Wall> walls;
@@ -189,6 +199,18 @@ Emitter placedEmitter(const Emitter& own, const Pose& pose);
 void placeObject(PatchSet& set, ObjectId object, const Pose& pose);
 /// Box around an object's triangles [m, world].
 Bounds boundsOf(const PatchSet& set, ObjectId object);
+
+/// Reflectance in the mean over an element or a patch: its own part of a texture, if there is one.
+Rgb elementReflectance(const PatchSet& set, std::uint32_t element);
+Rgb patchReflectance(const PatchSet& set, std::uint32_t patch);
+/// Mean of a texture over a quadrilateral, or triangle, of which these are the corners.
+Rgb textureMean(const Texture& texture, const std::array<glm::vec3, 4>& positions,
+                const std::array<glm::vec2, 4>& uvs);
+/// Reflectance and emission [nit] at a point of an element, as it is drawn.
+LitMaterial surfaceAt(const PatchSet& set, std::uint32_t element, glm::vec2 uv);
+/// Fills in the means of set.textures. \pre the set has elements and patches, in the frames of
+/// their objects
+void findTextureMeans(PatchSet& set);
 
 /// Area of an element [m^2], half the cross product of its diagonals.
 inline float elementArea(const PatchSet& set, const Element& element) {

@@ -179,14 +179,21 @@ std::vector<Component> connectedComponents(const SurfaceMesh& mesh,
 
 /// Adds one face of a plain mesh as it is, or in triangles; those without area, of which nothing
 /// can be seen, are not added. \return whether there were any others
-bool addPolygon(SurfaceMesh& mesh, std::span<const std::uint32_t> corners, std::uint32_t source) {
+bool addPolygon(SurfaceMesh& mesh, std::span<const std::uint32_t> corners,
+                std::span<const glm::vec2> uvs, std::uint32_t source) {
     const std::size_t before = mesh.faces.size();
+    const auto uvOf = [&](std::uint32_t corner) {
+        return uvs[std::size_t(std::find(corners.begin(), corners.end(), corner) -
+                               corners.begin())];
+    };
     const auto add = [&](std::span<const std::uint32_t> face) {
         SurfaceFace added;
         added.firstCorner = std::uint32_t(mesh.corners.size());
         added.cornerCount = std::uint32_t(face.size());
         added.source = source;
         mesh.corners.insert(mesh.corners.end(), face.begin(), face.end());
+        if (!uvs.empty())
+            for (std::uint32_t corner : face) mesh.uvs.push_back(uvOf(corner));
         mesh.faces.push_back(added);
     };
     if (mesh.subdivided() || isConvex(mesh.points, corners))
@@ -288,6 +295,7 @@ SurfaceMesh placeSurface(const MeshData& data, const glm::dmat4& toWorld) {
     const std::vector<std::uint32_t> weld =
         mesh.subdivided() ? std::vector<std::uint32_t>() : weldPositions(mesh.points);
     std::vector<std::uint32_t> corners;
+    std::vector<glm::vec2> uvs;
     std::size_t first = 0;
     std::vector<bool> hole(data.faceVertexCounts.size());
     if (mesh.subdivided())
@@ -297,12 +305,18 @@ SurfaceMesh placeSurface(const MeshData& data, const glm::dmat4& toWorld) {
         const auto count = std::size_t(data.faceVertexCounts[f]);
         corners.assign(data.faceVertexIndices.begin() + std::ptrdiff_t(first),
                        data.faceVertexIndices.begin() + std::ptrdiff_t(first + count));
+        if (!data.uvs.empty())
+            uvs.assign(data.uvs.begin() + std::ptrdiff_t(first),
+                       data.uvs.begin() + std::ptrdiff_t(first + count));
         first += count;
         if (hole[f]) continue;
         if (!weld.empty())
             for (std::uint32_t& corner : corners) corner = weld[corner];
-        if (mirrored) std::reverse(corners.begin(), corners.end());
-        if (usable(mesh, corners) && addPolygon(mesh, corners, f))
+        if (mirrored) {
+            std::reverse(corners.begin(), corners.end());
+            std::reverse(uvs.begin(), uvs.end());
+        }
+        if (usable(mesh, corners) && addPolygon(mesh, corners, uvs, f))
             ++mesh.used;
         else
             ++mesh.skipped;

@@ -24,6 +24,7 @@ public:
             if (!face) continue;
             const auto corners = rates_.cornersOf(f);
             if (corners.size() != mesh_.faces[f].cornerCount) face = surface_.polygon(corners);
+            uvs_ = uvsOfCorners(f);
             addFace(f, *face);
         }
         return std::move(out_);
@@ -39,7 +40,10 @@ private:
     Facet placeFacet(const FaceSurface& face, const DomainPattern& pattern,
                      const std::array<int, 4>& source,
                      std::span<const std::uint32_t> vertices) const;
-    std::uint32_t boundaryVertex(std::uint64_t key, std::uint32_t along, const SurfacePoint& point);
+    std::uint32_t addVertex(const SurfacePoint& point, glm::vec2 uv);
+    std::uint32_t boundaryVertex(std::uint64_t key, std::uint32_t along, const SurfacePoint& point,
+                                 glm::vec2 uv);
+    std::vector<glm::vec2> uvsOfCorners(std::uint32_t index) const;
     std::vector<std::uint32_t> addVertices(std::uint32_t index, const FaceSurface& face,
                                            const std::vector<glm::vec2>& coords);
 
@@ -49,6 +53,9 @@ private:
     float patchSize_;
     Tessellation out_;
     std::map<std::pair<std::uint64_t, std::uint32_t>, std::vector<std::uint32_t>> shared_;
+
+    std::vector<glm::vec2> uvs_;      // of the corners of the face at hand
+    std::vector<glm::vec2> vertexUv_; // of all vertices; both are empty without textures
 
     // Cells of the face at hand: `cellsU_` x `cellsV_` a quadrilateral domain (or sub-face).
     std::uint32_t firstCell_ = 0;
@@ -99,7 +106,10 @@ void Tessellator::addCells(std::uint32_t index, const FaceSurface& face) {
 
     const auto add = [&](std::span<const glm::vec2> corners) {
         Cell cell{index, std::uint32_t(out_.outline.size()), std::uint32_t(corners.size()), whole_};
-        for (glm::vec2 uv : corners) out_.outline.push_back(face.at(uv).position);
+        for (glm::vec2 uv : corners) {
+            out_.outline.push_back(face.at(uv).position);
+            if (!uvs_.empty()) out_.outlineUvs.push_back(face.uvAt(uv, uvs_));
+        }
         out_.cells.push_back(cell);
     };
     if (whole_) {
@@ -118,16 +128,41 @@ void Tessellator::addCells(std::uint32_t index, const FaceSurface& face) {
             }
 }
 
-/// A vertex on a corner or an edge: the one already there if its normal agrees.
+/// Texture coordinates of a face's corners as they are cut; two of these may be the same point.
+std::vector<glm::vec2> Tessellator::uvsOfCorners(std::uint32_t index) const {
+    if (mesh_.uvs.empty()) return {};
+    const SurfaceFace& face = mesh_.faces[index];
+    const auto points = mesh_.cornersOf(face);
+    const auto uvs = mesh_.uvsOf(face);
+    std::vector<glm::vec2> found;
+    for (const std::uint32_t corner : rates_.cornersOf(index)) {
+        const auto at = std::find(points.begin(), points.end(), corner) - points.begin();
+        found.push_back(uvs[std::min(std::size_t(at), uvs.size() - 1)]);
+    }
+    return found;
+}
+
+std::uint32_t Tessellator::addVertex(const SurfacePoint& point, glm::vec2 uv) {
+    out_.vertices.push_back(point);
+    if (!uvs_.empty()) vertexUv_.push_back(uv);
+    return std::uint32_t(out_.vertices.size() - 1);
+}
+
+/// A vertex on a corner or an edge: the one already there if its normal and its place in the
+/// texture agree.
 std::uint32_t Tessellator::boundaryVertex(std::uint64_t key, std::uint32_t along,
-                                          const SurfacePoint& point) {
+                                          const SurfacePoint& point, glm::vec2 uv) {
+    const auto sameUv = [&](std::uint32_t candidate) { // to rounding
+        return uvs_.empty() || glm::distance(vertexUv_[candidate], uv) <=
+                                   1e-5f * std::max(1.0f, glm::length(uv));
+    };
     std::vector<std::uint32_t>& candidates = shared_[{key, along}];
     for (std::uint32_t candidate : candidates)
-        if (glm::dot(out_.vertices[candidate].normal, point.normal) > 0.9995f) return candidate;
-    candidates.push_back(std::uint32_t(out_.vertices.size()));
+        if (glm::dot(out_.vertices[candidate].normal, point.normal) > 0.9995f && sameUv(candidate))
+            return candidate;
     SurfacePoint added = point;
-    if (candidates.size() > 1) added.position = out_.vertices[candidates[0]].position;
-    out_.vertices.push_back(added);
+    if (!candidates.empty()) added.position = out_.vertices[candidates[0]].position;
+    candidates.push_back(addVertex(added, uv));
     return candidates.back();
 }
 
@@ -135,6 +170,9 @@ std::uint32_t Tessellator::boundaryVertex(std::uint64_t key, std::uint32_t along
 std::vector<std::uint32_t> Tessellator::addVertices(std::uint32_t index, const FaceSurface& face,
                                                     const std::vector<glm::vec2>& coords) {
     const auto corners = rates_.cornersOf(index);
+    const auto uvOf = [&](glm::vec2 coord) {
+        return uvs_.empty() ? glm::vec2(0) : face.uvAt(coord, uvs_);
+    };
     std::vector<std::uint32_t> vertices(coords.size());
     std::size_t next = 0;
     for (std::size_t e = 0; e < corners.size(); ++e) {
@@ -145,13 +183,12 @@ std::vector<std::uint32_t> Tessellator::addVertices(std::uint32_t index, const F
             const bool isCorner = k == 0;
             const std::uint64_t key = isCorner ? std::uint64_t(a) << 32 | a : edgeKey;
             const std::uint32_t along = isCorner ? 0 : (a < b ? k : rate - k);
-            vertices[next] = boundaryVertex(key, along, face.at(coords[next]));
+            vertices[next] =
+                boundaryVertex(key, along, face.at(coords[next]), uvOf(coords[next]));
         }
     }
-    for (; next < coords.size(); ++next) {
-        vertices[next] = std::uint32_t(out_.vertices.size());
-        out_.vertices.push_back(face.at(coords[next]));
-    }
+    for (; next < coords.size(); ++next)
+        vertices[next] = addVertex(face.at(coords[next]), uvOf(coords[next]));
     return vertices;
 }
 
@@ -202,6 +239,8 @@ Facet Tessellator::placeFacet(const FaceSurface& face, const DomainPattern& patt
     for (int k = 0; k < 4; ++k) {
         const auto coord = std::size_t(source[std::size_t(std::min(k, count - 1))]);
         facet.vertices[std::size_t(k)] = vertices[coord];
+        facet.uv[std::size_t(k)] =
+            uvs_.empty() ? glm::vec2(0) : vertexUv_[facet.vertices[std::size_t(k)]];
         place[std::size_t(k)] = face.layout(pattern.coords[coord]);
         if (k < count) middle += place[std::size_t(k)] / float(count);
     }

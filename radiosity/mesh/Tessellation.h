@@ -26,16 +26,19 @@ struct Facet {
     std::array<std::uint32_t, 4> vertices;
     std::uint32_t cell = 0;
     std::array<glm::vec2, 4> st; ///< of the corners, within the cell
+    std::array<glm::vec2, 4> uv; ///< texture coordinates of the corners, if there are any
 };
 
 /// A tessellated mesh, its fronts. Facets of neighbouring faces share the vertices on their common
 /// edge wherever the surface is smooth there, so that light interpolates across it; along a crease
-/// each side has vertices of its own, at the same positions: watertight either way.
+/// each side has vertices of its own, at the same positions: watertight either way. So it has
+/// where texture coordinates differ.
 struct Tessellation {
     std::vector<SurfacePoint> vertices;
     std::vector<Facet> facets;
     std::vector<Cell> cells;
     std::vector<glm::vec3> outline;
+    std::vector<glm::vec2> outlineUvs; ///< as long as outline; empty: no textures
     /// Of a limit surface; else of the mesh's polygons, as of a cage that OpenSubdiv refuses.
     bool smooth = false;
     /// Faces that are left out, all of them or where they can't be lit: without area, or folded

@@ -115,6 +115,8 @@ LitMaterial RadiosityNode::Impl::colourOf(const LitMeshMaterial& source) const {
     if (const Material* const material = table.material(source.material)) {
         colour.reflectance = material->reflectance();
         if (source.emits) colour.emission = material->emission();
+        colour.textures = material->textures();
+        if (!source.emits) colour.textures.emission.reset();
     }
     if (const auto* const light = dynamic_cast<const Light*>(table.node(source.light)))
         if (source.emits) colour.emission = light->luminance();

@@ -25,7 +25,8 @@ DrawnView::DrawnView(const PatchSet& patches, const View& view, int width, int h
             const glm::dvec3 from = unprojected(x, y, -1);
             const glm::vec3 direction(glm::normalize(unprojected(x, y, 1) - from));
             const DrawnHit hit = surface.nearest(glm::vec3(from), direction, 1e30f);
-            pixels_[i] = {hit.element, hit.vertices, hit.weights};
+            pixels_[i] = {hit.element, hit.vertices, hit.weights, {}};
+            if (hit.met()) pixels_[i].uv = uvOf(patches, hit);
         }
     });
 }
@@ -37,7 +38,7 @@ Rgb DrawnView::colour(const Pixel& pixel, const Lighting& light) const {
         const std::uint32_t v = pixel.vertices[k];
         lux += pixel.weights[k] * (light.direct[v] + light.indirect[v]);
     }
-    const LitMaterial& material = patches_.materials[patches_.elements[pixel.element].material];
+    const LitMaterial material = surfaceAt(patches_, pixel.element, pixel.uv);
     return material.emission + std::numbers::inv_pi_v<float> * (material.reflectance * lux);
 }
 
@@ -57,7 +58,7 @@ Plane DrawnView::luminances(const Lighting& light) const {
 
 void DrawnView::meterPoint(const Pixel& pixel, const Lighting& light, MeterCell& cell) const {
     if (pixel.element == Element::kNone) return;
-    const LitMaterial& material = patches_.materials[patches_.elements[pixel.element].material];
+    const LitMaterial material = surfaceAt(patches_, pixel.element, pixel.uv);
     const bool emits = maxChannel(material.emission) > 0;
     (emits ? cell.emitted : cell.reflected) += luminance(colour(pixel, light));
     (emits ? cell.emitting : cell.reflecting) += 1;

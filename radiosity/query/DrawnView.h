@@ -41,6 +41,7 @@ private:
         std::uint32_t element = Element::kNone;
         std::array<std::uint32_t, 3> vertices{};
         std::array<float, 3> weights{};
+        glm::vec2 uv{}; ///< texture coordinates, if there are any
     };
     Rgb colour(const Pixel& pixel, const Lighting& light) const;
 

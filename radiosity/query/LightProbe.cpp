@@ -32,7 +32,7 @@ std::vector<Emitter> meshEmitters(const Placed<Mesh>& placed) {
                 polygon.push_back(glm::vec3(placed.toWorld * glm::dvec4(point, 1)));
             }
             emitter.area += polygonArea(polygon);
-            emitter.exitance = lambertianExitance(material.emission());
+            emitter.exitance = lambertianExitance(material.meanEmission());
             emitter.path = placed.path;
         }
         first += count;

@@ -14,18 +14,20 @@ LitBranch::LitBranch(const PatchSet& patches, const Lighting& light) : Group("ra
         const Element& element = patches.elements[e];
         if (!patches.objects[patches.elementObject[e].value].present) continue;
         LitMeshData& mesh = data[patches.elementObject[e].value];
-        const auto vertex = [&](std::uint32_t v) {
+        const auto vertex = [&](std::uint32_t v, std::size_t corner) {
             if (local[v] == 0xffffffffu) {
                 local[v] = std::uint32_t(mesh.positions.size());
                 mesh.positions.push_back(patches.vertices[v].position);
                 mesh.normals.push_back(patches.vertices[v].receiver.normal);
                 mesh.direct.push_back(light.direct[v]);
                 mesh.indirect.push_back(light.indirect[v]);
+                if (!patches.textures.uvs.empty())
+                    mesh.uvs.push_back(patches.textures.uvs[e][corner]);
             }
             return local[v];
         };
         const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
-            for (std::size_t k : {a, b, c}) mesh.indices.push_back(vertex(element.vertices[k]));
+            for (std::size_t k : {a, b, c}) mesh.indices.push_back(vertex(element.vertices[k], k));
             mesh.triangleMaterial.push_back(element.material);
         };
         add(0, 1, 2);
@@ -56,6 +58,9 @@ std::optional<SurfaceSample> LitSurface::sample(glm::vec3 origin, glm::vec3 dire
         sample.indirect += hit.weights[k] * light_.indirect[v];
     }
     sample.normal = glm::normalize(sample.normal);
+    const LitMaterial surface = surfaceAt(patches_, hit.element, uvOf(patches_, hit));
+    sample.reflectance = surface.reflectance;
+    sample.emission = surface.emission;
     return sample;
 }
 

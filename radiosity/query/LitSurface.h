@@ -26,6 +26,8 @@ struct SurfaceSample {
     glm::vec3 position{};
     glm::vec3 normal{};   ///< unit, interpolated
     Rgb direct, indirect; ///< interpolated as the renderer does it, on triangles [lux]
+    Rgb reflectance;      ///< there, in a texture at full resolution
+    Rgb emission;         ///< likewise [nit]
     float distance = 0;   ///< along the ray, in units of its direction
 };
 

@@ -73,7 +73,7 @@ PointGather::PointGather(const PatchSet& patches, const RayScene& rays, const Li
                 const std::uint32_t v = element.vertices[std::size_t(k)];
                 mean += (1.0f / float(count)) * (lighting.direct[v] + lighting.indirect[v]);
             }
-            elementRadiosity_[e] = patches.materials[element.material].reflectance * mean;
+            elementRadiosity_[e] = elementReflectance(patches, e) * mean;
             sum += elementArea(patches, element) * elementRadiosity_[e];
         }
         patchRadiosity_[p] = (1 / patch.area) * sum;
@@ -141,7 +141,7 @@ Rgb PointGather::indirectByPaths(const Receiver& receiver) const {
             const DrawnHit hit = surface_.nearest(at.position, direction, 1e30f);
             if (!hit.met()) break;
             weight =
-                weight * patches_.materials[patches_.elements[hit.element].material].reflectance;
+                weight * elementReflectance(patches_, hit.element);
             if (hit.distance >= kBelieved * patches_.elementSize) {
                 sum += weight * drawnAt(hit);
                 break;

@@ -46,17 +46,15 @@ public:
         RaySample out;
         const auto hit = surface_.trace(glm::vec3(origin), direction);
         if (!hit) return out;
-        const Element& element = patches_.elements[hit->element];
-        const LitMaterial& material = patches_.materials[element.material];
         out.met = true;
         out.position = hit->position;
         out.normal = hit->normal;
         out.object = patches_.elementObject[hit->element];
-        out.albedo = material.reflectance;
+        out.albedo = hit->reflectance;
         const float hover = hoverAt(patches_.skin, hit->position);
         const Receiver receiver{hit->position + hover * hit->normal, hit->normal};
         Rgb lux;
-        if (maxChannel(material.reflectance) > 0)
+        if (maxChannel(hit->reflectance) > 0)
             for (const EmitterSender& sender : emitters_) {
                 const float factor = sender.formFactor(receiver);
                 if (!(factor > 0)) continue;
@@ -64,9 +62,9 @@ public:
                        sender.emitter().exitance;
             }
         constexpr float kInversePi = std::numbers::inv_pi_v<float>;
-        out.emission = material.emission;
-        out.direct = kInversePi * (material.reflectance * lux);
-        out.indirect = kInversePi * (material.reflectance * hit->indirect);
+        out.emission = hit->emission;
+        out.direct = kInversePi * (hit->reflectance * lux);
+        out.indirect = kInversePi * (hit->reflectance * hit->indirect);
         out.illuminance = lux + hit->indirect;
         return out;
     }

@@ -36,13 +36,14 @@ void VertexClusters::measure() {
     for (ReceiverCluster& cluster : clusters_.clusters) cluster.area = cluster.reflectance = 0;
     area_.assign(patches_.firstPrivate, 0);
     reflectance_.assign(patches_.firstPrivate, 0);
-    for (const Element& element : patches_.uncoveredElements) {
+    for (std::uint32_t e = 0; e < patches_.uncoveredElements.size(); ++e) {
+        const Element& element = patches_.uncoveredElements[e];
         if (element.patch == Element::kNone) continue;
         const std::uint32_t block = element.vertices[0] / kBlock; // its corners are mostly in one
         if (block >= clusters_.clusterOf.size()) continue;
         ReceiverCluster& cluster = clusters_.clusters[clusters_.clusterOf[block]];
         const float area = elementArea(patches_, element);
-        const float reflectance = luminance(patches_.materials[element.material].reflectance);
+        const float reflectance = luminance(elementReflectance(patches_, e));
         const std::size_t corners = element.isTriangle() ? 3 : 4;
         for (std::size_t k = 0; k < corners; ++k) {
             area_[element.vertices[k]] += area / float(corners);
@@ -115,10 +116,10 @@ ReceiverCluster VertexClusters::atVertex(std::size_t v, Rgb light) const {
         cluster.area = area_[v];
         cluster.reflectance = reflectance_[v];
     } else {
-        const Element& element =
-            patches_.uncoveredElements[patches_.privateElement[v - patches_.firstPrivate]];
+        const std::uint32_t e = patches_.privateElement[v - patches_.firstPrivate];
+        const Element& element = patches_.uncoveredElements[e];
         cluster.area = elementArea(patches_, element) / (element.isTriangle() ? 3 : 4);
-        cluster.reflectance = luminance(patches_.materials[element.material].reflectance);
+        cluster.reflectance = luminance(elementReflectance(patches_, e));
     }
     const glm::vec3 half(0.5f * std::sqrt(cluster.area));
     cluster.box = {receiver.position - half, receiver.position + half};

@@ -130,7 +130,7 @@ void DetailGather::interpolateVertices(Sweep& sweep, std::size_t first, std::siz
 void DetailGather::sendElements(Sweep& sweep, std::size_t first, std::size_t last) const {
     for (std::size_t e = first; e < last; ++e) {
         const Element& element = patches_.elements[e];
-        const Rgb rho = patches_.materials[element.material].reflectance;
+        const Rgb rho = elementReflectance(patches_, std::uint32_t(e));
         const Rgb all = rho * elementMean(element, sweep.direct, sweep.indirect);
         const Rgb direct = rho * directMean(element, sweep.direct);
         sweep.sent.all[e] = {all, luminance(all)};
@@ -162,7 +162,7 @@ glm::dvec3 DetailGather::gathered(const Sent& sent, std::span<const std::uint32_
         const std::uint32_t element = hit & ~DetailRays::kAcross;
         const bool returns = slit && isAcross(hit);
         if (returns) {
-            const Rgb rho = patches_.materials[patches_.elements[element].material].reflectance;
+            const Rgb rho = elementReflectance(patches_, element);
             returned += glm::dvec3(rho.r, rho.g, rho.b);
         }
         Light light = returns ? sent.direct[element] : sent.all[element];

@@ -90,7 +90,7 @@ void DirectLight::describeReceivers() {
         for (std::size_t b = first; b < last; ++b) {
             blocks[b].reflectance = 0;
             for (std::uint32_t p : blockPatches_[b]) {
-                const Rgb rho = set_.materials[set_.patches[p].material].reflectance;
+                const Rgb rho = patchReflectance(set_, p);
                 blocks[b].reflectance = std::max(blocks[b].reflectance, maxChannel(rho));
             }
         }

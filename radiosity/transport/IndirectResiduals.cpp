@@ -42,7 +42,7 @@ glm::dvec3 IndirectLight::reflected(std::uint32_t index) const {
     const Patch& patch = set_.patches[index];
     if (!set_.objects[patch.object.value].present) return glm::dvec3(0);
     const auto indirect = mean<glm::dvec3>(patch, [&](std::uint32_t n) { return node(n); });
-    return toDouble(set_.materials[patch.material].reflectance) *
+    return toDouble(patchReflectance(set_, index)) *
            (direct_.patches()[index] + indirect);
 }
 
@@ -75,7 +75,7 @@ void IndirectLight::updateResiduals() {
         Part& part = parts[first / kGrain];
         for (auto p = std::uint32_t(first); p < last; ++p) {
             const Patch& patch = set_.patches[p];
-            const double rho = maxChannel(set_.materials[patch.material].reflectance);
+            const double rho = maxChannel(patchReflectance(set_, p));
             reflects[p] = reflected(p);
             const double dirty =
                 rho *
@@ -114,8 +114,9 @@ void IndirectLight::coloursChanged() {
     float most = 0;
     std::vector<glm::dvec3> colours;
     reflectances_.assign(blockCount(), 0.0f);
-    for (const Patch& patch : set_.patches) {
-        const Rgb colour = set_.materials[patch.material].reflectance;
+    for (std::uint32_t p = 0; p < set_.patches.size(); ++p) {
+        const Patch& patch = set_.patches[p];
+        const Rgb colour = patchReflectance(set_, p);
         const float rho = maxChannel(colour);
         colours.push_back(toDouble(colour));
         most = std::max(most, rho);
@@ -133,10 +134,10 @@ void IndirectLight::coloursChanged() {
 glm::dvec3 IndirectLight::ambient() const {
     glm::dvec3 owed(0), reflected(0);
     double area = 0;
-    for (std::size_t p = 0; p < set_.patches.size(); ++p) {
+    for (std::uint32_t p = 0; p < set_.patches.size(); ++p) {
         const double size = set_.patches[p].area;
         owed += size * residuals_[p][0];
-        reflected += size * toDouble(set_.materials[set_.patches[p].material].reflectance);
+        reflected += size * toDouble(patchReflectance(set_, p));
         area += size;
     }
     if (area == 0) return owed;

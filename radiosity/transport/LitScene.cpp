@@ -100,6 +100,9 @@ bool LitScene::followColours(SceneChange& change) {
     for (std::size_t m = 0; m < set.materials.size(); ++m) {
         const LightSource& source = built_.materialSources[m];
         if (!source.material || !source.material->emissive()) continue;
+        // What is dark in a texture has no emitters, however brightly it would shine.
+        if (source.material->textures().emission && maxChannel(set.materials[m].emission) > 0)
+            continue;
         const bool emits = std::any_of(
             built_.emitterSources.begin(), built_.emitterSources.end(),
             [&](const LightSource& emitter) { return emitter.material == source.material; });
@@ -115,7 +118,7 @@ bool LitScene::followColours(SceneChange& change) {
         change.colours = true;
     }
     for (std::uint32_t e = 0; e < set.emitters.size(); ++e) {
-        const Rgb exitance = lambertianExitance(lightOf(built_.emitterSources[e]));
+        const Rgb exitance = lambertianExitance(lightOf(built_.emitterSources[e])) * set.emitters[e].texture;
         if (exitance == set.emitters[e].exitance) continue;
         set.emitters[e].exitance = exitance;
         change.emitters.push_back(e);

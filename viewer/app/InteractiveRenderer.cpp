@@ -8,6 +8,7 @@
 #include "viewer/gl/LitItem.h"
 #include "viewer/gl/LuminanceMeter.h"
 #include "viewer/gl/Shaders.h"
+#include "viewer/gl/TextureCache.h"
 #include "viewer/gl/TonePass.h"
 #include "viewer/gl/UnlitGeometry.h"
 #include "viewer/overlay/OverlayPass.h"
@@ -50,9 +51,9 @@ struct InteractiveRenderer::Impl {
     explicit Impl(const InteractiveOptions& wanted) : options(wanted) {}
 
     void requireTarget(int width, int height);
-    void drawLit(const std::vector<LitItem>& items) const;
-    void drawPreviewed(const std::vector<LitItem>& items, MapPreview& maps) const;
-    void setMaterial(const LitItem& item, const MaterialRange& range) const;
+    void drawLit(const std::vector<LitItem>& items);
+    void drawPreviewed(const std::vector<LitItem>& items, MapPreview& maps);
+    void setMaterial(const LitItem& item, const MaterialRange& range);
     void drawUnlit(const std::vector<UnlitItem>& items, const View& view,
                    const UnlitLighting& lighting);
     void drawUnlitItem(const UnlitItem& item, const View& view);
@@ -60,10 +61,11 @@ struct InteractiveRenderer::Impl {
 
     InteractiveOptions options;
     bool reversed = canReverseDepth();
-    ShaderProgram litProgram{kLitVertexShader, kScreenFragmentShader};
-    ShaderProgram previewProgram{kPreviewVertexShader, kPreviewFragmentShader};
+    ShaderProgram litProgram{kLitVertexShader, screenFragmentShader()};
+    ShaderProgram previewProgram{kPreviewVertexShader, previewFragmentShader()};
     GeometryCache litCache;
     UnlitCache previewCache;
+    TextureCache textures{TextureCache::Quality::compressed};
     std::optional<HdrTarget> target;
     LuminanceMeter meter;
     TonePass tonePass;
@@ -80,13 +82,12 @@ void InteractiveRenderer::Impl::requireTarget(int width, int height) {
     target.emplace(width, height, options.samples, options.precision);
 }
 
-void InteractiveRenderer::Impl::setMaterial(const LitItem& item, const MaterialRange& range) const {
+void InteractiveRenderer::Impl::setMaterial(const LitItem& item, const MaterialRange& range) {
     const LitMaterial& material = item.geometry->data().materials[range.material];
-    litProgram.set("reflectance", material.reflectance);
-    litProgram.set("emission", material.emission);
+    textures.setMaterial(litProgram, material.reflectance, material.emission, material.textures);
 }
 
-void InteractiveRenderer::Impl::drawLit(const std::vector<LitItem>& items) const {
+void InteractiveRenderer::Impl::drawLit(const std::vector<LitItem>& items) {
     litProgram.use();
     for (const LitItem& item : items) {
         setPose(litProgram, item.place);
@@ -100,7 +101,7 @@ void InteractiveRenderer::Impl::drawLit(const std::vector<LitItem>& items) const
 
 /// The same, but triangles that a previewed change may reach are drawn by the preview pass.
 void InteractiveRenderer::Impl::drawPreviewed(const std::vector<LitItem>& items,
-                                              MapPreview& maps) const {
+                                              MapPreview& maps) {
     std::vector<MapPreview::Runs> preview;
     litProgram.use();
     for (std::size_t i = 0; i < items.size(); ++i) {
@@ -122,7 +123,7 @@ void InteractiveRenderer::Impl::drawPreviewed(const std::vector<LitItem>& items,
             plain[r].draw();
         }
     }
-    maps.draw(items, preview);
+    maps.draw(items, preview, textures);
 }
 
 void InteractiveRenderer::Impl::drawUnlit(const std::vector<UnlitItem>& items, const View& view,
@@ -142,8 +143,11 @@ void InteractiveRenderer::Impl::drawUnlitItem(const UnlitItem& item, const View&
     for (const MaterialRange& range : geometry.ranges()) {
         const Material* const material =
             item.mesh ? item.mesh->data().materials[range.material].get() : nullptr;
-        previewProgram.set("reflectance", material ? material->reflectance() : Rgb());
-        previewProgram.set("emission", material ? material->emission() : item.light->luminance());
+        if (material)
+            textures.setMaterial(previewProgram, material->reflectance(), material->emission(),
+                                 material->textures());
+        else
+            textures.setMaterial(previewProgram, Rgb(), item.light->luminance(), {});
         drawRange(range);
     }
     if (doubleSided) glEnable(GL_CULL_FACE);
@@ -175,6 +179,7 @@ void InteractiveRenderer::drawScene(const DrawList& list, const View& view,
     impl.overlayPass.dropDead();
     const std::size_t lightBytes = impl.litCache.lightBytes();
     impl.previewCache.dropDead();
+    impl.textures.dropDead();
     const std::size_t uploads = impl.litCache.uploads();
     const std::size_t lightUploads = impl.litCache.lightUploads();
     impl.litCache.needFactors(maps != nullptr);

@@ -148,6 +148,7 @@ void GpuGeometry::makeBuffers(const LitGeometry& geometry, const ShownLight* sho
     glBindVertexArray(vertexArray_.name());
     positions_ = attributeBuffer(kPosition, mesh.positions, GL_STATIC_DRAW, room_);
     normals_ = attributeBuffer(kNormal, mesh.normals, GL_STATIC_DRAW, room_);
+    if (!mesh.uvs.empty()) uvs_ = attributeBuffer(kUv, mesh.uvs, GL_STATIC_DRAW, room_);
     direct_ = attributeBuffer(kDirect, shown ? shown->direct : mesh.direct, GL_DYNAMIC_DRAW, room_);
     indirect_ =
         attributeBuffer(kIndirect, shown ? shown->indirect : mesh.indirect, GL_DYNAMIC_DRAW, room_);
@@ -186,10 +187,13 @@ std::size_t GpuGeometry::splitCorners(const LitGeometry& geometry, const SplitCo
     for (const auto& [entry, copy] : corners_.entries)
         bytes += writeEntry(entry, std::uint32_t(first + copy));
     std::vector<glm::vec3> points, normals;
+    std::vector<glm::vec2> uvs;
     for (const std::uint32_t v : corners_.copies) {
         points.push_back(mesh.positions[v]);
         normals.push_back(mesh.normals[v]);
+        if (!mesh.uvs.empty()) uvs.push_back(mesh.uvs[v]);
     }
+    if (!uvs.empty()) bytes += writeValues(uvs_, uvs, first);
     bytes += writeValues(positions_, points, first) + writeValues(normals_, normals, first);
     glBindVertexArray(0);
     return bytes;

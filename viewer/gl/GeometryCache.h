@@ -59,7 +59,7 @@ private:
     void dropFactors();
     void requireFactors(const ShownLight* shown, bool wanted);
 
-    GlObject vertexArray_, positions_, normals_, direct_, indirect_, indices_;
+    GlObject vertexArray_, positions_, normals_, direct_, indirect_, uvs_, indices_;
     GlObject factors_, behind_; ///< of previewed lights, when there first are any
     std::size_t room_ = 0;      ///< for vertices
     std::vector<MaterialRange> ranges_;

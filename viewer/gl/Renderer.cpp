@@ -9,6 +9,7 @@
 #include "viewer/gl/OffscreenContext.h"
 #include "viewer/gl/ShaderProgram.h"
 #include "viewer/gl/Shaders.h"
+#include "viewer/gl/TextureCache.h"
 #include "viewer/preview/DrawList.h"
 
 #include <epoxy/gl.h>
@@ -33,9 +34,10 @@ struct Renderer::Impl {
 
     RendererOptions options;
     bool reversed = canReverseDepth();
-    ShaderProgram lightProgram{kLitVertexShader, kLightFragmentShader};
-    ShaderProgram surfaceProgram{kLitVertexShader, kSurfaceFragmentShader};
+    ShaderProgram lightProgram{kLitVertexShader, lightFragmentShader()};
+    ShaderProgram surfaceProgram{kLitVertexShader, surfaceFragmentShader()};
     GeometryCache cache;
+    TextureCache textures{TextureCache::Quality::exact};
     std::optional<FrameTargets> targets;
     RenderStatistics statistics;
 };
@@ -43,6 +45,7 @@ struct Renderer::Impl {
 std::vector<LitItem> Renderer::Impl::prepare(const Group& root, const View& view) {
     const std::size_t uploads = cache.uploads(), lightUploads = cache.lightUploads();
     cache.dropDead();
+    textures.dropDead();
     const DrawList list = listVisible(root, Frustum(view.worldToClip()));
     std::vector<LitItem> items = prepareLit(list, view, reversed, cache);
     statistics = {};
@@ -61,8 +64,8 @@ void Renderer::Impl::drawPass(const ShaderProgram& program, const std::vector<Li
         item.gpu->bind();
         for (const MaterialRange& range : item.gpu->ranges()) {
             const LitMaterial& material = item.geometry->data().materials[range.material];
-            program.set("reflectance", material.reflectance);
-            program.set("emission", material.emission);
+            textures.setMaterial(program, material.reflectance, material.emission,
+                                 material.textures);
             drawRange(range);
             ++statistics.drawCalls;
         }

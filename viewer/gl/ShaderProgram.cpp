@@ -18,8 +18,9 @@ namespace {
     throw Error(std::string("OpenGL: can't ") + what + ": " + text.substr(0, text.find('\n')));
 }
 
-GlObject compiled(GLenum stage, const char* source) {
+GlObject compiled(GLenum stage, const std::string& text) {
     GlObject shader = makeShader(stage);
+    const char* const source = text.c_str();
     glShaderSource(shader.name(), 1, &source, nullptr);
     glCompileShader(shader.name());
     GLint good = GL_FALSE;
@@ -32,7 +33,7 @@ GlObject compiled(GLenum stage, const char* source) {
 
 } // namespace
 
-ShaderProgram::ShaderProgram(const char* vertexSource, const char* fragmentSource)
+ShaderProgram::ShaderProgram(const std::string& vertexSource, const std::string& fragmentSource)
     : program_(makeProgram()) {
     const GlObject vertex = compiled(GL_VERTEX_SHADER, vertexSource);
     const GlObject fragment = compiled(GL_FRAGMENT_SHADER, fragmentSource);

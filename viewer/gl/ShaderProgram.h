@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 
 namespace penumbra {
 
@@ -16,7 +17,7 @@ namespace penumbra {
 class ShaderProgram {
 public:
     /// \throws Error with the first line of the compiler's log
-    ShaderProgram(const char* vertexSource, const char* fragmentSource);
+    ShaderProgram(const std::string& vertexSource, const std::string& fragmentSource);
 
     void use() const;
     void set(const char* uniform, const glm::mat4& value) const;

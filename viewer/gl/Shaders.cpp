@@ -2,38 +2,35 @@
 
 namespace penumbra {
 
-const char* const kLitVertexShader = R"(#version 330 core
-layout(location = 0) in vec3 position;   // local frame
-layout(location = 1) in vec3 normal;     // local frame, unit
-layout(location = 2) in vec3 direct;     // lux
-layout(location = 3) in vec3 indirect;   // lux
+namespace {
 
-uniform mat4 localToClip;
-uniform vec4 localToDepth;               // depth = dot(localToDepth, (p, 1))
-uniform mat3 normalToWorld;
-
-// Centroid: in a pixel that an edge crosses, the light is taken where the surface is. At the pixel's
-// centre, outside of the triangle, it would be extrapolated, even to less than nothing.
-centroid out vec3 surfaceDirect;
-centroid out vec3 surfaceIndirect;
-out vec3 surfaceNormal;
-out float surfaceDepth;
-
-void main() {
-    gl_Position = localToClip * vec4(position, 1.0);
-    surfaceDepth = dot(localToDepth, vec4(position, 1.0));
-    surfaceNormal = normalToWorld * normal;
-    surfaceDirect = direct;
-    surfaceIndirect = indirect;
-}
-)";
-
-const char* const kLightFragmentShader = R"(#version 330 core
-centroid in vec3 surfaceDirect;
-centroid in vec3 surfaceIndirect;
+// Factors, and textures that they are factors of. A picture's texels are linear when they get here.
+const char* const kSurfaceColours = R"(#version 330 core
+in vec2 surfaceUv;
 
 uniform vec3 reflectance;
 uniform vec3 emission;                   // nit
+uniform int reflectanceTextured, emissionTextured;
+uniform sampler2D reflectanceMap, emissionMap;
+uniform vec3 reflectanceScale, reflectanceBias, emissionScale, emissionBias;
+uniform mat3 reflectancePlace, emissionPlace;
+
+vec3 reflectanceHere() {
+    if (reflectanceTextured == 0) return reflectance;
+    vec3 texel = texture(reflectanceMap, (reflectancePlace * vec3(surfaceUv, 1.0)).xy).rgb;
+    return reflectance * max(texel * reflectanceScale + reflectanceBias, 0.0);
+}
+
+vec3 emissionHere() {
+    if (emissionTextured == 0) return emission;
+    vec3 texel = texture(emissionMap, (emissionPlace * vec3(surfaceUv, 1.0)).xy).rgb;
+    return emission * max(texel * emissionScale + emissionBias, 0.0);
+}
+)";
+
+const char* const kLightFragment = R"(
+centroid in vec3 surfaceDirect;
+centroid in vec3 surfaceIndirect;
 
 layout(location = 0) out vec4 beauty;
 layout(location = 1) out vec4 direct;
@@ -42,21 +39,22 @@ layout(location = 2) out vec4 indirect;
 const float kInversePi = 0.31830988618;
 
 void main() {
-    vec3 lightDirect = reflectance * kInversePi * surfaceDirect;
-    vec3 lightIndirect = reflectance * kInversePi * surfaceIndirect;
-    beauty = vec4(emission + lightDirect + lightIndirect, 1.0);
+    vec3 rho = reflectanceHere();
+    vec3 nits = emissionHere();
+    vec3 lightDirect = rho * kInversePi * surfaceDirect;
+    vec3 lightIndirect = rho * kInversePi * surfaceIndirect;
+    beauty = vec4(nits + lightDirect + lightIndirect, 1.0);
     direct = vec4(lightDirect, 1.0);
     indirect = vec4(lightIndirect, 1.0);
 }
 )";
 
-const char* const kSurfaceFragmentShader = R"(#version 330 core
+const char* const kSurfaceFragment = R"(
 centroid in vec3 surfaceDirect;
 centroid in vec3 surfaceIndirect;
 in vec3 surfaceNormal;
 in float surfaceDepth;
 
-uniform vec3 reflectance;
 uniform uint objectId;
 
 layout(location = 0) out vec4 normalAndDepth;
@@ -68,18 +66,15 @@ void main() {
     float length2 = dot(surfaceNormal, surfaceNormal);
     vec3 unit = length2 > 0.0 ? surfaceNormal * inversesqrt(length2) : vec3(0.0);
     normalAndDepth = vec4(unit, surfaceDepth);
-    albedo = vec4(reflectance, 1.0);
+    albedo = vec4(reflectanceHere(), 1.0);
     illuminance = vec4(surfaceDirect + surfaceIndirect, 1.0);
     object = objectId;
 }
 )";
 
-const char* const kScreenFragmentShader = R"(#version 330 core
+const char* const kScreenFragment = R"(
 centroid in vec3 surfaceDirect;
 centroid in vec3 surfaceIndirect;
-
-uniform vec3 reflectance;
-uniform vec3 emission;                   // nit
 
 layout(location = 0) out vec4 beauty;
 
@@ -87,31 +82,17 @@ const float kInversePi = 0.31830988618;
 const float kMost = 65000.0;             // nit; 16-bit floats end at 65504
 
 void main() {
-    vec3 reflected = reflectance * kInversePi * (surfaceDirect + surfaceIndirect);
-    float emitted = max(max(emission.r, emission.g), emission.b);
-    beauty = vec4(min(reflected + emission, kMost), emitted > 0.0 ? 0.0 : 1.0);
+    vec3 rho = reflectanceHere();
+    vec3 nits = emissionHere();
+    vec3 reflected = rho * kInversePi * (surfaceDirect + surfaceIndirect);
+    float emitted = max(max(nits.r, nits.g), nits.b);
+    beauty = vec4(min(reflected + nits, kMost), emitted > 0.0 ? 0.0 : 1.0);
 }
 )";
 
-const char* const kPreviewVertexShader = R"(#version 330 core
-layout(location = 0) in vec3 position;   // local frame
-
-uniform mat4 localToClip;
-uniform mat4 localToEye;
-
-out vec3 eyePosition;                    // the camera is at the origin and looks along -z [m]
-
-void main() {
-    gl_Position = localToClip * vec4(position, 1.0);
-    eyePosition = vec3(localToEye * vec4(position, 1.0));
-}
-)";
-
-const char* const kPreviewFragmentShader = R"(#version 330 core
+const char* const kPreviewFragment = R"(
 in vec3 eyePosition;
 
-uniform vec3 reflectance;
-uniform vec3 emission;                   // nit
 uniform int lightCount;
 uniform vec4 lightPositions[16];         // position [m], area [m^2]
 uniform vec4 lightAxes[16];              // unit; zero: emits all round
@@ -140,11 +121,77 @@ vec3 illuminance(vec3 normal) {
 }
 
 void main() {
+    vec3 rho = reflectanceHere();
+    vec3 nits = emissionHere();
     vec3 normal = normalize(cross(dFdx(eyePosition), dFdy(eyePosition))); // towards the eye
-    vec3 reflected = reflectance * kInversePi * illuminance(normal);
-    float emitted = max(max(emission.r, emission.g), emission.b);
-    beauty = vec4(min(reflected + emission, kMost), emitted > 0.0 ? 0.0 : 1.0);
+    vec3 reflected = rho * kInversePi * illuminance(normal);
+    float emitted = max(max(nits.r, nits.g), nits.b);
+    beauty = vec4(min(reflected + nits, kMost), emitted > 0.0 ? 0.0 : 1.0);
 }
 )";
+
+} // namespace
+
+const char* const kLitVertexShader = R"(#version 330 core
+layout(location = 0) in vec3 position;   // local frame
+layout(location = 1) in vec3 normal;     // local frame, unit
+layout(location = 2) in vec3 direct;     // lux
+layout(location = 3) in vec3 indirect;   // lux
+layout(location = 6) in vec2 uv;
+
+uniform mat4 localToClip;
+uniform vec4 localToDepth;               // depth = dot(localToDepth, (p, 1))
+uniform mat3 normalToWorld;
+
+// Centroid: in a pixel that an edge crosses, the light is taken where the surface is. At the pixel's
+// centre, outside of the triangle, it would be extrapolated, even to less than nothing.
+centroid out vec3 surfaceDirect;
+centroid out vec3 surfaceIndirect;
+out vec3 surfaceNormal;
+out float surfaceDepth;
+out vec2 surfaceUv;
+
+void main() {
+    gl_Position = localToClip * vec4(position, 1.0);
+    surfaceDepth = dot(localToDepth, vec4(position, 1.0));
+    surfaceNormal = normalToWorld * normal;
+    surfaceDirect = direct;
+    surfaceIndirect = indirect;
+    surfaceUv = uv;
+}
+)";
+
+const char* const kPreviewVertexShader = R"(#version 330 core
+layout(location = 0) in vec3 position;   // local frame
+layout(location = 6) in vec2 uv;
+
+uniform mat4 localToClip;
+uniform mat4 localToEye;
+
+out vec3 eyePosition;                    // the camera is at the origin and looks along -z [m]
+out vec2 surfaceUv;
+
+void main() {
+    gl_Position = localToClip * vec4(position, 1.0);
+    eyePosition = vec3(localToEye * vec4(position, 1.0));
+    surfaceUv = uv;
+}
+)";
+
+std::string lightFragmentShader() {
+    return std::string(kSurfaceColours) + kLightFragment;
+}
+
+std::string surfaceFragmentShader() {
+    return std::string(kSurfaceColours) + kSurfaceFragment;
+}
+
+std::string screenFragmentShader() {
+    return std::string(kSurfaceColours) + kScreenFragment;
+}
+
+std::string previewFragmentShader() {
+    return std::string(kSurfaceColours) + kPreviewFragment;
+}
 
 } // namespace penumbra

@@ -1,6 +1,8 @@
 // The text of the shaders, GLSL 3.30.
 #pragma once
 
+#include <string>
+
 namespace penumbra {
 
 /// Vertex attributes of a lit surface.
@@ -10,26 +12,29 @@ enum LitAttribute : unsigned {
     kDirect = 2,
     kIndirect = 3,
     kFactors = 4, ///< of previewed lights, see ShownLight
-    kBehind = 5
+    kBehind = 5,
+    kUv = 6 ///< texture coordinates
 };
+
+// Fragment shaders take the colours of surfaces, with their textures, from TextureCache.
 
 /// Places a lit vertex; for both fragment shaders below.
 extern const char* const kLitVertexShader;
 
 /// What the eye receives [nit]. Outputs 0 beauty with alpha, 1 direct, 2 indirect; these may be
 /// averaged.
-extern const char* const kLightFragmentShader;
+std::string lightFragmentShader();
 
 /// What the surface is. Outputs 0 normal (world) and depth [m], 1 albedo, 2 illuminance [lux],
 /// 3 object id; these may not be averaged.
-extern const char* const kSurfaceFragmentShader;
+std::string surfaceFragmentShader();
 
 /// What the eye receives of a lit surface [nit], up to the range of 16-bit floats; alpha says how
 /// much it counts for exposure: what reflects does, what emits does not.
-extern const char* const kScreenFragmentShader;
+std::string screenFragmentShader();
 
 /// Surfaces before radiosity, lit as UnlitLighting says, flat shaded; the same output.
 extern const char* const kPreviewVertexShader;
-extern const char* const kPreviewFragmentShader;
+std::string previewFragmentShader();
 
 } // namespace penumbra

@@ -23,15 +23,36 @@ GlObject filledBuffer(GLenum target, const std::vector<T>& values) {
     return buffer;
 }
 
+/// The same faces with a point of its own for each corner.
+MeshData byCorners(const MeshData& mesh) {
+    MeshData corners;
+    corners.faceVertexCounts = mesh.faceVertexCounts;
+    corners.holes = mesh.holes;
+    corners.materials = mesh.materials;
+    corners.faceMaterial = mesh.faceMaterial;
+    for (const std::int32_t point : mesh.faceVertexIndices) {
+        corners.faceVertexIndices.push_back(std::int32_t(corners.points.size()));
+        corners.points.push_back(mesh.points[std::size_t(point)]);
+    }
+    return corners;
+}
+
 } // namespace
 
 UnlitGeometry::UnlitGeometry(const MeshData& mesh) : vertexArray_(makeVertexArray()) {
-    FaceTriangles triangles = faceTriangles(mesh);
+    const bool textured = !mesh.uvs.empty();
+    const MeshData corners = textured ? byCorners(mesh) : MeshData();
+    FaceTriangles triangles = faceTriangles(textured ? corners : mesh);
     ranges_ = std::move(triangles.ranges);
     glBindVertexArray(vertexArray_.name());
-    positions_ = filledBuffer(GL_ARRAY_BUFFER, mesh.points);
+    positions_ = filledBuffer(GL_ARRAY_BUFFER, textured ? corners.points : mesh.points);
     glVertexAttribPointer(kPosition, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
     glEnableVertexAttribArray(kPosition);
+    if (textured) {
+        uvs_ = filledBuffer(GL_ARRAY_BUFFER, mesh.uvs);
+        glVertexAttribPointer(kUv, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
+        glEnableVertexAttribArray(kUv);
+    }
     indices_ = filledBuffer(GL_ELEMENT_ARRAY_BUFFER, triangles.indices);
     glBindVertexArray(0);
 }

@@ -18,7 +18,8 @@ namespace penumbra {
 
 struct MeshData;
 
-/// One mesh or light, ready to be drawn: positions alone, the shader finds the normals.
+/// One mesh or light, ready to be drawn: positions and texture coordinates; the shader finds the
+/// normals.
 class UnlitGeometry {
 public:
     explicit UnlitGeometry(const MeshData& mesh);
@@ -27,7 +28,7 @@ public:
     const std::vector<MaterialRange>& ranges() const { return ranges_; }
 
 private:
-    GlObject vertexArray_, positions_, indices_;
+    GlObject vertexArray_, positions_, uvs_, indices_;
     std::vector<MaterialRange> ranges_;
 };
 

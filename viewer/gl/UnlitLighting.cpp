@@ -43,7 +43,7 @@ Candidate meshCandidate(const Placed<Mesh>& placed) {
     std::size_t first = 0;
     for (std::size_t face = 0; face < placed.node->faceCount(); ++face) {
         const auto count = std::size_t(data.faceVertexCounts[face]);
-        const Rgb emission = placed.node->materialOf(face)->emission();
+        const Rgb emission = placed.node->materialOf(face)->meanEmission();
         if (maxChannel(emission) > 0) {
             glm::dvec3 normal(0), centre(0);
             const auto at = [&](std::size_t corner) {

@@ -25,7 +25,7 @@ constexpr std::array<const char*, kMostPreviewedByMaps> kLightNames{"lightList[0
 } // namespace
 
 struct MapPreview::Impl {
-    Impl() : program(previewVertexShader().c_str(), kScreenFragmentShader) {}
+    Impl() : program(previewVertexShader(), screenFragmentShader()) {}
 
     void setPlaces(const LitItem& item);
     void setLights(unsigned mask) const;
@@ -92,7 +92,8 @@ void MapPreview::Impl::setLights(unsigned mask) const {
     program.set("previewedLights", count);
 }
 
-void MapPreview::draw(const std::vector<LitItem>& items, const std::vector<Runs>& runs) {
+void MapPreview::draw(const std::vector<LitItem>& items, const std::vector<Runs>& runs,
+                      TextureCache& textures) {
     const ShaderProgram& program = impl_->program;
     const PreviewLighting& light = impl_->light;
     program.use();
@@ -117,8 +118,7 @@ void MapPreview::draw(const std::vector<LitItem>& items, const std::vector<Runs>
         }
         const LitMaterial& material =
             item.geometry->data().materials[item.gpu->ranges()[run.range].material];
-        program.set("reflectance", material.reflectance);
-        program.set("emission", material.emission);
+        textures.setMaterial(program, material.reflectance, material.emission, material.textures);
         impl_->setLights(run.lights);
         run.runs.draw();
     }

@@ -4,6 +4,7 @@
 #include "viewer/gl/GeometryCache.h"
 #include "viewer/gl/LitItem.h"
 #include "viewer/gl/ShaderProgram.h"
+#include "viewer/gl/TextureCache.h"
 #include "viewer/preview/Preview.h"
 #include "viewer/shadowmaps/IndexRuns.h"
 
@@ -44,7 +45,8 @@ public:
         IndexRuns runs;
     };
     /// \param runs by item
-    void draw(const std::vector<LitItem>& items, const std::vector<Runs>& runs);
+    void draw(const std::vector<LitItem>& items, const std::vector<Runs>& runs,
+              TextureCache& textures);
 
 private:
     struct Impl;

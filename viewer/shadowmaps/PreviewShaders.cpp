@@ -248,6 +248,7 @@ layout(location = 2) in vec3 direct;     // lux
 layout(location = 3) in vec3 indirect;   // lux
 layout(location = 4) in vec4 factors;
 layout(location = 5) in float behind;
+layout(location = 6) in vec2 uv;
 
 uniform mat4 localToClip;
 )";
@@ -255,11 +256,13 @@ uniform mat4 localToClip;
 const char* const kVertexMain = R"(
 centroid out vec3 surfaceDirect;
 centroid out vec3 surfaceIndirect;
+out vec2 surfaceUv;
 
 void main() {
     gl_Position = localToClip * vec4(position, 1.0);
     surfaceDirect = max(direct + lightChange(position, normal, factors, behind), 0.0);
     surfaceIndirect = indirect;
+    surfaceUv = uv;
 }
 )";
 

@@ -10,7 +10,7 @@ namespace penumbra {
 /// The change of the light is worked out vertex by vertex, where radiosity has its light: by pixels
 /// the shadows would be finer than those that they are exchanged for, and each edge of a shadow
 /// would change its sharpness when a thing is taken hold of and when it is let go. For
-/// kScreenFragmentShader.
+/// screenFragmentShader().
 std::string previewVertexShader();
 
 /// The table of uniforms that the shader reads: a row of texels a light and scene state; row

@@ -42,17 +42,24 @@ UsdSurface UsdMaterials::make(const UsdPrim& prim) {
     const double metallic = std::clamp(number(*shader, "inputs:metallic", 0), 0.0, 1.0);
     const double opacity = std::clamp(number(*shader, "inputs:opacity", 1), 0.0, 1.0);
     const double threshold = number(*shader, "inputs:opacityThreshold", 0);
-    const Rgb diffuse = colour(*shader, "inputs:diffuseColor", Rgb(0.18f), Rgb(0.5f));
-    const Rgb emission = colour(*shader, "inputs:emissiveColor", Rgb(), Rgb());
+    constexpr float kMostNits = 1e30f;
+    Colour diffuse = colour(*shader, "inputs:diffuseColor", Rgb(0.18f), Rgb(0.5f), 1);
+    Colour emissive = colour(*shader, "inputs:emissiveColor", Rgb(), Rgb(), kMostNits);
+    const Rgb emission = emissive.factor;
     surface.invisible = opacity == 0 || opacity < threshold;
     if (surface.invisible)
         diagnostics_.warn(prim.location(), "fully transparent surface left out");
     else if (opacity < 1 && threshold == 0)
         diagnostics_.warn(prim.location(), "transparency ignored: the surface blocks light");
     const double cover = (threshold > 0 ? 1 : opacity) * (specularWorkflow ? 1 : 1 - metallic);
-    surface.material = std::make_shared<Material>(prim.name);
+    surface.primvar = diffuse.texture ? diffuse.primvar : emissive.primvar;
+    if (diffuse.texture && emissive.texture && diffuse.primvar != emissive.primvar)
+        diagnostics_.warn(prim.location(), "two sets of texture coordinates: '" + diffuse.primvar +
+                                               "' is used for both");
+    surface.material = std::make_shared<Material>(
+        prim.name, MaterialTextures{std::move(diffuse.texture), std::move(emissive.texture)});
     surface.shader = shader->path;
-    surface.material->setReflectance(diffuse * float(cover));
+    surface.material->setReflectance(diffuse.factor * float(cover));
     surface.material->setEmission(
         {std::max(emission.r, 0.0f), std::max(emission.g, 0.0f), std::max(emission.b, 0.0f)});
     return surface;
@@ -100,9 +107,20 @@ UsdMaterials::Input UsdMaterials::input(const UsdPrim& shader, const std::string
     return {};
 }
 
-// A shader's output is not computed: only a texture's authored fallback replaces it.
+// Of shaders' outputs only the colours of textures are understood: where these can't be used, their
+// authored fallback is, and others are replaced by it.
 UsdMaterials::Input UsdMaterials::textureFallback(const UsdPrim& shader, const std::string& output,
                                                   const std::string& name) {
+    if (textures_ && name == "inputs:opacity") {
+        diagnostics_.warn(shader.location(), "transparency of a texture ignored: drawn opaque");
+        return {{1.0}, true};
+    }
+    const bool isColour = name == "inputs:diffuseColor" || name == "inputs:emissiveColor";
+    if (textures_ && isColour && output == "outputs:rgb" &&
+        UsdAttributes(shader, time_).text("info:id", "") == "UsdUVTexture") {
+        const UsdTexture& read = textures_->at(stage_, shader, time_, diagnostics_);
+        if (read.texture) return {{}, true, &read};
+    }
     const bool radiometric = name == "inputs:diffuseColor" || name == "inputs:emissiveColor" ||
                              name == "inputs:opacity" || name == "inputs:metallic";
     if (radiometric)
@@ -122,13 +140,32 @@ double UsdMaterials::number(const UsdPrim& shader, const std::string& name, doub
     return found.value.size() == 1 && std::isfinite(found.value[0]) ? found.value[0] : fallback;
 }
 
-Rgb UsdMaterials::colour(const UsdPrim& shader, const std::string& name, Rgb fallback,
-                         Rgb ifTexture) {
+UsdMaterials::Colour UsdMaterials::colour(const UsdPrim& shader, const std::string& name,
+                                          Rgb fallback, Rgb ifTexture, float mostFactor) {
     const Input found = input(shader, name);
+    if (found.read) return factored(*found.read, mostFactor);
     if (found.value.size() == 3)
-        return {finiteOrZero(found.value[0]), finiteOrZero(found.value[1]),
-                finiteOrZero(found.value[2])};
-    return found.texture ? ifTexture : fallback;
+        return {{finiteOrZero(found.value[0]), finiteOrZero(found.value[1]),
+                 finiteOrZero(found.value[2])}};
+    return {found.texture ? ifTexture : fallback};
+}
+
+/// A texture's scale is better a factor that can be edited, where it is nothing but one.
+UsdMaterials::Colour UsdMaterials::factored(const UsdTexture& read, float most) {
+    const Rgb scale = read.texture->scale;
+    if (read.texture->bias != Rgb() || minChannel(scale) < 0 || maxChannel(scale) > most)
+        return {Rgb(1), read.texture, read.primvar};
+    auto texture = std::make_shared<Texture>(*read.texture);
+    texture->scale = Rgb(1);
+    return {scale, std::move(texture), read.primvar};
+}
+
+std::string UsdMaterials::primvarOf(const Material& material) const {
+    if (!material.textures().any()) return {};
+    const auto found = std::find_if(surfaces_.begin(), surfaces_.end(), [&](const auto& entry) {
+        return entry.second.material.get() == &material;
+    });
+    return found == surfaces_.end() ? std::string() : found->second.primvar;
 }
 
 UsdBinding usdMaterialBinding(const UsdPrim& prim, Diagnostics& diagnostics) {

@@ -174,10 +174,60 @@ void paintSubsets(const UsdStage& stage, const UsdAttributes& prim, const UsdInh
 // Copies that send the light, too; the originals may be on other meshes that are no light.
 void addLight(std::vector<std::shared_ptr<Material>>& table, Rgb luminance) {
     for (auto& material : table) {
-        auto glowing = std::make_shared<Material>(material->name());
+        auto glowing = std::make_shared<Material>(material->name(), material->textures());
         glowing->setReflectance(material->reflectance());
         glowing->setEmission(material->emissive() ? luminance * material->emission() : luminance);
         material = std::move(glowing);
+    }
+}
+
+UsdCorners cornersOf(const UsdPolygons& polygons) {
+    UsdCorners corners{{}, 0, polygons.leftHanded};
+    for (const std::int32_t count : polygons.counts) {
+        corners.firstCorner.push_back(corners.count);
+        corners.count += std::size_t(count);
+    }
+    return corners;
+}
+
+/// The material with constants in place of its textures.
+std::shared_ptr<Material> meanOf(const Material& material) {
+    auto mean = std::make_shared<Material>(material.name());
+    const auto& texture = material.textures().reflectance;
+    mean->setReflectance(texture ? material.reflectance() * texture->mean()
+                                 : material.reflectance());
+    mean->setEmission(material.meanEmission());
+    return mean;
+}
+
+/// Gives the mesh the texture coordinates that its materials want; materials that find none become
+/// constant.
+void addTexCoords(const UsdAttributes& prim, const UsdMaterials& materials,
+                  const UsdCorners& corners, const std::vector<std::size_t>& faceOf, MeshData& data,
+                  Diagnostics& diagnostics) {
+    std::map<std::string, std::vector<glm::vec2>> sets;
+    std::vector<const std::vector<glm::vec2>*> setOf;
+    for (auto& material : data.materials) {
+        const std::string name = materials.primvarOf(*material);
+        setOf.push_back(nullptr);
+        if (name.empty()) continue;
+        const auto [entry, fresh] = sets.try_emplace(name);
+        if (fresh) entry->second = usdTexCoords(prim, name, data, corners, faceOf, diagnostics);
+        if (entry->second.empty())
+            material = meanOf(*material);
+        else
+            setOf.back() = &entry->second;
+    }
+    const auto any = std::find_if(setOf.begin(), setOf.end(), [](auto* set) { return set; });
+    if (any == setOf.end()) return;
+    data.uvs = **any;
+    for (std::size_t face = 0, first = 0; face < data.faceVertexCounts.size(); ++face) {
+        const auto count = std::size_t(data.faceVertexCounts[face]);
+        const auto* set = setOf[data.faceMaterial.empty() ? 0 : data.faceMaterial[face]];
+        if (set && set != *any)
+            std::copy_n(set->begin() + std::ptrdiff_t(first), count,
+                        data.uvs.begin() + std::ptrdiff_t(first));
+        first += count;
     }
 }
 
@@ -192,6 +242,7 @@ NodePtr makeUsdMesh(const std::string& name, const UsdStage& stage, const UsdAtt
     const std::vector<std::uint16_t> faceMaterial = painter.faceMaterial();
     for (std::size_t f = 0; f < polygons.kept.size(); ++f)
         if (painter.invisible()[f]) polygons.kept[f] = 0;
+    const UsdCorners corners = cornersOf(polygons);
     std::vector<std::size_t> faceOf;
     MeshData data = toMeshData(prim, std::move(polygons), faceOf, diagnostics);
     if (faceOf.empty()) {
@@ -199,9 +250,10 @@ NodePtr makeUsdMesh(const std::string& name, const UsdStage& stage, const UsdAtt
         return nullptr;
     }
     data.materials = painter.table();
-    if (lightOf) addLight(data.materials, *lightOf);
     if (data.materials.size() > 1)
         for (const std::size_t f : faceOf) data.faceMaterial.push_back(faceMaterial[f]);
+    addTexCoords(prim, materials, corners, faceOf, data, diagnostics);
+    if (lightOf) addLight(data.materials, *lightOf);
     return std::make_shared<Mesh>(name, std::move(data));
 }
 

@@ -66,10 +66,10 @@ struct Place {
 
 class SceneBuilder {
 public:
-    SceneBuilder(UsdStage& stage, UsdTime time, UsdTracks& tracks, UsdAddresses& addresses,
-                 double metersPerUnit)
+    SceneBuilder(UsdStage& stage, UsdTime time, UsdTextures& textures, UsdTracks& tracks,
+                 UsdAddresses& addresses, double metersPerUnit)
         : stage_(stage), tracks_(tracks), addresses_(addresses), time_(time),
-          warnings_(stage.diagnostics()), materials_(stage, time, warnings_),
+          warnings_(stage.diagnostics()), materials_(stage, time, warnings_, &textures),
           objects_(stage, isShape), metersPerUnit_(metersPerUnit), places_(stage.prims().size()) {}
 
     void build(std::shared_ptr<Group> root) {
@@ -367,10 +367,13 @@ LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& o
     }
     const UsdTime time =
         options.time ? options.time : layerNumber(stage->rootLayer(), "startTimeCode");
-    const auto tracks = std::make_shared<UsdTracks>(stage);
+    const auto textures = std::make_shared<UsdTextures>(files);
+    const auto tracks = std::make_shared<UsdTracks>(stage, textures);
     if (const UsdValue* name = find(stage->rootLayer().metadata, "defaultPrim"))
         if (name->text()) loaded.addresses.defaultPrim = *name->text();
-    SceneBuilder(*stage, time, *tracks, loaded.addresses, scene.metersPerUnit).build(scene.root);
+    SceneBuilder(*stage, time, *textures, *tracks, loaded.addresses, scene.metersPerUnit)
+        .build(scene.root);
+    textures->close();
     loaded.files = stage->files();
     const auto parts = files.parts();
     loaded.files.insert(loaded.files.end(), parts.begin(), parts.end());

@@ -103,7 +103,7 @@ void UsdTracks::setTime(double timeCode) {
         if (!equal(lens, track.node->lens())) track.node->setLens(lens);
     }
     if (materials_.empty()) return;
-    UsdMaterials now(*stage_, timeCode, ignored);
+    UsdMaterials now(*stage_, timeCode, ignored, textures_.get());
     for (const MaterialTrack& track : materials_) {
         const UsdSurface& surface = now.at(track.path);
         if (!surface.material) continue;

@@ -21,7 +21,9 @@ bool usdHidden(const UsdAttributes& attributes);
 /// Remembers which prim each changing node came from, and reads those prims again at other times.
 class UsdTracks : public UsdAnimation {
 public:
-    explicit UsdTracks(std::shared_ptr<const UsdStage> stage) : stage_(std::move(stage)) {}
+    /// \param textures all that the materials have
+    UsdTracks(std::shared_ptr<const UsdStage> stage, std::shared_ptr<UsdTextures> textures)
+        : stage_(std::move(stage)), textures_(std::move(textures)) {}
     void setTime(double timeCode) override;
     bool empty() const;
 
@@ -62,6 +64,7 @@ private:
     };
 
     std::shared_ptr<const UsdStage> stage_; // the prims live in it
+    std::shared_ptr<UsdTextures> textures_;
     std::vector<TransformTrack> transforms_;
     std::vector<SwitchTrack> switches_;
     std::vector<LightTrack> lights_;

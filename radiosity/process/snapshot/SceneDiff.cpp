@@ -98,7 +98,7 @@ std::uint32_t SceneDiff::enter(const std::shared_ptr<Material>& material) {
     if (!fresh) return place->second;
     materials_.push_back({material, material->revision()});
     snapshot_.materials.push_back(
-        {material->name(), material->reflectance(), material->emission()});
+        {material->name(), material->reflectance(), material->emission(), material->textures()});
     return number;
 }
 

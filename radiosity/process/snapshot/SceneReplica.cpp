@@ -11,7 +11,7 @@ using Kind = NodeSnapshot::Kind;
 SceneReplica::SceneReplica(SceneSnapshot snapshot) : snapshot_(std::move(snapshot)) {
     for (std::uint32_t m = 0; m < snapshot_.materials.size(); ++m) {
         const MaterialSnapshot& from = snapshot_.materials[m];
-        const auto material = std::make_shared<Material>(from.name);
+        const auto material = std::make_shared<Material>(from.name, from.textures);
         material->setReflectance(from.reflectance);
         material->setEmission(from.emission);
         materials_.push_back(material);

@@ -20,6 +20,7 @@ namespace penumbra {
 struct MaterialSnapshot {
     std::string name;
     Rgb reflectance, emission;
+    MaterialTextures textures = {};
 };
 
 struct NodeSnapshot {

@@ -1,5 +1,6 @@
 // Scene snapshots and edits as bytes, and back again without trusting them.
 #include "radiosity/process/snapshot/SceneSnapshot.h"
+#include "radiosity/process/snapshot/TextureCodec.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +25,7 @@ void writeMesh(ByteWriter& out, const MeshData& mesh) {
     out.list(mesh.holes);
     out.put(std::uint8_t(mesh.doubleSided));
     out.list(mesh.faceMaterial);
+    out.list(mesh.uvs);
 }
 
 MeshData readMesh(ByteReader& in) {
@@ -41,6 +43,7 @@ MeshData readMesh(ByteReader& in) {
     mesh.holes = in.list<std::int32_t>();
     mesh.doubleSided = in.get<std::uint8_t>() != 0;
     mesh.faceMaterial = in.list<std::uint16_t>();
+    mesh.uvs = in.list<glm::vec2>();
     return mesh;
 }
 
@@ -72,6 +75,9 @@ bool sound(const MeshData& mesh, std::size_t materials) {
            all(mesh.corners,
                [&](const Corner& c) { return isPoint(c.vertex) && std::isfinite(c.sharpness); }) &&
            all(mesh.holes, below(mesh.faceVertexCounts.size())) && materials > 0 &&
+           (mesh.uvs.empty() || mesh.uvs.size() == corners) &&
+           all(mesh.uvs,
+               [](glm::vec2 uv) { return std::isfinite(uv.x) && std::isfinite(uv.y); }) &&
            (mesh.faceMaterial.empty() ||
             (mesh.faceMaterial.size() == mesh.faceVertexCounts.size() &&
              all(mesh.faceMaterial, below(materials))));
@@ -216,6 +222,10 @@ void write(ByteWriter& out, const SceneSnapshot& snapshot) {
         out.put(material.reflectance);
         out.put(material.emission);
     }
+    std::vector<MaterialTextures> textures;
+    for (const MaterialSnapshot& material : snapshot.materials)
+        textures.push_back(material.textures);
+    writeTextures(out, textures);
     out.put(std::uint64_t(snapshot.nodes.size()));
     for (const NodeSnapshot& node : snapshot.nodes) writeNode(out, node);
 }
@@ -228,6 +238,8 @@ std::optional<SceneSnapshot> readSceneSnapshot(ByteReader& in) {
         material.reflectance = in.get<Rgb>();
         material.emission = in.get<Rgb>();
     }
+    const auto textures = readTextures(in, snapshot.materials.size());
+    for (std::size_t m = 0; m < textures.size(); ++m) snapshot.materials[m].textures = textures[m];
     const std::size_t nodes = in.count(sizeof(Kind));
     for (std::size_t n = 0; n < nodes && in.ok(); ++n) snapshot.nodes.push_back(readNode(in));
     if (!in.ok() || !sound(snapshot)) return std::nullopt;

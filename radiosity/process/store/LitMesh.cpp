@@ -58,16 +58,19 @@ void writeElements(ByteWriter& out, const PatchSet& set, std::uint32_t object,
                    std::span<const std::uint32_t> elements) {
     std::vector<std::array<std::uint32_t, 4>> corners;
     std::vector<std::uint32_t> materials, patches;
+    std::vector<std::array<glm::vec2, 4>> uvs;
     for (std::uint32_t e : elements) {
         std::array<std::uint32_t, 4> local = set.uncoveredElements[e].vertices;
         for (std::uint32_t& v : local) v -= set.objects[object].vertices.first;
         corners.push_back(local);
         materials.push_back(set.elements[e].material);
         patches.push_back(set.uncoveredElements[e].patch);
+        if (!set.textures.uvs.empty()) uvs.push_back(set.textures.uvs[e]);
     }
     out.list(corners);
     out.list(materials);
     out.list(patches);
+    out.list(uvs);
 }
 
 void writeRays(ByteWriter& out, const ObjectPart& part, const RayMesh& rays) {
@@ -88,6 +91,7 @@ void writeEmitters(ByteWriter& out, const LitScene& scene, const SceneReplica& g
         const Emitter& emitter = part.movable ? part.shape.emitters[i] : set.emitters[e];
         out.text(emitter.path);
         out.put(graph.numberOf(scene.built().emitterSources[e].material));
+        out.put(emitter.texture);
         out.put(std::uint64_t(emitter.polygons.size()));
         for (const auto& polygon : emitter.polygons) out.list(polygon);
     }
@@ -99,6 +103,7 @@ std::vector<LitMeshEmitter> readEmitters(ByteReader& in) {
     for (LitMeshEmitter& emitter : emitters) {
         emitter.path = in.text();
         emitter.material = in.get<std::uint32_t>();
+        emitter.texture = in.get<Rgb>();
         emitter.polygons.resize(in.count(kLength));
         for (auto& polygon : emitter.polygons) polygon = in.list<glm::vec3>();
     }
@@ -160,6 +165,7 @@ std::optional<LitMeshObject> LitMeshReader::next() {
     object.elements = reader_.list<std::array<std::uint32_t, 4>>();
     object.elementMaterial = reader_.list<std::uint32_t>();
     object.elementPatch = reader_.list<std::uint32_t>();
+    object.elementUvs = reader_.list<std::array<glm::vec2, 4>>();
     object.rays.vertices = reader_.list<glm::vec3>();
     object.rays.triangles = reader_.list<std::array<std::uint32_t, 3>>();
     object.rays.solid = reader_.list<std::uint8_t>();
@@ -208,6 +214,7 @@ bool LitMeshReader::sound(const LitMeshObject& object) const {
                        [](const LitMeshEmitter& emitter) { return penumbra::sound(emitter); }) &&
            object.elementMaterial.size() == object.elements.size() &&
            object.elementPatch.size() == object.elements.size() &&
+           (object.elementUvs.empty() || object.elementUvs.size() == object.elements.size()) &&
            std::all_of(object.positions.begin(), object.positions.end(), canBeTraced) &&
            std::all_of(object.normals.begin(), object.normals.end(), canBeTraced) &&
            std::all_of(object.receivers.begin(), object.receivers.end(), canBeTraced) &&

@@ -26,15 +26,16 @@ std::size_t indexCount(const std::array<std::uint32_t, 4>& base) {
     return base[2] == base[3] ? 3 : 6;
 }
 
-/// Emitters of one mesh follow each other. Meshes with several emitting materials are left out:
-/// one factor says nothing of two brightnesses.
+/// Emitters of one mesh follow each other. Meshes with several emitting materials, or with
+/// textures that emit, are left out: one factor says nothing of two brightnesses.
 std::vector<EmissiveMesh> emissiveOf(std::vector<LitMeshEmitter> emitters) {
     std::vector<EmissiveMesh> emissive;
     for (std::size_t first = 0, end = 0; first < emitters.size(); first = end) {
-        bool alike = true;
+        bool alike = emitters[first].texture == Rgb(1);
         for (end = first + 1; end < emitters.size() && emitters[end].path == emitters[first].path;
              ++end)
-            alike &= emitters[end].material == emitters[first].material;
+            alike &= emitters[end].material == emitters[first].material &&
+                     emitters[end].texture == Rgb(1);
         if (!alike) continue;
         EmissiveMesh& mesh = emissive.emplace_back();
         mesh.path = std::move(emitters[first].path);
@@ -112,6 +113,12 @@ void LitObjects::takeObject(const Colour& colour) {
         part.data.trianglePatch.resize(part.data.indices.size() / 3, object->elementPatch[e]);
         part.changed.push_back(e);
     }
+    if (!object->elementUvs.empty()) { // vertices are double where these differ
+        part.data.uvs.resize(vertices);
+        for (std::size_t e = 0; e < part.base.size(); ++e)
+            for (std::size_t k = 0; k < 4; ++k)
+                part.data.uvs[part.base[e][k]] = object->elementUvs[e][k];
+    }
     part.missing = std::uint32_t(vertices / kBlock);
     for (std::uint32_t b = 0; b < part.missing; ++b)
         slots_[object->firstBlock + b] = {number, b, false};
@@ -137,6 +144,7 @@ void LitObjects::takePrivate(const StoreReader::Got& got, Slot& slot) {
     part.standsFor.resize(part.standsFor.size() + kBlock, kNoCorner);
     edit(slot.object, [&](LitMeshData& data) {
         for (auto* points : {&data.positions, &data.normals}) points->resize(part.standsFor.size());
+        if (!data.uvs.empty()) data.uvs.resize(part.standsFor.size());
         for (auto* light : {&data.direct, &data.indirect}) light->resize(part.standsFor.size());
     });
     if (!entries_[slot.object].geometry) growShares(part.shares, part.standsFor.size());
@@ -215,6 +223,7 @@ void LitObjects::writeTriangles() {
                     if (now[k] == base[k]) continue;
                     data.positions[now[k]] = data.positions[base[k]];
                     data.normals[now[k]] = data.normals[base[k]];
+                    if (!data.uvs.empty()) data.uvs[now[k]] = data.uvs[base[k]];
                 }
             }
         });
