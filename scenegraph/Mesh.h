@@ -41,6 +41,9 @@ struct MeshData {
     std::vector<Corner> corners;
     std::vector<std::int32_t> holes; ///< indices of faces that are not there (subdivision only)
     bool doubleSided = false;        ///< both sides reflect and are drawn
+    /// Of the surface that the faces stand for, one a corner as in faceVertexIndices: unit, or zero
+    /// where a corner has none. Empty: faces are as flat as they are. Not of subdivision surfaces.
+    std::vector<glm::vec3> normals = {};
 
     std::vector<std::shared_ptr<Material>> materials; ///< at least one
     std::vector<std::uint16_t> faceMaterial; ///< index into materials; empty: all faces use 0

@@ -7,6 +7,7 @@
 #include "radiosity/mesh/SurfaceMesh.h"
 #include "radiosity/mesh/Tessellation.h"
 #include "radiosity/rays/Margins.h"
+#include "scenegraph/Backdrops.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Mesh.h"
 
@@ -27,6 +28,8 @@ struct Surface {
     std::string path;
     const Light* light = nullptr;
     glm::dmat4 toShape{1.0};
+    double area = 0;       ///< of all faces [m^2]
+    bool backdrop = false; ///< see Backdrops.h; of the fixed part alone
 };
 
 std::uint64_t keyOf(const std::string& path) { // FNV-1a, 64 bits
@@ -52,6 +55,26 @@ void listObjects(const PlacedScene& scene, PatchSet& out) {
     out.rayMeshes.resize(out.objects.size());
 }
 
+double areaOf(const SurfaceMesh& mesh) {
+    double area = 0;
+    for (const SurfaceFace& face : mesh.faces)
+        area += 0.5 * glm::length(newellNormal(mesh.points, mesh.cornersOf(face)));
+    return area;
+}
+
+/// Finds the backdrops. Movable things take no part: it holds wherever they are.
+void markBackdrops(std::vector<Surface>& surfaces, const PatchSet& set) {
+    std::vector<PieceSize> pieces(surfaces.size());
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        surfaces[i].area = areaOf(surfaces[i].mesh);
+        if (set.objects[surfaces[i].object.value].movable) continue;
+        pieces[i].area = surfaces[i].area;
+        for (glm::vec3 point : surfaces[i].mesh.points) pieces[i].bounds.add(point);
+    }
+    const std::vector<std::uint8_t> backdrops = backdropsAmong(pieces);
+    for (std::size_t i = 0; i < surfaces.size(); ++i) surfaces[i].backdrop = backdrops[i] != 0;
+}
+
 /// The surfaces, object by object.
 std::vector<Surface> placeSurfaces(const PlacedScene& scene, const PatchSet& set,
                                    std::vector<MeshData>& lightMeshes) {
@@ -71,6 +94,7 @@ std::vector<Surface> placeSurfaces(const PlacedScene& scene, const PatchSet& set
     }
     std::stable_sort(surfaces.begin(), surfaces.end(),
                      [](const Surface& a, const Surface& b) { return a.object < b.object; });
+    markBackdrops(surfaces, set);
     return surfaces;
 }
 
@@ -108,13 +132,26 @@ void chooseAllSides(std::vector<Surface>& surfaces, BuiltPatches& built) {
     built.enclosuresLit = built.enclosures.lit(set);
 }
 
-double litArea(const std::vector<Surface>& surfaces) {
-    double area = 0;
-    for (const Surface& surface : surfaces)
-        for (const SurfaceFace& face : surface.mesh.faces)
-            area +=
-                0.5 * glm::length(newellNormal(surface.mesh.points, surface.mesh.cornersOf(face)));
+/// Area of all surfaces [m^2], and without backdrops.
+struct SceneArea {
+    double all = 0, within = 0;
+};
+
+SceneArea areaOf(const std::vector<Surface>& surfaces) {
+    SceneArea area;
+    for (const Surface& surface : surfaces) {
+        area.all += surface.area;
+        if (!surface.backdrop) area.within += surface.area;
+    }
     return area;
+}
+
+/// How much larger than elsewhere the patches and elements of a surface are: 1, but a backdrop
+/// makes no more than some kMostPatches.
+float coarseness(const Surface& surface, float patchSize) {
+    constexpr double kMostPatches = 6000;
+    if (!surface.backdrop) return 1;
+    return std::max(1.0f, float(std::sqrt(surface.area / kMostPatches)) / patchSize);
 }
 
 /// Collects emissive polygons as emitters. Small ones that lie close together, like the faces of a
@@ -303,19 +340,29 @@ private:
 };
 
 /// Stops before a slip of a digit fills the memory or overflows the ray tracer's single precision.
-void refuseTooMuch(const PatchSet& set, double area) {
+void refuseTooMuch(const PatchSet& set, const std::vector<Surface>& surfaces) {
     constexpr double kWidest = 1e7; // [m]
     constexpr double kMostElements = 5e7;
     if (!(set.bounds.diagonal() < kWidest))
         throw Error("the scene is more than 10,000 km wide (check its points and metersPerUnit)");
-    const double elements = area / (double(set.elementSize) * set.elementSize);
+    double elements = 0;
+    for (const Surface& surface : surfaces) {
+        const double size = double(set.elementSize) * coarseness(surface, set.patchSize);
+        elements += surface.area / (size * size);
+    }
     if (elements > kMostElements)
         throw Error("this would make some " + std::to_string(std::int64_t(elements / 1e6)) +
                     " million elements (choose a larger --element-size)");
 }
 
-MeshingOptions resolved(MeshingOptions sizes, double area) {
-    if (!(sizes.patchSize > 0)) sizes.patchSize = defaultPatchSize(area);
+/// In a larger building people stand as near to things as in a room [m].
+constexpr float kRoomPatch = 0.5f;
+
+MeshingOptions resolved(MeshingOptions sizes, SceneArea area) {
+    if (!(sizes.patchSize > 0)) {
+        sizes.patchSize = defaultPatchSize(area.all);
+        if (sizes.patchSize > kRoomPatch) sizes.patchSize = defaultPatchSize(area.within);
+    }
     if (!(sizes.elementSize > 0)) sizes.elementSize = sizes.patchSize / 8;
     sizes.patchSize = std::max(sizes.patchSize, sizes.elementSize);
     return sizes;
@@ -328,11 +375,10 @@ void setSizes(const std::vector<Surface>& surfaces, const MeshingOptions& option
         for (glm::vec3 point : surface.mesh.points) out.bounds.add(pose.point(point));
         if (!surface.light) out.polygons += surface.mesh.used;
     }
-    const double area = litArea(surfaces);
-    const MeshingOptions sizes = resolved(options, area);
+    const MeshingOptions sizes = resolved(options, areaOf(surfaces));
     out.patchSize = sizes.patchSize;
     out.elementSize = sizes.elementSize;
-    refuseTooMuch(out, area);
+    refuseTooMuch(out, surfaces);
     out.skin = skinOf(out.patchSize);
     out.farthest = magnitude(out.bounds);
 }
@@ -341,8 +387,9 @@ void addSurface(const Surface& surface, PatchAssembly& assembly, LeftOut& leftOu
                 BuiltPatches& built) {
     PatchSet& out = built.patches;
     bool understood = true;
+    const float coarser = coarseness(surface, out.patchSize);
     const Tessellation tessellation =
-        tessellate(surface.mesh, out.patchSize, out.elementSize, understood);
+        tessellate(surface.mesh, coarser * out.patchSize, coarser * out.elementSize, understood);
     if (!understood)
         built.warnings.push_back(
             surface.path + ": OpenSubdiv refuses this cage; its polygons are used as they are");
@@ -372,14 +419,13 @@ MeshingOptions resolvedSizes(const PlacedScene& scene, MeshingOptions sizes) {
     PatchSet set;
     listObjects(scene, set);
     std::vector<MeshData> lightMeshes;
-    return resolved(sizes, litArea(placeSurfaces(scene, set, lightMeshes)));
+    return resolved(sizes, areaOf(placeSurfaces(scene, set, lightMeshes)));
 }
 
 float defaultPatchSize(double area) {
-    constexpr double kRoom =
-        0.5; // in a larger building people stand as near to things as in a room
     const double size = std::sqrt(std::max(area, 1e-12) / 1650.0);
-    return float(size <= kRoom ? size : std::max(kRoom, std::sqrt(area / 6000.0)));
+    return float(size <= kRoomPatch ? size
+                                    : std::max<double>(kRoomPatch, std::sqrt(area / 6000.0)));
 }
 
 BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& options) {

@@ -55,8 +55,11 @@ BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& option
 MeshingOptions resolvedSizes(const PlacedScene& scene, MeshingOptions sizes);
 
 /// sqrt(area / 1650), so that a room has some thousand patches whether it is half a metre wide or
-/// ten; beyond half a metre the number grows before the size does, up to sqrt(area / 6000). \param
-/// area of all surfaces [m^2]
+/// ten; beyond half a metre the number grows before the size does, up to sqrt(area / 6000). There
+/// backdrops (see Backdrops.h) are not counted: a ground of hundreds of metres does not make
+/// patches of metres in the room that stands on it. A backdrop itself is cut into no more than
+/// some 6000 patches, and elements in proportion, whatever the sizes are.
+/// \param area of all surfaces that count [m^2]
 float defaultPatchSize(double area);
 
 } // namespace penumbra

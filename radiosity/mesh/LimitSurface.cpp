@@ -28,10 +28,24 @@ glm::vec3 unitOr(glm::vec3 v, glm::vec3 fallback) {
     return length > 0 ? v / length : fallback;
 }
 
+/// A normal of the file, no more than 60 degrees off the surface's own.
+glm::vec3 bent(glm::vec3 shading, glm::vec3 own) {
+    constexpr float kLeast = 0.5f; // cosine
+    const float length = glm::length(shading);
+    if (!(length > 0)) return own;
+    shading /= length;
+    const float along = glm::dot(shading, own);
+    if (along >= kLeast) return shading;
+    const glm::vec3 aside = unitOr(shading - along * own, glm::vec3(0));
+    if (aside == glm::vec3(0)) return own;
+    return kLeast * own + std::sqrt(1 - kLeast * kLeast) * aside;
+}
+
 /// A polygon: bilinear over its (sub-)quadrilaterals, which for a planar one is the plane.
 class PolygonSurface : public FaceSurface {
 public:
-    PolygonSurface(const SurfaceMesh& mesh, std::span<const std::uint32_t> corners)
+    PolygonSurface(const SurfaceMesh& mesh, const SurfaceFace& face,
+                   std::span<const std::uint32_t> corners)
         : FaceSurface(int(corners.size())) {
         for (std::uint32_t corner : corners) {
             points_.push_back(mesh.points[corner]);
@@ -44,30 +58,59 @@ public:
             reach = std::max(reach, glm::length(p - centre_));
         }
         planar_ = depth <= 1e-4f * reach;
+        if (!mesh.normals.empty()) takeNormals(mesh, face, corners);
     }
 
     SurfacePoint at(glm::vec2 uv) const override {
-        std::array<glm::vec3, 4> q{};
         glm::vec2 st = uv;
-        if (hasSubFaces()) {
-            const int n = size(), i = toSubFace(uv, st);
-            const auto corner = [&](int k) { return points_[std::size_t((k + n) % n)]; };
-            q = {corner(i), 0.5f * (corner(i) + corner(i + 1)), centre_,
-                 0.5f * (corner(i) + corner(i - 1))};
-        } else {
-            std::copy(points_.begin(), points_.end(), q.begin());
-        }
+        const int sub = hasSubFaces() ? toSubFace(uv, st) : 0;
+        const std::array<glm::vec3, 4> q = around(points_, centre_, sub);
         const glm::vec3 bottom = glm::mix(q[0], q[1], st.x), top = glm::mix(q[3], q[2], st.x);
         SurfacePoint point{glm::mix(bottom, top, st.y), normal_};
         if (!planar_) {
             const glm::vec3 du = glm::mix(q[1] - q[0], q[2] - q[3], st.y);
             point.normal = unitOr(glm::cross(du, top - bottom), normal_);
         }
+        if (!normals_.empty()) {
+            const std::array<glm::vec3, 4> n = around(normals_, middleNormal_, sub);
+            point.normal =
+                bent(glm::mix(glm::mix(n[0], n[1], st.x), glm::mix(n[3], n[2], st.x), st.y),
+                     point.normal);
+        }
         return point;
     }
 
 private:
+    /// What the corners of a sub-quadrilateral have. \param middle what the centre has
+    std::array<glm::vec3, 4> around(const std::vector<glm::vec3>& values, glm::vec3 middle,
+                                    int sub) const {
+        if (!hasSubFaces()) return {values[0], values[1], values[2], values[3]};
+        const int n = size();
+        const auto corner = [&](int k) { return values[std::size_t((k + n) % n)]; };
+        return {corner(sub), 0.5f * (corner(sub) + corner(sub + 1)), middle,
+                0.5f * (corner(sub) + corner(sub - 1))};
+    }
+    /// Those of the file; the polygon's own where it has none.
+    void takeNormals(const SurfaceMesh& mesh, const SurfaceFace& face,
+                     std::span<const std::uint32_t> corners) {
+        const auto points = mesh.cornersOf(face);
+        const auto normals = mesh.normalsOf(face);
+        bool away = true;
+        for (const std::uint32_t corner : corners) {
+            const auto at = std::find(points.begin(), points.end(), corner) - points.begin();
+            const glm::vec3 normal = normals[std::size_t(at)];
+            normals_.push_back(normal == glm::vec3(0) ? normal_ : normal);
+            away = away && glm::dot(normals_.back(), normal_) < 0;
+        }
+        for (glm::vec3& normal : normals_) {
+            if (away) normal = -normal;
+            middleNormal_ += normal / float(normals_.size());
+        }
+    }
+
     std::vector<glm::vec3> points_;
+    std::vector<glm::vec3> normals_; // of the file, at the corners; empty: none
+    glm::vec3 middleNormal_{0};
     glm::vec3 centre_{0}, normal_{};
     bool planar_ = true;
 };
@@ -322,14 +365,15 @@ LimitSurface::LimitSurface(const SurfaceMesh& mesh) : mesh_(mesh) {
 LimitSurface::~LimitSurface() = default;
 
 std::unique_ptr<FaceSurface> LimitSurface::face(std::uint32_t index) const {
-    if (!refined_) return polygon(mesh_.cornersOf(mesh_.faces[index]));
+    if (!refined_) return polygon(index, mesh_.cornersOf(mesh_.faces[index]));
     Bfr::Surface<float> surface;
     if (!refined_->factory.InitVertexSurface(int(index), &surface)) return nullptr;
     return std::make_unique<SubdivisionFace>(surface, mesh_.points);
 }
 
-std::unique_ptr<FaceSurface> LimitSurface::polygon(std::span<const std::uint32_t> corners) const {
-    return std::make_unique<PolygonSurface>(mesh_, corners);
+std::unique_ptr<FaceSurface> LimitSurface::polygon(std::uint32_t index,
+                                                   std::span<const std::uint32_t> corners) const {
+    return std::make_unique<PolygonSurface>(mesh_, mesh_.faces[index], corners);
 }
 
 } // namespace penumbra

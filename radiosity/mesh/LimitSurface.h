@@ -12,7 +12,10 @@
 
 namespace penumbra {
 
-/// A point on the limit surface.
+/// A point on the limit surface, or on a polygon. There a normal of the file, interpolated between
+/// the corners, is turned towards the polygon's own if it is more than 60 degrees off: receivers
+/// hover over their surface along it. Normals that all point away from a polygon's front are taken
+/// as the opposite ones.
 struct SurfacePoint {
     glm::vec3 position;
     glm::vec3 normal; ///< unit, of the front
@@ -83,8 +86,9 @@ public:
     bool understood() const { return understood_; }
     /// \return null if the face has no limit surface
     std::unique_ptr<FaceSurface> face(std::uint32_t index) const;
-    /// The polygon of some points of the mesh, two of which may be the same.
-    std::unique_ptr<FaceSurface> polygon(std::span<const std::uint32_t> corners) const;
+    /// The polygon of some corners of a face, two of which may be the same.
+    std::unique_ptr<FaceSurface> polygon(std::uint32_t index,
+                                         std::span<const std::uint32_t> corners) const;
 
 private:
     struct Refined;

@@ -283,6 +283,34 @@ glm::dvec3 newellNormal(std::span<const glm::vec3> points, std::span<const std::
     return normal;
 }
 
+namespace {
+
+/// Brings the normals of the mesh's corners to the faces that were made of it.
+/// \param weld of its points, empty: each is its own
+void placeNormals(SurfaceMesh& mesh, std::span<const std::uint32_t> weld,
+                  const glm::dmat4& toWorld) {
+    const MeshData& data = *mesh.data;
+    if (data.normals.empty() || weld.empty()) return;
+    const glm::dmat3 turn = glm::transpose(glm::inverse(glm::dmat3(toWorld)));
+    std::vector<std::size_t> first;
+    std::size_t next = 0;
+    for (const std::int32_t count : data.faceVertexCounts) {
+        first.push_back(next);
+        next += std::size_t(count);
+    }
+    for (const SurfaceFace& face : mesh.faces)
+        for (const std::uint32_t corner : mesh.cornersOf(face)) {
+            std::size_t at = first[face.source];
+            while (weld[std::size_t(data.faceVertexIndices[at])] != corner) ++at;
+            const glm::dvec3 normal = turn * glm::dvec3(data.normals[at]);
+            const double length = glm::length(normal);
+            mesh.normals.push_back(length > 0 && std::isfinite(length) ? glm::vec3(normal / length)
+                                                                       : glm::vec3(0));
+        }
+}
+
+} // namespace
+
 SurfaceMesh placeSurface(const MeshData& data, const glm::dmat4& toWorld) {
     SurfaceMesh mesh;
     mesh.data = &data;
@@ -321,6 +349,7 @@ SurfaceMesh placeSurface(const MeshData& data, const glm::dmat4& toWorld) {
         else
             ++mesh.skipped;
     }
+    placeNormals(mesh, weld, toWorld);
     return mesh;
 }
 

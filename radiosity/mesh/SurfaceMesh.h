@@ -29,9 +29,10 @@ struct SurfaceMesh {
     std::vector<glm::vec3> points;      ///< [m, world]
     std::vector<std::uint32_t> corners; ///< indices into points, face by face
     std::vector<SurfaceFace> faces;
-    std::vector<glm::vec2> uvs; ///< texture coordinates, one a corner; empty: no textures
-    std::size_t skipped = 0; ///< faces that can't be used
-    std::size_t used = 0;    ///< faces of the scene's mesh that were used
+    std::vector<glm::vec2> uvs;     ///< texture coordinates, one a corner; empty: no textures
+    std::vector<glm::vec3> normals; ///< of MeshData, one a corner: unit or zero; empty: none
+    std::size_t skipped = 0;        ///< faces that can't be used
+    std::size_t used = 0;           ///< faces of the scene's mesh that were used
 
     std::span<const std::uint32_t> cornersOf(const SurfaceFace& face) const {
         return std::span(corners).subspan(face.firstCorner, face.cornerCount);
@@ -39,6 +40,10 @@ struct SurfaceMesh {
     std::span<const glm::vec2> uvsOf(const SurfaceFace& face) const {
         return uvs.empty() ? std::span<const glm::vec2>()
                            : std::span(uvs).subspan(face.firstCorner, face.cornerCount);
+    }
+    std::span<const glm::vec3> normalsOf(const SurfaceFace& face) const {
+        return normals.empty() ? std::span<const glm::vec3>()
+                               : std::span(normals).subspan(face.firstCorner, face.cornerCount);
     }
     const Material& materialOf(const SurfaceFace& face) const {
         return *data->materialOf(face.source);

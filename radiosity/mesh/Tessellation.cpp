@@ -23,7 +23,7 @@ public:
             auto face = surface_.face(f);
             if (!face) continue;
             const auto corners = rates_.cornersOf(f);
-            if (corners.size() != mesh_.faces[f].cornerCount) face = surface_.polygon(corners);
+            if (corners.size() != mesh_.faces[f].cornerCount) face = surface_.polygon(f, corners);
             uvs_ = uvsOfCorners(f);
             addFace(f, *face);
         }

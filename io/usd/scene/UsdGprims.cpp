@@ -118,12 +118,45 @@ void makePlane(UsdPolygons& p, double width, double length, char axis) {
     addFace(p, {0, 1, 2, 3});
 }
 
+// The true surface's normal at a corner of a face, before it is turned to its axis; zero where it
+// is the face's own. \param middle of the face: an apex has no normal of its own
+glm::vec3 normalAt(const std::string& type, glm::vec3 corner, glm::vec3 middle, double radius,
+                   double height) {
+    const glm::vec3 outwards = glm::normalize(glm::vec3(middle.x, middle.y, 0));
+    const bool apex = corner.x == 0 && corner.y == 0;
+    const glm::vec3 side = apex ? outwards : glm::normalize(glm::vec3(corner.x, corner.y, 0));
+    if (type == "Sphere") return glm::normalize(corner);
+    if (type == "Cylinder") return side;
+    if (type == "Cone")
+        return glm::normalize(float(height) * side + glm::vec3(0, 0, float(radius)));
+    const float straight = float(height / 2); // a capsule's, either way from its middle
+    return glm::normalize(corner - glm::vec3(0, 0, std::clamp(corner.z, -straight, straight)));
+}
+
+// Normals of the round sides, so that these are lit as round. Caps and flat things stay flat.
+void addNormals(UsdPolygons& p, const std::string& type, double radius, double height) {
+    if (type == "Cube" || type == "Plane") return;
+    std::size_t offset = 0;
+    for (const std::int32_t count : p.counts) {
+        glm::vec3 middle(0);
+        for (std::int32_t k = 0; k < count; ++k)
+            middle += p.points[std::size_t(p.indices[offset + std::size_t(k)])] / float(count);
+        for (std::int32_t k = 0; k < count; ++k, ++offset) {
+            const glm::vec3 corner = p.points[std::size_t(p.indices[offset])];
+            p.normals.push_back(
+                count == kSegments ? glm::vec3(0) : normalAt(type, corner, middle, radius, height));
+        }
+    }
+}
+
 // What was made about Z is turned to another axis by exchanging coordinates cyclically.
 void turnToAxis(UsdPolygons& p, char axis) {
-    for (glm::vec3& v : p.points) {
+    const auto turn = [&](glm::vec3& v) {
         if (axis == 'X') v = {v.z, v.x, v.y};
         if (axis == 'Y') v = {v.y, v.z, v.x};
-    }
+    };
+    std::for_each(p.points.begin(), p.points.end(), turn);
+    std::for_each(p.normals.begin(), p.normals.end(), turn);
 }
 
 } // namespace
@@ -146,11 +179,15 @@ UsdPolygons makeUsdGprim(const UsdAttributes& prim, Diagnostics& diagnostics) {
     const char axis = axisName.size() == 1 ? axisName[0] : 'Z';
     UsdPolygons p;
     if (type == "Cube") makeCube(p, size("size", 2));
-    if (type == "Sphere") makeCapsule(p, size("radius", 1), 0);
-    if (type == "Cylinder") makeCylinder(p, size("radius", 1), size("height", 2));
-    if (type == "Cone") makeCone(p, size("radius", 1), size("height", 2));
-    if (type == "Capsule") makeCapsule(p, size("radius", 0.5), size("height", 1));
+    const bool round = type != "Cube" && type != "Plane";
+    const bool capsule = type == "Capsule";
+    const double radius = round ? size("radius", capsule ? 0.5 : 1) : 0;
+    const double height = round && type != "Sphere" ? size("height", capsule ? 1 : 2) : 0;
+    if (type == "Sphere" || capsule) makeCapsule(p, radius, height);
+    if (type == "Cylinder") makeCylinder(p, radius, height);
+    if (type == "Cone") makeCone(p, radius, height);
     if (type == "Plane") makePlane(p, size("width", 2), size("length", 2), axis);
+    if (usable) addNormals(p, type, radius, height);
     if (type != "Plane" && type != "Cube" && type != "Sphere") turnToAxis(p, axis);
     if (!usable) {
         diagnostics.warn(prim.prim().location(), "a " + type + " without size left out");

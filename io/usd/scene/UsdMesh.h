@@ -13,6 +13,7 @@ struct UsdInherited {
     std::string material;             ///< path of the bound material; empty: none
     bool materialIsStronger = false;  ///< an ancestor's binding overrules those below
     std::optional<Rgb> displayColour; ///< constant primvar
+    bool operator==(const UsdInherited&) const = default;
 };
 
 /// Makes the mesh of a gprim; null, with a warning, if no face is left. Each face takes the first

@@ -64,6 +64,10 @@ void UsdObjects::addTransform(std::size_t prim, const std::shared_ptr<Transform>
     entries_[prim].transform = transform;
 }
 
+void UsdObjects::addInstance(std::size_t instancer, const std::shared_ptr<Transform>& transform) {
+    instances_.push_back({instancer, transform});
+}
+
 void UsdObjects::addShape(std::size_t prim, const Bounds& box) {
     for (std::size_t p = prim;; p = stage_.prims()[p].parent) {
         Entry& entry = entries_[p];
@@ -84,7 +88,7 @@ bool UsdObjects::isThing(const Entry& entry) const {
 
 bool UsdObjects::isObject(const Entry& entry) const {
     if (entry.transform->movable() || entry.shape) return true;
-    if (entry.partCount == parts_.size()) return false; // all of the scene
+    if (entry.partCount == parts_.size() && instances_.empty()) return false; // all of the scene
     return entry.model || (entry.shapesHeld > 0 && isThing(entry));
 }
 
@@ -95,8 +99,11 @@ void UsdObjects::mark() const {
         inside[p] = inside[stage_.prims()[p].parent];
         if (inside[p] || !entry.transform) continue;
         inside[p] = isObject(entry);
-        if (inside[p] || entry.shapesHeld > 0) entry.transform->setBeginsObject(true);
+        const bool holds = entry.shapesHeld > 0 && entry.partCount > 0; // not prototypes alone
+        if (inside[p] || holds) entry.transform->setBeginsObject(true);
     }
+    for (const Instance& instance : instances_)
+        if (!inside[instance.instancer]) instance.transform->setBeginsObject(true);
 }
 
 } // namespace penumbra

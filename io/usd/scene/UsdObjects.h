@@ -37,6 +37,8 @@ public:
     bool needsTransform(const UsdPrim& prim) const;
 
     void addTransform(std::size_t prim, const std::shared_ptr<Transform>& transform);
+    /// One of those that a PointInstancer makes, an object unless the instancer is within one.
+    void addInstance(std::size_t instancer, const std::shared_ptr<Transform>& transform);
     /// \param box of the shape at a prim [m, world]
     void addShape(std::size_t prim, const Bounds& box);
 
@@ -58,6 +60,12 @@ private:
     bool isThing(const Entry& entry) const;
 
     const UsdStage& stage_;
+    struct Instance {
+        std::size_t instancer = 0; ///< a prim
+        std::shared_ptr<Transform> transform;
+    };
+
+    std::vector<Instance> instances_;
     std::vector<Entry> entries_; ///< one a prim
     std::vector<Bounds> parts_;  ///< in the order of the prims
 };

@@ -1,5 +1,7 @@
 #include "io/usd/scene/UsdPolygons.h"
 
+#include "io/usd/scene/UsdNormals.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -97,6 +99,7 @@ UsdPolygons readUsdPolygons(const UsdAttributes& mesh, Diagnostics& diagnostics)
     p.leftHanded = mesh.text("orientation", "rightHanded") == "leftHanded";
     p.doubleSided = mesh.flag("doubleSided", false);
     checkFaces(mesh, p, diagnostics);
+    p.normals = readUsdNormals(mesh, p, diagnostics);
     // Without subdivision a hole is a face that isn't drawn; with it, the face still shapes its
     // neighbours.
     if (p.scheme == SubdivisionScheme::none)
@@ -170,16 +173,19 @@ MeshData toMeshData(const UsdAttributes& mesh, UsdPolygons polygons,
     std::size_t offset = 0;
     for (std::size_t f = 0; f < polygons.counts.size(); ++f) {
         const auto count = std::size_t(polygons.counts[f]);
+        const std::size_t first = offset;
         const std::int32_t* face = polygons.indices.data() + offset;
         offset += count;
         if (!polygons.kept[f]) continue;
         newFace[f] = std::int32_t(faceOf.size());
         faceOf.push_back(f);
         data.faceVertexCounts.push_back(polygons.counts[f]);
-        data.faceVertexIndices.push_back(face[0]);
-        for (std::size_t i = 1; i < count;
-             ++i) // clockwise ones are turned, from the same first corner
-            data.faceVertexIndices.push_back(face[polygons.leftHanded ? count - i : i]);
+        for (std::size_t i = 0; i < count; ++i) {
+            // Clockwise ones are turned, from the same first corner.
+            const std::size_t from = polygons.leftHanded && i > 0 ? count - i : i;
+            data.faceVertexIndices.push_back(face[from]);
+            if (!polygons.normals.empty()) data.normals.push_back(polygons.normals[first + from]);
+        }
     }
     data.points = std::move(polygons.points);
     for (glm::vec3& p : data.points)

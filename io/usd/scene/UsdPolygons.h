@@ -17,6 +17,7 @@ struct UsdPolygons {
     std::vector<std::int32_t> counts;  ///< corners of each face
     std::vector<std::int32_t> indices; ///< as many as the counts add up to
     std::vector<std::uint8_t> kept;    ///< one a face: 1 if it can be used
+    std::vector<glm::vec3> normals;    ///< one an index, see UsdNormals.h; empty: none
     SubdivisionScheme scheme = SubdivisionScheme::none;
     bool leftHanded = false; ///< faces are clockwise seen from their front
     bool doubleSided = false;

@@ -4,10 +4,12 @@
 #include "io/usd/scene/UsdCamera.h"
 #include "io/usd/scene/UsdContents.h"
 #include "io/usd/scene/UsdGprims.h"
+#include "io/usd/scene/UsdInstances.h"
 #include "io/usd/scene/UsdLight.h"
 #include "io/usd/scene/UsdMaterial.h"
 #include "io/usd/scene/UsdMesh.h"
 #include "io/usd/scene/UsdObjects.h"
+#include "io/usd/scene/UsdSharedContents.h"
 #include "io/usd/scene/UsdTracks.h"
 #include "io/usd/scene/UsdXform.h"
 #include "io/usd/stage/UsdStage.h"
@@ -19,7 +21,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <unordered_map>
+#include <utility>
 
 namespace penumbra {
 
@@ -62,38 +66,52 @@ struct Place {
     glm::dmat4 toWorld{1.0};          // column vectors, scene units
     UsdInherited inherited;
     bool drawn = true; // purpose
+    // The outermost instance whose contents another one, `original`, had before; 0: none.
+    std::uint32_t copy = 0, original = 0;
+};
+
+// What a PointInstancer repeats: nodes below an instance, and their transform in it.
+struct Prototype {
+    glm::dmat4 toInstance{1.0};
+    std::vector<NodePtr> nodes;
+    std::size_t size = 0; // nodes that an instance adds, of all generations
+    bool open = true;     // is being made
 };
 
 class SceneBuilder {
 public:
-    SceneBuilder(UsdStage& stage, UsdTime time, UsdTextures& textures, UsdTracks& tracks,
-                 UsdAddresses& addresses, double metersPerUnit)
+    SceneBuilder(UsdStage& stage, const LoadOptions& options, UsdTime time, UsdTextures& textures,
+                 UsdTracks& tracks, UsdAddresses& addresses, double metersPerUnit)
         : stage_(stage), tracks_(tracks), addresses_(addresses), time_(time),
-          warnings_(stage.diagnostics()), materials_(stage, time, warnings_, &textures),
-          objects_(stage, isShape), metersPerUnit_(metersPerUnit), places_(stage.prims().size()) {}
+          mostInstanced_(options.maxInstanced), warnings_(stage.diagnostics()),
+          materials_(stage, time, warnings_, &textures), objects_(stage, isShape),
+          metersPerUnit_(metersPerUnit), shared_(stage) {}
 
     void build(std::shared_ptr<Group> root) {
         places_[0].container = std::move(root);
-        for (std::size_t i = 1; i < stage_.prims().size(); ++i) add(i);
+        for (std::uint32_t i = 1; i < stage_.prims().size(); ++i) add(i);
         tracks_.addMaterials(materials_);
         notePaints();
         objects_.mark();
     }
 
 private:
-    void add(std::size_t index) {
+    void add(std::uint32_t index) {
         const UsdPrim& prim = stage_.prims()[index];
-        const Place& parent = places_[prim.parent];
-        if (!parent.container || !prim.defined || prim.abstract || isData(prim.typeName)) return;
+        const auto above = places_.find(prim.parent);
+        if (above == places_.end() || isData(prim.typeName)) return;
+        const Place& parent = above->second;
+        // Prototypes may stand below an `over` or a class, where nothing else is drawn.
+        if (prototypesOpen_ > 0 ? prim.specifier != UsdSpecifier::def && index != prototypeRoot_
+                                : !prim.defined || prim.abstract)
+            return;
         const UsdAttributes attributes(prim, time_);
         if (usdHidden(attributes) && !comesAndGoes(prim)) return;
-        if (prim.typeName == "PointInstancer") {
-            warnings_.warn(prim.location(), "PointInstancer not supported yet: left out");
-            return;
-        }
+        size_ += prototypesOpen_ > 0;
         Place place = clusterOf(attributes, parent);
+        if (prim.instance && parent.copy == 0) noteOriginal(index, place);
         const auto transform = makeTransform(attributes, parent, place);
-        if (transform) objects_.addTransform(index, transform);
+        if (transform && prototypesOpen_ == 0) objects_.addTransform(index, transform);
         const bool shares = transform || hasChildren(prim); // its path, with what holds it
         const NodePtr leaf =
             place.drawn ? makeLeaf(shares ? std::string() : prim.name, attributes, place) : nullptr;
@@ -101,9 +119,113 @@ private:
         if (const auto camera = std::dynamic_pointer_cast<Camera>(leaf))
             tracks_.addCamera(camera, prim);
         if (leaf) noteLeaf(leaf, prim);
-        noteShape(index, leaf, place);
+        if (prototypesOpen_ == 0) noteShape(index, leaf, place);
         attach(prim, parent, place, transform, leaf);
-        places_[index] = std::move(place);
+        if (prim.typeName == "PointInstancer")
+            addInstances(index, attributes, place); // what is below it is not drawn in place
+        else if (place.container)
+            places_[index] = std::move(place);
+    }
+
+    void noteOriginal(std::uint32_t index, Place& place) {
+        const std::uint32_t original = shared_.originalOf(index);
+        if (original == index) return;
+        place.copy = index;
+        place.original = original;
+    }
+
+    void addInstances(std::uint32_t index, const UsdAttributes& instancer, const Place& place) {
+        const UsdPrim& prim = instancer.prim();
+        if (!place.container || !place.drawn) return;
+        std::vector<const Prototype*> prototypes;
+        for (const std::string& path : UsdStage::targets(prim, "prototypes"))
+            prototypes.push_back(&prototypeAt(path, instancer, place.toWorld));
+        std::size_t leftOut = 0;
+        for (const UsdInstance& one : readUsdInstances(instancer, prototypes.size(), warnings_)) {
+            const Prototype& prototype = *prototypes[one.prototype];
+            if (prototype.nodes.empty()) continue;
+            if (size_ + prototype.size > mostInstanced_) {
+                ++leftOut;
+                continue;
+            }
+            size_ += prototype.size;
+            auto instance = std::make_shared<Transform>("instance_" + std::to_string(one.number));
+            instance->setMatrix(one.toInstancer * prototype.toInstance);
+            for (const NodePtr& node : prototype.nodes) instance->add(node);
+            if (prototypesOpen_ == 0) objects_.addInstance(index, instance);
+            place.container->add(instance);
+        }
+        if (leftOut > 0)
+            warnings_.warn(prim.location(),
+                           "instances left out: those of a scene may not make more than " +
+                               std::to_string(mostInstanced_) + " nodes",
+                           leftOut);
+    }
+
+    // Made once for all that repeat it, in the frame above it: there it inherits, too.
+    const Prototype& prototypeAt(const std::string& path, const UsdAttributes& instancer,
+                                 const glm::dmat4& toWorld) {
+        constexpr int kMostOpen = 16; // instancers within prototypes within instancers
+        const auto [found, fresh] = prototypes_.try_emplace(path);
+        Prototype& prototype = found->second;
+        if (!fresh && prototype.open)
+            warnings_.warn(instancer.prim().location(),
+                           "a PointInstancer repeats itself: left out");
+        if (!fresh) return prototype;
+        const UsdPrim* const prim = stage_.find(path);
+        const bool deep = prototypesOpen_ >= kMostOpen;
+        if (prim && !deep)
+            makePrototype(prototype, std::uint32_t(prim - stage_.prims().data()), toWorld);
+        else
+            warnings_.warn(instancer.location("prototypes"),
+                           deep ? "PointInstancers nested too deeply: left out"
+                                : "prototype <" + path + "> is not there");
+        prototype.open = false;
+        return prototype;
+    }
+
+    void makePrototype(Prototype& prototype, std::uint32_t root, const glm::dmat4& toWorld) {
+        Place above = inheritedAt(stage_.prims()[root].parent);
+        const auto holder = std::make_shared<Group>("");
+        above.container = holder;
+        above.toWorld = toWorld;
+        auto outerPlaces = std::exchange(places_, {{stage_.prims()[root].parent, above}});
+        const std::size_t outerSize = std::exchange(size_, 0);
+        const std::uint32_t outerRoot = std::exchange(prototypeRoot_, root);
+        ++prototypesOpen_;
+        std::vector<std::uint32_t> open{root};
+        for (std::size_t i = 0; i < open.size(); ++i) {
+            add(open[i]);
+            if (!places_.contains(open[i])) continue;
+            const auto& children = stage_.prims()[open[i]].children;
+            open.insert(open.end(), children.begin(), children.end());
+        }
+        --prototypesOpen_;
+        prototypeRoot_ = outerRoot;
+        prototype.size = std::exchange(size_, outerSize) + 1;
+        places_ = std::move(outerPlaces);
+        takeRoot(prototype, *holder);
+    }
+
+    // A prototype's own transform becomes the instance's, so that this is one object, unless it may
+    // change by itself.
+    static void takeRoot(Prototype& prototype, const Group& holder) {
+        prototype.nodes = holder.children();
+        if (prototype.nodes.size() != 1) return;
+        const auto transform = std::dynamic_pointer_cast<Transform>(prototype.nodes[0]);
+        if (!transform || transform->movable()) return;
+        prototype.toInstance = transform->matrix();
+        prototype.nodes = transform->children();
+    }
+
+    // What a prim hands down, as far as it does not depend on where it is drawn.
+    Place inheritedAt(std::uint32_t index) {
+        std::vector<std::uint32_t> chain;
+        for (; index != 0; index = stage_.prims()[index].parent) chain.push_back(index);
+        Place place;
+        for (std::size_t i = chain.size(); i-- > 0;)
+            place = clusterOf(UsdAttributes(stage_.prims()[chain[i]], time_), place);
+        return place;
     }
 
     Place clusterOf(const UsdAttributes& attributes, const Place& parent) {
@@ -111,6 +233,8 @@ private:
         place.toWorld = parent.toWorld;
         place.inherited = parent.inherited;
         place.drawn = parent.drawn;
+        place.copy = parent.copy;
+        place.original = parent.original;
         const std::string purpose = attributes.text("purpose", "");
         if (!purpose.empty()) place.drawn = purpose == "default" || purpose == "render";
         if (!purpose.empty() && !place.drawn && purpose != "proxy" && purpose != "guide")
@@ -154,17 +278,35 @@ private:
     NodePtr makeLeaf(const std::string& name, const UsdAttributes& attributes, const Place& place) {
         const UsdPrim& prim = attributes.prim();
         const std::string& type = prim.typeName;
-        if (type == "Mesh") return makeMesh(name, attributes, place);
-        if (isUsdGprim(type))
-            return makeUsdMesh(name, stage_, attributes, makeUsdGprim(attributes, warnings_),
-                               place.inherited, materials_, std::nullopt, warnings_);
+        if (type == "Mesh" || isUsdGprim(type)) return makeShape(name, attributes, place);
         if (isUsdAreaLight(type)) return makeUsdLight(name, attributes, place.toWorld, warnings_);
         if (type == "Camera") return std::make_shared<Camera>(name, usdLens(attributes, warnings_));
         if (isUsdLightWithoutArea(type) || isUnsupportedShape(type))
             warnings_.warn(prim.location(), type + " not supported yet: left out");
-        else if (!type.empty() && type != "Scope" && type != "Xform")
+        else if (!type.empty() && type != "Scope" && type != "Xform" && type != "PointInstancer")
             warnings_.warn(prim.location(), "unknown type '" + type + "' taken as a group");
         return nullptr;
+    }
+
+    // Instances share the meshes below them if these are painted alike. A light's may not be: what
+    // it sends may depend on its size in the world.
+    NodePtr makeShape(const std::string& name, const UsdAttributes& attributes,
+                      const Place& place) {
+        const UsdPrim& prim = attributes.prim();
+        UsdInherited inherited = place.inherited;
+        inherited.material = shared_.inOriginal(inherited.material, place.copy, place.original);
+        const std::string path = shared_.inOriginal(prim.path, place.copy, place.original);
+        const bool light = UsdStage::hasApi(prim, "MeshLightAPI");
+        const auto known = meshes_.find(path);
+        if (known != meshes_.end() && known->second.inherited == inherited && !light)
+            return known->second.mesh;
+        const NodePtr mesh =
+            prim.typeName == "Mesh"
+                ? makeMesh(name, attributes, place)
+                : makeUsdMesh(name, stage_, attributes, makeUsdGprim(attributes, warnings_),
+                              place.inherited, materials_, std::nullopt, warnings_);
+        if (mesh && place.copy == 0) meshes_[path] = {mesh, std::move(inherited)};
+        return mesh;
     }
 
     NodePtr makeMesh(const std::string& name, const UsdAttributes& attributes, const Place& place) {
@@ -194,7 +336,8 @@ private:
             parent.container->add(leaf);
             return;
         }
-        const bool structure = prim.typeName == "Xform" || !isXformable(prim.typeName);
+        const bool structure = prim.typeName == "Xform" || prim.typeName == "PointInstancer" ||
+                               !isXformable(prim.typeName);
         if (!leaf && !below && !structure) return; // left out
         place.container = transform;
         if (!transform) place.container = std::make_shared<Group>(prim.name);
@@ -258,11 +401,24 @@ private:
     UsdTracks& tracks_;
     UsdAddresses& addresses_;
     UsdTime time_;
+    std::size_t mostInstanced_;
     Diagnostics& warnings_;
     UsdMaterials materials_;
     UsdObjects objects_;
-    double metersPerUnit_; // of a unit of the stage [m]
-    std::vector<Place> places_;
+    double metersPerUnit_;                            // of a unit of the stage [m]
+    std::unordered_map<std::uint32_t, Place> places_; // of prims with a container
+
+    std::map<std::string, Prototype> prototypes_; // by path
+    int prototypesOpen_ = 0;                      // that are being made, one within the other
+    std::uint32_t prototypeRoot_ = 0;             // of the innermost
+    std::size_t size_ = 0;                        // nodes that instances make of what is being made
+
+    struct SharedMesh {
+        NodePtr mesh;
+        UsdInherited inherited;
+    };
+    UsdSharedContents shared_;
+    std::unordered_map<std::string, SharedMesh> meshes_; // by path
 
     struct Painted {
         std::shared_ptr<Mesh> mesh;
@@ -371,7 +527,7 @@ LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& o
     const auto tracks = std::make_shared<UsdTracks>(stage, textures);
     if (const UsdValue* name = find(stage->rootLayer().metadata, "defaultPrim"))
         if (name->text()) loaded.addresses.defaultPrim = *name->text();
-    SceneBuilder(*stage, time, *textures, *tracks, loaded.addresses, scene.metersPerUnit)
+    SceneBuilder(*stage, options, time, *textures, *tracks, loaded.addresses, scene.metersPerUnit)
         .build(scene.root);
     textures->close();
     loaded.files = stage->files();

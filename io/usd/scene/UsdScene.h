@@ -18,8 +18,9 @@ namespace penumbra {
 struct LoadOptions {
     /// Time code at which the scene is read; none: the file's startTimeCode, or, if it has none,
     /// the attributes' defaults.
-    std::optional<double> time;
+    std::optional<double> time = {};
     std::uintmax_t maxFileBytes = std::uintmax_t(2) << 30; ///< of one layer
+    std::size_t maxInstanced = 250'000; ///< nodes that PointInstancers may make, in all
 };
 
 struct LoadedScene {
@@ -47,6 +48,11 @@ struct LoadedScene {
 /// | CylinderLight | Mesh, emitting |
 /// | Camera | Camera |
 /// | Material with a UsdPreviewSurface | Material, shared |
+/// | PointInstancer | Group or Transform, with a Transform `instance_17` for each instance |
+///
+/// Instances share nodes: all of a prototype's, and the meshes below instanceable prims of the same
+/// contents. A prototype stands where its instances are, and is drawn in place only if it is not
+/// below its instancer. Its own transform becomes part of the instances', unless it is movable.
 ///
 /// Each prim's first node carries its name, and what else comes of the prim has none, so that paths
 /// are those of the file: a mesh, light or camera with xformOps of its own becomes a Transform that

@@ -3,9 +3,30 @@
 #include "io/usd/layer/UsdNumber.h"
 
 #include <cmath>
+#include <concepts>
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 namespace penumbra {
+
+namespace {
+
+// Stored whole numbers as Integers; -1 for those that they can't hold.
+template <class Integer>
+std::vector<Integer> wholeNumbers(const UsdResolved& resolved) {
+    std::vector<Integer> numbers;
+    if (!resolved) return numbers;
+    const auto convert = [&](const auto& stored) {
+        if constexpr (requires { requires std::integral<std::decay_t<decltype(stored[0])>>; })
+            for (const auto n : stored)
+                numbers.push_back(std::in_range<Integer>(n) ? Integer(n) : Integer(-1));
+    };
+    std::visit(convert, resolved->data);
+    return numbers;
+}
+
+} // namespace
 
 double UsdAttributes::number(std::string_view name, double fallback) const {
     const auto values = tuple(name, 1);
@@ -41,9 +62,11 @@ std::vector<double> UsdAttributes::numbers(std::string_view name) const {
 }
 
 std::vector<std::int32_t> UsdAttributes::integers(std::string_view name) const {
-    const UsdResolved resolved = value(name);
-    const auto* stored = resolved ? resolved->as<std::int32_t>() : nullptr;
-    return stored ? *stored : std::vector<std::int32_t>{};
+    return wholeNumbers<std::int32_t>(value(name));
+}
+
+std::vector<std::int64_t> UsdAttributes::wideIntegers(std::string_view name) const {
+    return wholeNumbers<std::int64_t>(value(name));
 }
 
 std::vector<std::string> UsdAttributes::texts(std::string_view name) const {

@@ -26,7 +26,10 @@ public:
     /// The components of a number, tuple or matrix; empty unless there are exactly `count`.
     std::vector<double> tuple(std::string_view name, std::size_t count) const;
     std::vector<double> numbers(std::string_view name) const;
+    /// Whole numbers of any width; those that 32 bits can't hold are -1, which is no index.
     std::vector<std::int32_t> integers(std::string_view name) const;
+    /// Whole numbers of any width; those that 63 bits can't hold are -1.
+    std::vector<std::int64_t> wideIntegers(std::string_view name) const;
     std::vector<std::string> texts(std::string_view name) const;
     std::vector<glm::vec3> points(std::string_view name) const;
 

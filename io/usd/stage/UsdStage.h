@@ -30,6 +30,8 @@ struct UsdPrim {
     UsdSpecifier specifier = UsdSpecifier::def;
     bool defined = true;   ///< it and all its ancestors are more than overs
     bool abstract = false; ///< it or an ancestor is a class: never part of the picture
+    /// `instanceable`, and brought by an arc: opinions about what is below come from there alone.
+    bool instance = false;
     std::uint32_t parent = 0;
     std::vector<std::uint32_t> children; ///< indices into UsdStage::prims(), in order
     std::vector<UsdOpinion> opinions;    ///< strongest first; the root has none

@@ -96,6 +96,7 @@ void UsdStageBuilder::addPrim(std::uint32_t parent, UsdPrimIndex index) {
         if (prim.typeName.empty()) prim.typeName = one.spec->typeName;
     prim.defined = prims[parent].defined && prim.specifier != UsdSpecifier::over;
     prim.abstract = prims[parent].abstract || prim.specifier == UsdSpecifier::classes;
+    prim.instance = !sharedNodes(index).empty();
     prim.opinions = opinionsOf(index, stack);
     checkTargets(prim);
     const auto number = std::uint32_t(prims.size());

@@ -24,6 +24,7 @@ void writeMesh(ByteWriter& out, const MeshData& mesh) {
     out.list(mesh.corners);
     out.list(mesh.holes);
     out.put(std::uint8_t(mesh.doubleSided));
+    out.list(mesh.normals);
     out.list(mesh.faceMaterial);
     out.list(mesh.uvs);
 }
@@ -42,6 +43,7 @@ MeshData readMesh(ByteReader& in) {
     mesh.corners = in.list<Corner>();
     mesh.holes = in.list<std::int32_t>();
     mesh.doubleSided = in.get<std::uint8_t>() != 0;
+    mesh.normals = in.list<glm::vec3>();
     mesh.faceMaterial = in.list<std::uint16_t>();
     mesh.uvs = in.list<glm::vec2>();
     return mesh;
@@ -55,6 +57,9 @@ bool sound(const MeshData& mesh, std::size_t materials) {
     const auto all = [](const auto& list, auto test) {
         return std::all_of(list.begin(), list.end(), test);
     };
+    const auto isFinite = [](glm::vec3 p) {
+        return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    };
     const auto isPoint = below(mesh.points.size());
     std::uint64_t corners = 0;
     for (std::int32_t count : mesh.faceVertexCounts) {
@@ -62,10 +67,8 @@ bool sound(const MeshData& mesh, std::size_t materials) {
         corners += std::uint64_t(count);
     }
     return corners == mesh.faceVertexIndices.size() && all(mesh.faceVertexIndices, isPoint) &&
-           all(mesh.points,
-               [](glm::vec3 p) {
-                   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-               }) &&
+           all(mesh.points, isFinite) && all(mesh.normals, isFinite) &&
+           (mesh.normals.empty() || mesh.normals.size() == mesh.faceVertexIndices.size()) &&
            int(mesh.scheme) >= 0 && int(mesh.scheme) <= int(SubdivisionScheme::loop) &&
            all(mesh.creases,
                [&](const Crease& c) {

@@ -37,6 +37,18 @@ TEST(BuildPatches, CutsAHallIntoAFewTimesAsManyPatchesAsARoom) {
     EXPECT_LE(meshed(room(100)).patches.patches.size(), 4 * patches);
 }
 
+TEST(BuildPatches, AGroundBeyondTheRoomDoesNotMakeItsPatchesLarge) {
+    const Scene within = room(1);
+    Scene outside = room(1);
+    outside.root->add(object("ground", floorData(-110, 110, -110, 110, -0.1f)));
+    const float room = resolvedSizes(placeScene(within), {}).patchSize;
+    const MeshingOptions sizes = resolvedSizes(placeScene(outside), {});
+    EXPECT_FLOAT_EQ(sizes.patchSize, room);
+    const PatchSet set = meshed(outside).patches;
+    EXPECT_EQ(set.patchSize, sizes.patchSize);
+    EXPECT_LT(set.patches.size(), 6500 + meshed(within).patches.patches.size());
+}
+
 TEST(BuildPatches, GivesLightThatDoesNotDependOnTheScale) {
     // Illuminance has no length in it.
     const MeshingOptions coarse{.patchSize = 0.5f, .elementSize = 0.25f};

@@ -390,6 +390,60 @@ TEST(Tessellation, HasUnitNormalsThatPointOutwards) {
         }
 }
 
+/// A square prism about z whose sides have the normals of a cylinder.
+MeshData roundPrism() {
+    MeshData data = boxData({-1, -1, -1}, {1, 1, 1}, false);
+    for (const std::int32_t i : data.faceVertexIndices) {
+        const glm::vec3 p = data.points[std::size_t(i)];
+        data.normals.push_back(glm::normalize(glm::vec3(p.x, p.y, 0)));
+    }
+    return data;
+}
+
+TEST(Tessellation, NormalsOfTheFileAreInterpolatedAndNeighboursShareVertices) {
+    const MeshData data = roundPrism();
+    const Tessellation t = cut(data, 0.5f, 0.2f);
+    for (const SurfacePoint& vertex : t.vertices) {
+        EXPECT_NEAR(glm::length(vertex.normal), 1, 1e-5f);
+        const bool side = std::abs(vertex.position.z) < 0.99f;
+        const glm::vec3 outwards(vertex.position.x, vertex.position.y, 0);
+        // Linear between the corners and then unit: within some degrees of the cylinder's.
+        if (side) EXPECT_GT(glm::dot(vertex.normal, glm::normalize(outwards)), 0.97f);
+    }
+    MeshData flat = data;
+    flat.normals.clear();
+    EXPECT_LT(t.vertices.size(), cut(flat, 0.5f, 0.2f).vertices.size());
+    EXPECT_EQ(cracks(t), 0);
+}
+
+TEST(Tessellation, NormalsOfTheFileStayInTheHemisphereOfTheirFace) {
+    // Level with the face, behind it, all of them behind it.
+    const std::vector<std::vector<glm::vec3>> wild{
+        {{1, 0, 0}, {1, 0, 0}, {1, 0, 0}, {1, 0, 0}},
+        {{0, 0.6f, -0.8f}, {0, 0, 1}, {1, 0, 0}, {0, 0, -1}},
+        {{0, 0.6f, -0.8f}, {0, 0, -1}, {0.6f, 0, -0.8f}, {0, 0, -1}}};
+    for (const auto& normals : wild) {
+        MeshData data = floorData(0, 1, 0, 1, 0);
+        data.normals = normals;
+        for (const SurfacePoint& vertex : cut(data, 0.5f, 0.1f).vertices) {
+            EXPECT_GE(vertex.normal.z, 0.4999f);
+            EXPECT_NEAR(glm::length(vertex.normal), 1, 1e-5f);
+        }
+    }
+}
+
+TEST(Tessellation, NormalsOfTheFileGoWithMirrorsAndScales) {
+    MeshData data = roundPrism();
+    glm::dmat4 wide(1.0);
+    wide[0][0] = -4; // an ellipse, mirrored
+    bool understood = false;
+    const Tessellation t = tessellate(placeSurface(data, wide), 0.5f, 0.2f, understood);
+    for (const SurfacePoint& vertex : t.vertices)
+        if (std::abs(vertex.position.z) < 0.99f)
+            EXPECT_GT(glm::dot(vertex.normal, vertex.position), 0);
+    EXPECT_EQ(cracks(t), 0);
+}
+
 } // namespace
 
 } // namespace penumbra

@@ -81,6 +81,16 @@ TEST(SceneSnapshot, ACopyIsTheSameSceneAndStaysItThroughAllEdits) {
     }
 }
 
+TEST(SceneSnapshot, NormalsOfAMeshGoWithIt) {
+    MeshData data = floorData(0, 1, 0, 1, 0);
+    data.normals.assign(4, glm::vec3(0, 0.6f, 0.8f));
+    const Scene scene = sceneOf({object("floor", data)});
+    SceneDiff table(*scene.root);
+    table.diff();
+    const SceneReplica copy(read(bytesOf(table.snapshot()))->scene);
+    EXPECT_EQ(placeScene(copy.scene()).meshes.at(0).node->data().normals, data.normals);
+}
+
 TEST(SceneSnapshot, EditsOutliveBeingWrittenDown) {
     const std::vector<GraphEdit> edits{SetMatrix{3, glm::dmat4(2.0)}, SetVisible{4, false},
                                        SetLuminance{5, Rgb(1, 2, 3)},
