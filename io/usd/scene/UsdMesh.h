@@ -1,8 +1,8 @@
 // A mesh node from checked polygons and what the prim says about its surface.
 #pragma once
 
-#include "io/usd/scene/UsdMaterial.h"
 #include "io/usd/scene/UsdPolygons.h"
+#include "io/usd/shade/UsdMaterial.h"
 
 #include <optional>
 

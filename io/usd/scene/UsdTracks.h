@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/usd/scene/UsdAnimation.h"
-#include "io/usd/scene/UsdMaterial.h"
+#include "io/usd/shade/UsdMaterial.h"
 #include "io/usd/stage/UsdAttributes.h"
 #include "io/usd/stage/UsdStage.h"
 #include "scenegraph/Camera.h"

@@ -1,6 +1,6 @@
 // Scenes made by others, against what OpenUSD 24.11 itself composes from them (one JSON object a
 // prim). The files lie beside the project; without them these tests skip.
-#include "io/usd/scene/UsdMaterial.h"
+#include "io/usd/shade/UsdMaterial.h"
 #include "tests/io/usd/UsdTestFiles.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "io/usd/scene/UsdMaterial.h"
+#include "io/usd/shade/UsdMaterial.h"
 
 #include "io/usd/layer/UsdPath.h"
 

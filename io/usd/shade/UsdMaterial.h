@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/usd/layer/UsdDiagnostic.h"
-#include "io/usd/scene/UsdTextures.h"
+#include "io/usd/shade/UsdTextures.h"
 #include "io/usd/stage/UsdAttributes.h"
 #include "scenegraph/Material.h"
 

@@ -1,4 +1,4 @@
-#include "io/usd/scene/UsdTextures.h"
+#include "io/usd/shade/UsdTextures.h"
 
 #include "base/Error.h"
 #include "io/image/ImageReader.h"
