@@ -16,8 +16,8 @@ struct DrawnHit {
     std::uint32_t element = Element::kNone;
     std::array<std::uint32_t, 3> vertices{}; ///< of the triangle that is drawn there
     std::array<float, 3> weights{};          ///< barycentric
-    bool second = false; ///< of a quadrilateral's halves; its corners are then 0 2 3, else 0 1 2
     float distance = 0;                      ///< in units of the ray's direction
+    bool second = false; ///< of a quadrilateral's halves; its corners are then 0 2 3, else 0 1 2
 
     bool met() const { return element != Element::kNone; }
 };

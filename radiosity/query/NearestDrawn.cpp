@@ -49,7 +49,8 @@ DrawnHit nearestDrawn(const PatchSet& patches, glm::vec3 point, float reach) {
     DrawnHit best;
     float least = std::numeric_limits<float>::infinity();
     const float hover = hoverAt(patches.skin, point);
-    const auto tryTriangle = [&](std::uint32_t e, std::array<std::uint32_t, 3> vertices) {
+    const auto tryTriangle = [&](std::uint32_t e, std::array<std::uint32_t, 3> vertices,
+                                 bool second) {
         Corners corners;
         for (std::size_t k = 0; k < 3; ++k) corners[k] = patches.vertices[vertices[k]].position;
         const Weights weights = nearestWeights(corners, point);
@@ -62,13 +63,13 @@ DrawnHit nearestDrawn(const PatchSet& patches, glm::vec3 point, float reach) {
         const float rank = distance + (behind ? hover : 0) + (patches.receives(e) ? 0 : 2 * hover);
         if (rank >= least) return;
         least = rank;
-        best = {e, vertices, weights, distance};
+        best = {e, vertices, weights, distance, second};
     };
     for (std::uint32_t e = 0; e < patches.elements.size(); ++e) {
         if (!patches.objects[patches.elementObject[e].value].present) continue;
         const auto& v = patches.elements[e].vertices;
-        tryTriangle(e, {v[0], v[1], v[2]}); // cut as they are drawn
-        if (!patches.elements[e].isTriangle()) tryTriangle(e, {v[0], v[2], v[3]});
+        tryTriangle(e, {v[0], v[1], v[2]}, false); // cut as they are drawn
+        if (!patches.elements[e].isTriangle()) tryTriangle(e, {v[0], v[2], v[3]}, true);
     }
     return best;
 }
