@@ -18,8 +18,8 @@ namespace penumbra {
 
 /// A surface colour, looked up by the triangles of a LitGeometry.
 struct LitMaterial {
-    Rgb reflectance; ///< Lambertian rho
-    Rgb emission;    ///< own luminance [nit]
+    Rgb reflectance;                ///< Lambertian rho
+    Rgb emission;                   ///< own luminance [nit]
     MaterialTextures textures = {}; ///< factors of the two, point by point
     friend bool operator==(const LitMaterial&, const LitMaterial&) = default;
 };

@@ -279,11 +279,11 @@ void addEmitters(const Surface& surface, const Tessellation& tessellation, Built
         const Material& material = mesh.materialOf(mesh.faces[cell.face]);
         if (!material.emissive()) continue;
         const auto first = tessellation.outline.begin() + cell.firstCorner;
-        collector.add(material, {first, first + cell.cornerCount},
-                      tessellation.outlineUvs.empty()
-                          ? std::span<const glm::vec2>()
-                          : std::span(tessellation.outlineUvs)
-                                .subspan(cell.firstCorner, cell.cornerCount));
+        collector.add(
+            material, {first, first + cell.cornerCount},
+            tessellation.outlineUvs.empty()
+                ? std::span<const glm::vec2>()
+                : std::span(tessellation.outlineUvs).subspan(cell.firstCorner, cell.cornerCount));
     }
 }
 

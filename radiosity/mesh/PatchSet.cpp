@@ -72,7 +72,8 @@ void findTextureMeans(PatchSet& set) {
     for (const Patch& patch : set.patches) {
         Rgb sum;
         float area = 0;
-        for (std::uint32_t i = patch.firstElement; i < patch.firstElement + patch.elementCount; ++i) {
+        for (std::uint32_t i = patch.firstElement; i < patch.firstElement + patch.elementCount;
+             ++i) {
             const std::uint32_t e = set.patchElements[i];
             const float part = elementArea(set, set.elements[e]);
             sum += part * textures.elements[e];

@@ -153,8 +153,8 @@ std::uint32_t Tessellator::addVertex(const SurfacePoint& point, glm::vec2 uv) {
 std::uint32_t Tessellator::boundaryVertex(std::uint64_t key, std::uint32_t along,
                                           const SurfacePoint& point, glm::vec2 uv) {
     const auto sameUv = [&](std::uint32_t candidate) { // to rounding
-        return uvs_.empty() || glm::distance(vertexUv_[candidate], uv) <=
-                                   1e-5f * std::max(1.0f, glm::length(uv));
+        return uvs_.empty() ||
+               glm::distance(vertexUv_[candidate], uv) <= 1e-5f * std::max(1.0f, glm::length(uv));
     };
     std::vector<std::uint32_t>& candidates = shared_[{key, along}];
     for (std::uint32_t candidate : candidates)
@@ -183,8 +183,7 @@ std::vector<std::uint32_t> Tessellator::addVertices(std::uint32_t index, const F
             const bool isCorner = k == 0;
             const std::uint64_t key = isCorner ? std::uint64_t(a) << 32 | a : edgeKey;
             const std::uint32_t along = isCorner ? 0 : (a < b ? k : rate - k);
-            vertices[next] =
-                boundaryVertex(key, along, face.at(coords[next]), uvOf(coords[next]));
+            vertices[next] = boundaryVertex(key, along, face.at(coords[next]), uvOf(coords[next]));
         }
     }
     for (; next < coords.size(); ++next)

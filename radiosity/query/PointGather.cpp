@@ -140,8 +140,7 @@ Rgb PointGather::indirectByPaths(const Receiver& receiver) const {
             const glm::vec3 direction = paths_.direction(raySlot(path, bounce), at.normal);
             const DrawnHit hit = surface_.nearest(at.position, direction, 1e30f);
             if (!hit.met()) break;
-            weight =
-                weight * elementReflectance(patches_, hit.element);
+            weight = weight * elementReflectance(patches_, hit.element);
             if (hit.distance >= kBelieved * patches_.elementSize) {
                 sum += weight * drawnAt(hit);
                 break;

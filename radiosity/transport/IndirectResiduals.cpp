@@ -42,8 +42,7 @@ glm::dvec3 IndirectLight::reflected(std::uint32_t index) const {
     const Patch& patch = set_.patches[index];
     if (!set_.objects[patch.object.value].present) return glm::dvec3(0);
     const auto indirect = mean<glm::dvec3>(patch, [&](std::uint32_t n) { return node(n); });
-    return toDouble(patchReflectance(set_, index)) *
-           (direct_.patches()[index] + indirect);
+    return toDouble(patchReflectance(set_, index)) * (direct_.patches()[index] + indirect);
 }
 
 /// What dirty blocks may change in the light at a node [lux]: what arrives, and the row sum f by

@@ -118,7 +118,8 @@ bool LitScene::followColours(SceneChange& change) {
         change.colours = true;
     }
     for (std::uint32_t e = 0; e < set.emitters.size(); ++e) {
-        const Rgb exitance = lambertianExitance(lightOf(built_.emitterSources[e])) * set.emitters[e].texture;
+        const Rgb exitance =
+            lambertianExitance(lightOf(built_.emitterSources[e])) * set.emitters[e].texture;
         if (exitance == set.emitters[e].exitance) continue;
         set.emitters[e].exitance = exitance;
         change.emitters.push_back(e);

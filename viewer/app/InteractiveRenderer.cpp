@@ -100,8 +100,7 @@ void InteractiveRenderer::Impl::drawLit(const std::vector<LitItem>& items) {
 }
 
 /// The same, but triangles that a previewed change may reach are drawn by the preview pass.
-void InteractiveRenderer::Impl::drawPreviewed(const std::vector<LitItem>& items,
-                                              MapPreview& maps) {
+void InteractiveRenderer::Impl::drawPreviewed(const std::vector<LitItem>& items, MapPreview& maps) {
     std::vector<MapPreview::Runs> preview;
     litProgram.use();
     for (std::size_t i = 0; i < items.size(); ++i) {

@@ -79,8 +79,7 @@ bool sound(const MeshData& mesh, std::size_t materials) {
                [&](const Corner& c) { return isPoint(c.vertex) && std::isfinite(c.sharpness); }) &&
            all(mesh.holes, below(mesh.faceVertexCounts.size())) && materials > 0 &&
            (mesh.uvs.empty() || mesh.uvs.size() == corners) &&
-           all(mesh.uvs,
-               [](glm::vec2 uv) { return std::isfinite(uv.x) && std::isfinite(uv.y); }) &&
+           all(mesh.uvs, [](glm::vec2 uv) { return std::isfinite(uv.x) && std::isfinite(uv.y); }) &&
            (mesh.faceMaterial.empty() ||
             (mesh.faceMaterial.size() == mesh.faceVertexCounts.size() &&
              all(mesh.faceMaterial, below(materials))));

@@ -22,7 +22,7 @@ class LitScene;
 struct LitMeshEmitter {
     std::string path;                             ///< of the mesh
     std::uint32_t material = 0;                   ///< a number of the scene snapshot
-    Rgb texture{1}; ///< mean of its part of a texture, see Emitter
+    Rgb texture{1};                               ///< mean of its part of a texture, see Emitter
     std::vector<std::vector<glm::vec3>> polygons; ///< in the frame of the vertices [m]
 };
 
@@ -41,8 +41,8 @@ struct LitMeshObject {
     std::vector<std::uint32_t> elementPatch; ///< any number, the same for those of one patch;
                                              ///< Element::kNone: covered all over
     std::vector<std::array<glm::vec2, 4>> elementUvs; ///< see SurfaceTextures; may be empty
-    RayMesh rays;                            ///< what blocks rays
-    std::vector<LitMeshEmitter> emitters;    ///< of its meshes; lights the graph knows of
+    RayMesh rays;                                     ///< what blocks rays
+    std::vector<LitMeshEmitter> emitters;             ///< of its meshes; lights the graph knows of
 };
 
 /// Where a colour comes from: numbers of the scene snapshot, kNone if there is none.
