@@ -39,9 +39,9 @@ TEST(UsdNormals, EveryInterpolationGivesOneACornerOfUnitLength) {
     const std::string points = "[(1, 0, 0), (0, 1, 0), (0, 0, 1), (0, 1, 0)]";
     EXPECT_EQ(load(points, "vertex"), (Normals{kX, kY, kZ, kX, kZ, kY}));
     EXPECT_EQ(load(points, "varying"), (Normals{kX, kY, kZ, kX, kZ, kY}));
-    EXPECT_EQ(load("[(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 0), (0, 0, 1), (0, 1, 0)]",
-                   "faceVarying"),
-              (Normals{kX, kY, kZ, kX, kZ, kY}));
+    EXPECT_EQ(
+        load("[(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 0), (0, 0, 1), (0, 1, 0)]", "faceVarying"),
+        (Normals{kX, kY, kZ, kX, kZ, kY}));
 }
 
 TEST(UsdNormals, ThePrimvarWinsAndMayBeIndexed) {
@@ -68,9 +68,9 @@ TEST(UsdNormals, WhatDoesNotFitIsIgnoredWithOneWarning) {
         EXPECT_TRUE(normalsOf(loaded).empty());
         EXPECT_EQ(countOf(loaded, "normals that do not fit their mesh ignored"), 1u);
     }
-    const LoadedScene indexed = loadText(
-        sheet(std::string(kPlain) + normals("primvars:normals", "[(0, 0, 1)]", "uniform") +
-              " int[] primvars:normals:indices = [0, 1]\n"));
+    const LoadedScene indexed =
+        loadText(sheet(std::string(kPlain) + normals("primvars:normals", "[(0, 0, 1)]", "uniform") +
+                       " int[] primvars:normals:indices = [0, 1]\n"));
     EXPECT_EQ(countOf(indexed, "normals that do not fit their mesh ignored"), 1u);
 }
 
