@@ -300,7 +300,7 @@ private:
         const auto known = meshes_.find(path);
         if (known != meshes_.end() && known->second.inherited == inherited && !light)
             return known->second.mesh;
-        const NodePtr mesh =
+        NodePtr mesh =
             prim.typeName == "Mesh"
                 ? makeMesh(name, attributes, place)
                 : makeUsdMesh(name, stage_, attributes, makeUsdGprim(attributes, warnings_),

@@ -10,7 +10,7 @@ namespace {
 template <class T>
 void put(std::string& key, const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
-    key.append(reinterpret_cast<const char*>(&value), sizeof value);
+    key.append(reinterpret_cast<const char*>(&value), sizeof(T));
 }
 
 } // namespace
@@ -40,8 +40,8 @@ std::string UsdSharedContents::keyOf(std::uint32_t instance) const {
         key += prim.name;
         put(key, prim.opinions.size());
         for (const UsdOpinion& opinion : prim.opinions) {
-            put(key, opinion.spec);
-            put(key, opinion.layer);
+            put(key, reinterpret_cast<std::uintptr_t>(opinion.spec));
+            put(key, reinterpret_cast<std::uintptr_t>(opinion.layer));
             put(key, opinion.offset.offset);
             put(key, opinion.offset.scale);
         }
