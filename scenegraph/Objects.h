@@ -17,7 +17,8 @@ class Light;
 class Camera;
 
 /// A rigid piece of the scene: one Transform with what is below it, until the next Transform that
-/// is movable, or begins an object in what is not. What is below none of them belongs to the object at the root, path "/".
+/// is movable, or begins an object in what is not. What is below none of them belongs to the object
+/// at the root, path "/".
 struct Object {
     std::string path;        ///< of the transform that begins it
     glm::dmat4 toWorld{1.0}; ///< its frame
@@ -45,9 +46,10 @@ struct PlacedScene {
 };
 
 /// Lists a scene. An object begins at a Transform that is movable or said to begin one and,
-/// outside of any object, at a Transform that directly holds a mesh or a light (through plain groups, not through further
-/// Transforms). Objects without geometry are not listed, nor is what a Switch hides, except for
-/// whole movable objects: they are listed as not visible, since they may come back.
+/// outside of any object, at a Transform that directly holds a mesh or a light (through plain
+/// groups, not through further Transforms). Objects without geometry are not listed, nor is what a
+/// Switch hides, except for whole movable objects: they are listed as not visible, since they may
+/// come back.
 PlacedScene placeScene(const Scene& scene);
 
 /// Whether a scene has anything that may give light, switched on or not: a light, or a material

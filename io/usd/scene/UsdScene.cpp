@@ -263,7 +263,7 @@ private:
             local.animated || comesAndGoes(prim) || attributes.flag("penumbra:movable", false);
         const bool structure = prim.typeName == "Xform";
         if (!structure && !local.authored && !movable &&
-            !(isShape(prim.typeName) && objects_.needsTransform(prim)))
+            !(prototypesOpen_ == 0 && isShape(prim.typeName) && objects_.needsTransform(prim)))
             return nullptr;
         if (local.resetsStack) local.matrix = relativeToParent(local, parent.toWorld);
         auto transform = std::make_shared<Transform>(comesAndGoes(prim) ? "" : prim.name);
