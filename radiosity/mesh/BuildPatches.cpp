@@ -447,7 +447,7 @@ BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& option
     const bool dark = std::all_of(out.emitters.begin(), out.emitters.end(),
                                   [](const Emitter& e) { return maxChannel(e.exitance) <= 0; });
     if (dark && hasLights(scene))
-        built.warnings.push_back("none of the scene's lights is on: everything is black");
+        built.warnings.push_back("no light of the scene shines: everything is black");
     return built;
 }
 

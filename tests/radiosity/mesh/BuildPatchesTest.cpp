@@ -142,10 +142,12 @@ TEST(BuildPatches, WarnsOnceOfFacesLeftOutAndOfDarkness) {
         floor.faceVertexCounts.push_back(3);
         for (int k : {0, 1, 1}) floor.faceVertexIndices.push_back(k);
     }
-    const BuiltPatches built = meshed(sceneOf({object("floor", floor)}));
+    const auto off = std::make_shared<Light>("light", RectShape{}, Rgb(0.0f));
+    const BuiltPatches built =
+        meshed(sceneOf({object("floor", floor), placed("off", moved(0, 0, 1), {off})}));
     ASSERT_EQ(built.warnings.size(), 2u);
     EXPECT_EQ(built.warnings[0].substr(0, 2), "3 ");
-    EXPECT_NE(built.warnings[1].find("no light"), std::string::npos);
+    EXPECT_NE(built.warnings[1].find("no light of the scene shines"), std::string::npos);
 }
 
 TEST(BuildPatches, HoldsPatchesBelowTheSizeAskedFor) {
