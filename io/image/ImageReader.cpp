@@ -1,16 +1,17 @@
 #include "io/image/ImageReader.h"
 
 #include "base/Error.h"
-
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
+#include "io/image/PictureDecoder.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <string_view>
 #include <vector>
+
+#include <dlfcn.h>
 
 namespace penumbra {
 
@@ -71,38 +72,23 @@ std::vector<std::byte> plainPng(std::span<const std::byte> bytes, const std::str
     return plain;
 }
 
-[[noreturn]] void refuse(OIIO::ImageInput& input, const std::string& name) {
-    std::string why = input.geterror();
-    why = why.substr(0, why.find('\n'));
-    throw Error(name + ": not a picture that can be read" + (why.empty() ? "" : " (" + why + ")"));
-}
-
-void checkSize(const OIIO::ImageSpec& spec, const std::string& name) {
-    const auto within = [](int n) { return n > 0 && n <= TextureImage::kLargest; };
-    if (!within(spec.width) || !within(spec.height) || spec.depth > 1 || spec.nchannels < 1 ||
-        spec.nchannels > 64 || std::size_t(spec.width) * std::size_t(spec.height) > kMostPixels)
-        throw Error(name + ": a picture of " + std::to_string(spec.width) + " x " +
-                    std::to_string(spec.height) + " pixels is too large");
-}
-
 float fromSrgb(float v) {
     return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
 }
 
-/// All pixels, three channels each.
-template <class T>
-std::vector<T> readPixels(OIIO::ImageInput& input, OIIO::TypeDesc type, const std::string& name) {
-    const OIIO::ImageSpec& spec = input.spec();
-    const int channels = std::min(spec.nchannels, 3);
-    const std::size_t pixels = std::size_t(spec.width) * std::size_t(spec.height);
-    std::vector<T> read(pixels * std::size_t(channels));
-    if (!input.read_image(0, 0, 0, channels, type, read.data())) refuse(input, name);
-    if (channels == 3) return read;
-    std::vector<T> rgb; // grey, or grey and alpha
-    rgb.reserve(3 * pixels);
-    for (std::size_t i = 0; i < pixels; ++i)
-        rgb.insert(rgb.end(), 3, read[i * std::size_t(channels)]);
-    return rgb;
+/// Its libraries are many, and take half a second and half a gigabyte of addresses: only those who
+/// have textures load them, from beside the program.
+DecodePicture& decoder() {
+    static DecodePicture* const loaded = [] {
+        std::error_code failed;
+        const auto program = std::filesystem::read_symlink("/proc/self/exe", failed);
+        const std::string file = program.parent_path() / "libpenumbra_pictures.so";
+        void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+        void* const found = library ? dlsym(library, kDecodePicture) : nullptr;
+        if (!found) throw Error(std::string("pictures can't be read: ") + dlerror());
+        return reinterpret_cast<DecodePicture*>(found);
+    }();
+    return *loaded;
 }
 
 } // namespace
@@ -116,25 +102,18 @@ std::shared_ptr<const TextureImage> readImage(std::span<const std::byte> bytes,
         if (bytes.size() < 8) throw Error(name + ": a damaged PNG file");
         bytes = plain = plainPng(bytes, name);
     }
-    OIIO::attribute("threads", 1); // all threads are ours, see base/Parallel.h
-    const auto input = OIIO::ImageInput::create(format);
-    if (!input) throw Error(name + ": OpenImageIO reads no " + format + " here");
-    OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
-    OIIO::ImageSpec config, spec;
-    config.attribute("oiio:UnassociatedAlpha", 1);
-    if (!input->set_ioproxy(&memory) || !input->open(name, spec, config)) refuse(*input, name);
-    checkSize(spec, name);
-    const bool fine = spec.format.basetype == OIIO::TypeDesc::UINT8 && spec.channelformats.empty();
+    DecodedPicture picture;
+    decoder()(bytes, name, format, picture);
+    if (!picture.fault.empty()) throw Error(name + ": " + picture.fault);
+    const bool fine = !picture.bytes.empty();
     const bool srgb = coding == PictureCoding::srgb ||
-                      (coding == PictureCoding::automatic && fine && spec.nchannels >= 3);
+                      (coding == PictureCoding::automatic && fine && picture.channels >= 3);
     if (fine)
-        return std::make_shared<TextureImage>(
-            name, spec.width, spec.height,
-            readPixels<std::uint8_t>(*input, OIIO::TypeDesc::UINT8, name), srgb);
-    auto rgb = readPixels<float>(*input, OIIO::TypeDesc::FLOAT, name);
+        return std::make_shared<TextureImage>(name, picture.width, picture.height,
+                                              std::move(picture.bytes), srgb);
     if (srgb)
-        for (float& v : rgb) v = fromSrgb(v);
-    return std::make_shared<TextureImage>(name, spec.width, spec.height, rgb);
+        for (float& v : picture.floats) v = fromSrgb(v);
+    return std::make_shared<TextureImage>(name, picture.width, picture.height, picture.floats);
 }
 
 } // namespace penumbra

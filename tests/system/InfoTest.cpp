@@ -41,8 +41,8 @@ std::vector<double> figures(const std::string& text, const std::string& words) {
 TEST_F(InfoAt, NamesTheSurfaceTheLightsAndWhatArrives) {
     const Outcome info = at("0.4,0.4,0");
     EXPECT_EQ(info.exitCode, 0) << info.err;
-    for (const char* word : {"on / (what belongs to no object)", "0 mm away", "facing (0, 0, 1)",
-                             "/Lamp", "indirect light"})
+    for (const char* word :
+         {"on /Room, 0 mm away", "0 mm away", "facing (0, 0, 1)", "/Lamp", "indirect light"})
         EXPECT_THAT(info.out, HasSubstr(word));
     const auto light = figures(info.out, "/Lamp");
     ASSERT_EQ(light.size(), 4u) << info.out; // unoccluded, arrives, lost, percent
@@ -82,7 +82,7 @@ def Cube "Board"
 TEST_F(InfoAt, FindsTheNearestSurfaceAndSaysHowFarItIs) {
     const Outcome info = at("0.02,1.1,1");
     EXPECT_EQ(info.exitCode, 0) << info.err;
-    EXPECT_THAT(info.out, HasSubstr("no object), 20 mm away at (0, 1.1, 1), facing (1, 0, 0)"));
+    EXPECT_THAT(info.out, HasSubstr("on /Room, 20 mm away at (0, 1.1, 1), facing (1, 0, 0)"));
 }
 
 TEST_F(InfoAt, AFarPointIsOneLine) {

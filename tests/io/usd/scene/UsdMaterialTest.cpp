@@ -87,7 +87,8 @@ TEST(UsdMaterial, TexturesAreReplacedByTheirFallback) {
     expectNear(reflectance(connect, texture + "float4 inputs:fallback = (0.1, 0.2, 0.3, 1)\n}\n"),
                {0.1f, 0.2f, 0.3f});
     EXPECT_EQ(materialOf(surfaced(connect, texture + "}\n"))->emission(), Rgb());
-    EXPECT_EQ(countOf(surfaced(connect, texture + "}\n"), "texture"), 2u);
+    // the picture that is not there, and the two inputs that it was to colour
+    EXPECT_EQ(countOf(surfaced(connect, texture + "}\n"), "texture"), 3u);
 }
 
 TEST(UsdMaterial, WhatIsFullyTransparentIsLeftOut) {
