@@ -29,6 +29,7 @@ bool RingSender::send(std::span<const std::byte> message) {
 }
 
 void RingSender::copy(std::uint64_t at, std::span<const std::byte> from) {
+    if (from.empty()) return; // memcpy wants an address even for nothing
     const std::size_t start = at & (bytes_.size() - 1);
     const std::size_t first = std::min(from.size(), bytes_.size() - start);
     std::memcpy(bytes_.data() + start, from.data(), first);
@@ -52,6 +53,7 @@ RingReceiver::Got RingReceiver::receive(std::vector<std::byte>& message) {
 }
 
 void RingReceiver::copy(std::uint64_t at, std::span<std::byte> to) const {
+    if (to.empty()) return;
     const std::size_t start = at & (bytes_.size() - 1);
     const std::size_t first = std::min(to.size(), bytes_.size() - start);
     std::memcpy(to.data(), bytes_.data() + start, first);
