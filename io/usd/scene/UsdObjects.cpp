@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <span>
 
 namespace penumbra {
 
@@ -17,7 +16,7 @@ bool isModelKind(const UsdPrim& prim) {
 }
 
 /// Whether one can go from any box to any other over boxes that touch.
-bool allTouch(std::span<const Bounds> boxes, float distance) {
+bool allTouch(const std::vector<Bounds>& boxes, float distance) {
     std::vector<std::size_t> open{0}, left(boxes.size() - 1);
     std::iota(left.begin(), left.end(), std::size_t(1));
     while (!open.empty() && !left.empty()) {
@@ -42,7 +41,20 @@ UsdObjects::UsdObjects(const UsdStage& stage, bool (*isShape)(std::string_view t
         entries_[p].shape = prim.defined && !prim.abstract && isShape(prim.typeName);
         entries_[prim.parent].shapesHeld += entries_[p].shape;
     }
+    order();
     findModels(stage);
+}
+
+/// The stage lists prims level by level.
+void UsdObjects::order() {
+    std::vector<std::uint32_t> open{0};
+    for (std::uint32_t number = 0; !open.empty(); ++number) {
+        const std::uint32_t prim = open.back();
+        open.pop_back();
+        entries_[prim].order = number;
+        const auto& children = stage_.prims()[prim].children;
+        open.insert(open.end(), children.rbegin(), children.rend());
+    }
 }
 
 void UsdObjects::findModels(const UsdStage& stage) {
@@ -69,21 +81,23 @@ void UsdObjects::addInstance(std::size_t instancer, const std::shared_ptr<Transf
 }
 
 void UsdObjects::addShape(std::size_t prim, const Bounds& box) {
-    for (std::size_t p = prim;; p = stage_.prims()[p].parent) {
-        Entry& entry = entries_[p];
-        if (entry.partCount++ == 0) entry.firstPart = std::uint32_t(parts_.size());
-        if (p == 0) break;
-    }
-    parts_.push_back(box);
+    parts_.push_back({entries_[prim].order, box});
+    for (std::size_t p = prim; p != 0; p = stage_.prims()[p].parent) ++entries_[p].partCount;
 }
 
 bool UsdObjects::isThing(const Entry& entry) const {
     if (entry.partCount == 0 || entry.partCount > kMostParts) return false;
-    const std::span<const Bounds> parts(parts_.data() + entry.firstPart, entry.partCount);
+    const auto first =
+        std::lower_bound(parts_.begin(), parts_.end(), entry.order,
+                         [](const Part& part, std::uint32_t order) { return part.order < order; });
+    std::vector<Bounds> boxes;
     Bounds all;
-    for (const Bounds& part : parts) all.add(part);
+    for (auto part = first; part != first + entry.partCount; ++part) {
+        boxes.push_back(part->box);
+        all.add(part->box);
+    }
     const glm::vec3 size = all.size();
-    return std::max({size.x, size.y, size.z}) <= kMostSize && allTouch(parts, kTouching);
+    return std::max({size.x, size.y, size.z}) <= kMostSize && allTouch(boxes, kTouching);
 }
 
 bool UsdObjects::isObject(const Entry& entry) const {
@@ -92,7 +106,9 @@ bool UsdObjects::isObject(const Entry& entry) const {
     return entry.model || (entry.shapesHeld > 0 && isThing(entry));
 }
 
-void UsdObjects::mark() const {
+void UsdObjects::mark() {
+    std::stable_sort(parts_.begin(), parts_.end(),
+                     [](const Part& a, const Part& b) { return a.order < b.order; });
     std::vector<std::uint8_t> inside(entries_.size(), 0); // an object
     for (std::size_t p = 1; p < entries_.size(); ++p) {
         const Entry& entry = entries_[p];

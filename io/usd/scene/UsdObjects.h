@@ -43,7 +43,7 @@ public:
     void addShape(std::size_t prim, const Bounds& box);
 
     /// Marks the transforms that begin objects, when all have been added.
-    void mark() const;
+    void mark();
 
 private:
     struct Entry {
@@ -51,10 +51,15 @@ private:
         std::uint32_t shapesHeld = 0; ///< children that are shapes
         bool shape = false;
         bool model = false;          ///< a smallest one
-        std::uint32_t firstPart = 0; ///< parts of it and of what is below it
-        std::uint32_t partCount = 0;
+        std::uint32_t order = 0;     ///< depth first: what is below it comes right after it
+        std::uint32_t partCount = 0; ///< parts of it and of what is below it
+    };
+    struct Part {
+        std::uint32_t order = 0; ///< of its prim
+        Bounds box;              ///< [m, world]
     };
 
+    void order();
     void findModels(const UsdStage& stage);
     bool isObject(const Entry& entry) const;
     bool isThing(const Entry& entry) const;
@@ -67,7 +72,7 @@ private:
 
     std::vector<Instance> instances_;
     std::vector<Entry> entries_; ///< one a prim
-    std::vector<Bounds> parts_;  ///< in the order of the prims
+    std::vector<Part> parts_;    ///< in mark(): sorted by their order
 };
 
 } // namespace penumbra

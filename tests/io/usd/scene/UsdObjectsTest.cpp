@@ -50,6 +50,14 @@ TEST(UsdObjects, SmallPartsThatTouchAreOneThing) {
     EXPECT_THAT(objectsOf(table + cube("floor", 9)), ElementsAre("/Table", "/floor"));
 }
 
+TEST(UsdObjects, PartsOfOneThingAreFoundHoweverDeepTheyAre) {
+    const auto seat = [](const std::string& name, double x) {
+        return xform(name, cube("leg", 0.5, x) + xform("Back", cube("rail", 0.5, x + 0.4)));
+    };
+    EXPECT_THAT(objectsOf(seat("Seat1", 0) + seat("Seat2", 20) + seat("Seat3", 40)),
+                ElementsAre("/Seat1", "/Seat2", "/Seat3"));
+}
+
 TEST(UsdObjects, PartsThatDoNotTouchAreThingsOfTheirOwn) {
     const std::string cups = xform("Cups", cube("one", 0.1) + cube("two", 0.1, 0.3));
     EXPECT_THAT(objectsOf(cups + cube("floor", 9)),
