@@ -1,5 +1,7 @@
 #include "scenegraph/TextureImage.h"
 
+#include "base/Srgb.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -10,10 +12,6 @@ namespace penumbra {
 namespace {
 
 constexpr float kMostRoot = 65535;
-
-float fromSrgb(float v) { // IEC 61966-2-1
-    return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
 
 float usable(float v) {
     constexpr float kMost = 1e30f;
@@ -102,7 +100,7 @@ void TextureImage::decodeAs(bool srgb) {
     srgb_ = srgb;
     for (std::size_t i = 0; i < decoded_.size(); ++i) {
         const float v = float(i) / 255;
-        decoded_[i] = srgb ? fromSrgb(v) : v;
+        decoded_[i] = srgb ? linearFromSrgb(v) : v;
     }
 }
 

@@ -1,11 +1,11 @@
 #include "io/image/ImageReader.h"
 
 #include "base/Error.h"
+#include "base/Srgb.h"
 #include "io/image/PictureDecoder.h"
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <string_view>
@@ -72,10 +72,6 @@ std::vector<std::byte> plainPng(std::span<const std::byte> bytes, const std::str
     return plain;
 }
 
-float fromSrgb(float v) {
-    return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
-
 /// Its libraries are many, and take half a second and half a gigabyte of addresses: only those who
 /// have textures load them, from beside the program.
 DecodePicture& decoder() {
@@ -112,7 +108,7 @@ std::shared_ptr<const TextureImage> readImage(std::span<const std::byte> bytes,
         return std::make_shared<TextureImage>(name, picture.width, picture.height,
                                               std::move(picture.bytes), srgb);
     if (srgb)
-        for (float& v : picture.floats) v = fromSrgb(v);
+        for (float& v : picture.floats) v = linearFromSrgb(v);
     return std::make_shared<TextureImage>(name, picture.width, picture.height, picture.floats);
 }
 

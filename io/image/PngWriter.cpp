@@ -1,5 +1,6 @@
 #include "io/image/PngWriter.h"
 
+#include "base/Srgb.h"
 #include "io/image/AtomicFile.h"
 #include "io/image/PngEncoder.h"
 
@@ -11,11 +12,6 @@
 namespace penumbra {
 
 namespace {
-
-/// sRGB's transfer function, IEC 61966-2-1.
-double srgbEncoded(double linear) {
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-}
 
 /// Interleaved gradient noise, in [0, 1): within each 3x3 pixels the values are well spread.
 double gradientNoise(int x, int y) {
@@ -35,7 +31,7 @@ std::vector<std::uint8_t> displayBytes(std::span<const Rgb> shown, int width) {
         const double noise = 0.0005 + 0.999 * gradientNoise(int(i % std::size_t(width)),
                                                             int(i / std::size_t(width)));
         for (float channel : {shown[i].r, shown[i].g, shown[i].b}) {
-            const double level = 255 * srgbEncoded(std::clamp(channel, 0.0f, 1.0f));
+            const double level = 255 * srgbFromLinear(double(std::clamp(channel, 0.0f, 1.0f)));
             bytes.push_back(std::uint8_t(std::min(255.0, std::floor(level + noise))));
         }
     }

@@ -4,10 +4,10 @@
 #include "io/image/Exposure.h"
 #include "io/image/PngWriter.h"
 #include "radiosity/process/ProcessLink.h"
-#include "radiosity/query/LightProbe.h"
 #include "radiosity/transport/LitLevel.h"
 #include "viewer/app/FileWatcher.h"
 #include "viewer/app/InteractiveRenderer.h"
+#include "viewer/app/OverlayChoice.h"
 #include "viewer/app/PictureSaver.h"
 #include "viewer/app/Replay.h"
 #include "viewer/app/SessionFile.h"
@@ -17,7 +17,6 @@
 #include "viewer/input/SceneLoader.h"
 #include "viewer/input/Walkthrough.h"
 #include "viewer/input/Window.h"
-#include "viewer/overlay/OverlayViews.h"
 #include "viewer/panels/GuiLayer.h"
 #include "viewer/panels/PanelState.h"
 #include "viewer/panels/Panels.h"
@@ -74,9 +73,6 @@ private:
     void save(const View& view);
     void showTitle();
     bool changing() const;
-    bool overlayChanging() const;
-    OverlayView overlayView();
-    OverlayView blockers() const;
 
     const ViewerOptions& options_;
     std::string scene_, name_; ///< path of the scene's file, and its name
@@ -356,49 +352,8 @@ void Viewer::takeEvents() {
 
 bool Viewer::changing() const {
     return stale_ > 0 || !state_.exposure.settled() || (walk_ && walk_->moving()) ||
-           (replay_ && replay_->playing()) || gui_->busy() || overlayChanging();
-}
-
-/// Whether the overlay goes on changing by itself.
-bool Viewer::overlayChanging() const {
-    if (!light_) return false;
-    if (watchesDirty(state_.overlay)) return !light_->state().reached(SolutionState::exact);
-    return state_.overlay == Overlay::age &&
-           walk_->time() - light_->ages().newest() < kAgeScale.first;
-}
-
-OverlayView Viewer::overlayView() {
-    if (!light_) return {};
-    switch (state_.overlay) {
-    case Overlay::none:
-        break;
-    case Overlay::mesh:
-        return meshView();
-    case Overlay::age:
-        return ageView(light_->objects(), light_->ages(), walk_->time());
-    case Overlay::dirtyBlocks:
-        return dirtyView(light_->objects(), light_->dirtyBlocks());
-    case Overlay::importance:
-        if (state_.policy != PolicyKind::importance) return noImportanceView();
-        return importanceView(light_->objects(), light_->dirtyBlocks(), highestPriority_);
-    case Overlay::blockers:
-        return blockers();
-    }
-    return {};
-}
-
-/// At the pointer, in the scene as it is now, so that the answer keeps up with what is moved.
-OverlayView Viewer::blockers() const {
-    const std::optional<Touch> touch = walk_->pointedAt(window_.pixels());
-    const auto& selection = walk_->selection();
-    const bool one = selection && !selection->lights.empty();
-    std::vector<EmitterAccount> lights;
-    if (touch)
-        lights =
-            lightsOf(probeLight(walk_->placed(), walk_->rays(), touch->position, touch->normal),
-                     one ? selection->objectPath : std::string());
-    return blockersView(light_->objects(), light_->placed(), walk_->placed(), lights,
-                        one ? "of what is selected, at the pointer" : "at the pointer");
+           (replay_ && replay_->playing()) || gui_->busy() ||
+           (light_ && overlayChanging(state_.overlay, *walk_, *light_));
 }
 
 /// What the window shows, but for the panels, as PNG; with all layers as EXR, once there is light.
@@ -470,7 +425,11 @@ void Viewer::draw(double seconds) {
     const glm::ivec2 size = window_.pixels();
     const View view = walk_ ? walk_->rig().view(size.x, size.y) : View{};
     const Frustum frustum(view.worldToClip());
-    OverlayView overlay = overlayView();
+    OverlayView overlay;
+    if (light_) {
+        const bool ranked = state_.policy == PolicyKind::importance;
+        overlay = overlayView(state_.overlay, *walk_, *light_, size, ranked, highestPriority_);
+    }
     state_.legend = std::move(overlay.legend);
     renderer_.setOverlay(std::move(overlay.picture));
     renderer_.drawScene(light_ ? light_->listVisible(frustum) : listVisible(nothing_, frustum),

@@ -1,5 +1,7 @@
 #include "viewer/gl/TextureCache.h"
 
+#include "base/Srgb.h"
+
 #include <epoxy/gl.h>
 
 #include <algorithm>
@@ -27,8 +29,8 @@ GLint wrapMode(TextureWrap wrap) {
     return GL_REPEAT;
 }
 
-std::uint8_t toByte(float v, bool srgb) { // IEC 61966-2-1
-    if (srgb) v = v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f;
+std::uint8_t toByte(float v, bool srgb) {
+    if (srgb) v = srgbFromLinear(v);
     return std::uint8_t(std::lround(255 * std::clamp(v, 0.0f, 1.0f)));
 }
 

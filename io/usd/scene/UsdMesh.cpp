@@ -32,12 +32,6 @@ std::vector<glm::vec3> displayColours(const UsdAttributes& prim) {
     return expanded;
 }
 
-std::string colourInterpolation(const UsdPrim& prim) {
-    const UsdValue* value = UsdStage::metadata(prim, kColour, "interpolation");
-    const std::string* text = value ? value->text() : nullptr;
-    return text ? *text : "constant";
-}
-
 // Which material each face has, by the numbers of the file.
 class Painter {
 public:
@@ -56,7 +50,7 @@ public:
         }
         const auto colours = displayColours(prim_);
         if (!colours.empty())
-            paintColours(colours, colourInterpolation(prim_.prim()));
+            paintColours(colours, prim_.interpolation(kColour, "constant"));
         else if (inherited.displayColour)
             fill({ofColour(*inherited.displayColour), false});
         else
@@ -260,7 +254,8 @@ NodePtr makeUsdMesh(const std::string& name, const UsdStage& stage, const UsdAtt
 std::optional<Rgb> usdConstantColour(const UsdAttributes& prim) {
     if (!UsdStage::property(prim.prim(), kColour)) return std::nullopt;
     const auto colours = displayColours(prim);
-    if (colours.size() != 1 || colourInterpolation(prim.prim()) != "constant") return std::nullopt;
+    if (colours.size() != 1 || prim.interpolation(kColour, "constant") != "constant")
+        return std::nullopt;
     return usable(colours[0]);
 }
 

@@ -12,13 +12,6 @@ namespace {
 constexpr std::string_view kPrimvar = "primvars:normals";
 constexpr std::string_view kAttribute = "normals";
 
-std::string interpolationOf(const UsdAttributes& mesh, std::string_view name) {
-    const UsdValue* const value = UsdStage::metadata(mesh.prim(), name, "interpolation");
-    const std::string* const text = value ? value->text() : nullptr;
-    if (text) return *text;
-    return name == kPrimvar ? "constant" : "vertex"; // USD's fallbacks
-}
-
 // The primvar's indices applied; none if one of them is out of range.
 std::optional<std::vector<glm::vec3>> valuesOf(const UsdAttributes& mesh, std::string_view name) {
     std::vector<glm::vec3> values = mesh.points(name);
@@ -54,7 +47,8 @@ std::vector<glm::vec3> readUsdNormals(const UsdAttributes& mesh, const UsdPolygo
     const std::string_view name = mesh.value(kPrimvar) ? kPrimvar : kAttribute;
     const auto values = valuesOf(mesh, name);
     if (values && values->empty()) return {};
-    const std::string interpolation = interpolationOf(mesh, name);
+    const char* const fallback = name == kPrimvar ? "constant" : "vertex"; // as USD has it
+    const std::string interpolation = mesh.interpolation(name, fallback);
     if (!values || values->size() != wanted(polygons, interpolation)) {
         diagnostics.warn(mesh.location(name), "normals that do not fit their mesh ignored");
         return {};

@@ -1,6 +1,7 @@
 #include "io/usd/shade/UsdMaterial.h"
 
 #include "io/usd/layer/UsdPath.h"
+#include "io/usd/shade/UsdConnections.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +9,6 @@
 namespace penumbra {
 
 namespace {
-
-constexpr int kMaxConnections = 64; // of a chain; also ends cycles
 
 float finiteOrZero(double v) {
     return std::isfinite(v) ? float(v) : 0.0f;
@@ -69,7 +68,7 @@ UsdSurface UsdMaterials::make(const UsdPrim& prim) {
 const UsdPrim* UsdMaterials::previewSurface(const UsdPrim& material) {
     const UsdPrim* prim = &material;
     std::string output = "outputs:surface";
-    for (int i = 0; i < kMaxConnections && prim; ++i) {
+    for (int i = 0; i < kMostConnections && prim; ++i) {
         if (prim->typeName == "Shader") {
             const std::string id = UsdAttributes(*prim, time_).text("info:id", "");
             if (id == "UsdPreviewSurface") return prim;
@@ -86,25 +85,21 @@ const UsdPrim* UsdMaterials::previewSurface(const UsdPrim& material) {
 }
 
 UsdMaterials::Input UsdMaterials::input(const UsdPrim& shader, const std::string& name) {
-    const UsdPrim* prim = &shader;
-    std::string attribute = name;
-    for (int i = 0; i < kMaxConnections; ++i) {
-        const auto sources = UsdStage::targets(*prim, attribute);
-        if (sources.empty()) return {UsdAttributes(*prim, time_).numbers(attribute), false};
-        const UsdPrim* source = stage_.find(usdPrimPart(sources.front()));
-        const std::string property(usdPropertyPart(sources.front()));
-        if (!source) {
-            diagnostics_.warn(UsdStage::location(*prim, attribute),
-                              "connection to <" + sources.front() + ">, which is not there");
-            return {UsdAttributes(*prim, time_).numbers(attribute), false};
-        }
-        if (source->typeName == "Shader" && property.starts_with("outputs:"))
-            return textureFallback(*source, property, name);
-        prim = source;
-        attribute = property;
+    const UsdSource source = usdSourceOf(stage_, shader, name);
+    switch (source.kind) {
+    case UsdSource::Kind::computed:
+        return textureFallback(*source.prim, source.attribute, name);
+    case UsdSource::Kind::circle:
+        diagnostics_.warn(shader.location(), "connections run in a circle");
+        return {};
+    case UsdSource::Kind::missing:
+        diagnostics_.warn(UsdStage::location(*source.prim, source.attribute),
+                          "connection to <" + source.target + ">, which is not there");
+        break;
+    case UsdSource::Kind::value:
+        break;
     }
-    diagnostics_.warn(shader.location(), "connections run in a circle");
-    return {};
+    return {UsdAttributes(*source.prim, time_).numbers(source.attribute), false};
 }
 
 // Of shaders' outputs only the colours of textures are understood: where these can't be used, their

@@ -2,7 +2,7 @@
 
 #include "base/Error.h"
 #include "io/image/ImageReader.h"
-#include "io/usd/layer/UsdPath.h"
+#include "io/usd/shade/UsdConnections.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,40 +13,17 @@ namespace penumbra {
 
 namespace {
 
-constexpr int kMaxConnections = 64; // of a chain; also ends cycles
-
-/// Where an input comes from: an output of a shader, or the attribute that has its value.
-struct Source {
-    const UsdPrim* prim = nullptr; ///< null: a connection leads nowhere
-    std::string attribute;
-    bool computed = false; ///< an output of a shader
-};
-
-Source sourceOf(const UsdStage& stage, const UsdPrim& prim, const std::string& attribute) {
-    Source at{&prim, attribute};
-    for (int i = 0; i < kMaxConnections && at.prim; ++i) {
-        const auto sources = UsdStage::targets(*at.prim, at.attribute);
-        if (sources.empty()) return at;
-        at.attribute = usdPropertyPart(sources.front());
-        at.prim = stage.find(usdPrimPart(sources.front()));
-        at.computed =
-            at.prim && at.prim->typeName == "Shader" && at.attribute.starts_with("outputs:");
-        if (at.computed) return at;
-    }
-    return {};
-}
-
 std::string textAt(const UsdStage& stage, const UsdPrim& prim, const std::string& name,
                    const std::string& fallback, UsdTime time) {
-    const Source source = sourceOf(stage, prim, name);
-    if (!source.prim || source.computed) return fallback;
+    const UsdSource source = usdSourceOf(stage, prim, name);
+    if (source.kind != UsdSource::Kind::value) return fallback;
     return UsdAttributes(*source.prim, time).text(source.attribute, fallback);
 }
 
 std::vector<double> tupleAt(const UsdStage& stage, const UsdPrim& prim, const std::string& name,
                             std::vector<double> fallback, UsdTime time) {
-    const Source source = sourceOf(stage, prim, name);
-    if (!source.prim || source.computed) return fallback;
+    const UsdSource source = usdSourceOf(stage, prim, name);
+    if (source.kind != UsdSource::Kind::value) return fallback;
     auto found = UsdAttributes(*source.prim, time).tuple(source.attribute, fallback.size());
     const bool usable = !found.empty() && std::all_of(found.begin(), found.end(),
                                                       [](double v) { return std::abs(v) < 1e9; });
@@ -90,15 +67,15 @@ void addTransform(const UsdStage& stage, const UsdPrim& prim, UsdTime time, Text
 /// Follows inputs:st to the primvar that it is read from.
 std::string followCoordinates(const UsdStage& stage, const UsdAttributes& shader, Texture& texture,
                               Diagnostics& diagnostics) {
-    Source source = sourceOf(stage, shader.prim(), "inputs:st");
-    for (int i = 0; i < kMaxConnections && source.prim && source.computed; ++i) {
+    UsdSource source = usdSourceOf(stage, shader.prim(), "inputs:st");
+    for (int i = 0; i < kMostConnections && source.kind == UsdSource::Kind::computed; ++i) {
         const UsdAttributes attributes(*source.prim, shader.time());
         const std::string id = attributes.text("info:id", "");
         if (id == "UsdPrimvarReader_float2")
             return textAt(stage, *source.prim, "inputs:varname", "st", shader.time());
         if (id != "UsdTransform2d") break;
         addTransform(stage, *source.prim, shader.time(), texture);
-        source = sourceOf(stage, *source.prim, "inputs:in");
+        source = usdSourceOf(stage, *source.prim, "inputs:in");
     }
     diagnostics.warn(shader.location("inputs:st"),
                      "texture coordinates not understood: primvar 'st' is used");
@@ -173,8 +150,7 @@ std::vector<glm::vec2> usdTexCoords(const UsdAttributes& prim, const std::string
         return {};
     }
     const auto indices = prim.integers(primvar + ":indices");
-    const UsdValue* word = UsdStage::metadata(prim.prim(), primvar, "interpolation");
-    const std::string interpolation = word && word->text() ? *word->text() : "constant";
+    const std::string interpolation = prim.interpolation(primvar, "constant");
     const auto place = [&](std::size_t face, std::size_t i, std::size_t corner) -> std::size_t {
         const auto count = std::size_t(mesh.faceVertexCounts[face]);
         if (interpolation == "faceVarying")

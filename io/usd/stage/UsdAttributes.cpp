@@ -75,6 +75,12 @@ std::vector<std::string> UsdAttributes::texts(std::string_view name) const {
     return stored ? *stored : std::vector<std::string>{};
 }
 
+std::string UsdAttributes::interpolation(std::string_view name, std::string_view fallback) const {
+    const UsdValue* const value = UsdStage::metadata(prim_, name, "interpolation");
+    const std::string* const word = value ? value->text() : nullptr;
+    return word ? *word : std::string(fallback);
+}
+
 std::vector<glm::vec3> UsdAttributes::points(std::string_view name) const {
     const UsdResolved resolved = value(name);
     return resolved ? toVectors(*resolved) : std::vector<glm::vec3>{};

@@ -22,6 +22,8 @@ public:
     bool flag(std::string_view name, bool fallback) const;
     /// A token, string or asset path.
     std::string text(std::string_view name, std::string_view fallback) const;
+    /// How many values a primvar has, and for what (USD's `interpolation`).
+    std::string interpolation(std::string_view name, std::string_view fallback) const;
     Rgb colour(std::string_view name, Rgb fallback) const;
     /// The components of a number, tuple or matrix; empty unless there are exactly `count`.
     std::vector<double> tuple(std::string_view name, std::size_t count) const;
