@@ -65,8 +65,8 @@ std::string withDepth(const char* source, bool reversed) {
 } // namespace
 
 OverlayPass::OverlayPass()
-    : lineProgram_(withDepth(kLineVertexShader, canReverseDepth()).c_str(), kLineFragmentShader),
-      blockProgram_(withDepth(kBlockVertexShader, canReverseDepth()).c_str(), kBlockFragmentShader),
+    : lineProgram_(withDepth(kLineVertexShader, canReverseDepth()), kLineFragmentShader),
+      blockProgram_(withDepth(kBlockVertexShader, canReverseDepth()), kBlockFragmentShader),
       blockBuffer_(makeBuffer()), blockTexture_(makeTexture()) {}
 
 void OverlayPass::dropDead() {
