@@ -94,18 +94,19 @@ std::optional<std::string> ImportedImages::keep(const aiTexture& texture, const 
                           "picture '" + cleanText(name) + "' within the model left out: " + why);
         return std::nullopt;
     };
-    const std::string stem = layer_.stem().string();
     if (texture.mHeight != 0 || texture.mWidth == 0 || !texture.pcData)
         return leaveOut("only PNG, JPEG and the like are taken");
-    if (layer_.empty()) return leaveOut("penumbra import writes it to a file");
-    if (firstBadUtf8(stem) != std::string::npos)
-        return leaveOut("the name of the layer, of which it gets its own, is not valid UTF-8");
+    const fs::path holder = layer_.empty() ? model_.filename() : layer_.stem();
+    if (firstBadUtf8(holder.string()) != std::string::npos)
+        return leaveOut("the name of its file is not valid UTF-8 (rename it)");
     const auto* bytes = reinterpret_cast<const std::byte*>(texture.pcData);
     ImportedImage image;
-    image.name = stem + "-picture" + std::to_string(images_.size() + 1) + endingOf(texture);
+    image.name = (layer_.empty() ? "" : holder.string() + "-") + "picture" +
+                 std::to_string(images_.size() + 1) + endingOf(texture);
     image.bytes.assign(bytes, bytes + texture.mWidth);
     images_.push_back(std::move(image));
-    return "./" + images_.back().name;
+    const std::string& made = images_.back().name;
+    return "./" + (layer_.empty() ? holder.string() + "[" + made + "]" : made);
 }
 
 } // namespace penumbra

@@ -27,7 +27,8 @@ public:
     /// such picture. \param name as the model has it
     std::optional<std::string> find(const std::string& name);
 
-    /// Those that are to be written beside the layer.
+    /// Those within the model: to be written beside the layer, or, if it stays in memory, what
+    /// `model.glb[name]` stands for.
     std::vector<ImportedImage> take() { return std::move(images_); }
     /// Those beside the model that were found.
     const std::vector<std::filesystem::path>& files() const { return files_; }

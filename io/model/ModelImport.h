@@ -19,14 +19,14 @@ struct ImportOptions {
     std::optional<UpAxis> up = {};            ///< none: the file's, or the format's habit
     /// Where the layer will lie: pictures are named relative to it, and those within the model are
     /// handed over to be written beside it. Empty: the layer stays in memory, in the model's place,
-    /// and such pictures are left out.
+    /// and names such pictures as in a package: `model.glb[picture1.png]`.
     std::filesystem::path layer = {};
     std::uintmax_t maxFileBytes = std::uintmax_t(2) << 30; ///< of each file that is read
 };
 
 /// A picture that was within the model.
 struct ImportedImage {
-    std::string name; ///< of the file to write, beside the layer
+    std::string name; ///< of the file to write beside the layer, or within the model
     std::vector<std::byte> bytes;
 };
 

@@ -3,7 +3,12 @@
 
 #include "io/usd/crate/UsdFiles.h"
 
+#include <cstddef>
 #include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
 #include <vector>
 
 namespace penumbra {
@@ -16,6 +21,8 @@ public:
         : UsdFiles(maxFileBytes) {}
 
     UsdLayer layer(const std::string& identifier, const UsdLayerLimits& limits) const override;
+    /// Those of a picture within a model (`model.glb[picture1.png]`) too, once its layer was read.
+    UsdAssetBytes bytes(const std::string& identifier) const override;
 
     /// What the models that were read name: their buffers, materials and pictures.
     std::vector<std::filesystem::path> parts() const;
@@ -23,6 +30,7 @@ public:
 private:
     mutable std::mutex partsMutex_;
     mutable std::vector<std::filesystem::path> parts_;
+    mutable std::map<std::string, std::shared_ptr<const std::vector<std::byte>>> pictures_;
 };
 
 } // namespace penumbra

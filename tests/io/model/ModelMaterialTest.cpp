@@ -1,4 +1,5 @@
 // Materials and pictures of models.
+#include "io/image/PngEncoder.h"
 #include "tests/io/model/LayerParts.h"
 #include "tests/io/usd/UsdTestFiles.h"
 #include "tests/support/ModelTexts.h"
@@ -119,9 +120,22 @@ TEST_F(ModelMaterial, APictureWithinTheModelIsHandedOverOrNamed) {
     const auto odd = gltf(more, {.layer = here.path() / "b\xff.usda"});
     EXPECT_TRUE(odd.images.empty());
     EXPECT_TRUE(says(odd, "is not valid UTF-8"));
-    const auto inMemory = gltf(more);
-    EXPECT_TRUE(inMemory.images.empty());
-    EXPECT_TRUE(says(inMemory, "penumbra import writes it"));
+}
+
+TEST_F(ModelMaterial, APictureWithinAModelThatIsOpenedItselfIsReadInPlace) {
+    const auto bytes = encodePng(2, 1, std::vector<std::uint8_t>{255, 0, 0, 128, 128, 128});
+    const std::string png(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const auto model = gltf(R"(, "materials": [{"name": "M", "pbrMetallicRoughness":
+        {"metallicFactor": 0, "baseColorTexture": {"index": 0}}}], "textures": [{"source": 0}],
+        "images": [{"uri": "data:image/png;base64,)" +
+                            base64(png) + R"("}])");
+    EXPECT_EQ(textOf(model.layer, "/a/Materials/M/DiffuseTexture", "inputs:file"),
+              "./a.gltf[picture1.png]");
+    const LoadedScene scene = loadUsdScene(here.file("a.gltf"));
+    const auto nodes = nodesByPath(*scene.scene);
+    const Material& material = *leafOf(nodes, "/a/N/Square")->mesh()->materialOf(0);
+    ASSERT_TRUE(material.textures().reflectance);
+    EXPECT_EQ(material.textures().reflectance->image->width(), 2);
 }
 
 TEST_F(ModelMaterial, OneMaterialOfManyMeshesIsThereOnce) {
