@@ -157,6 +157,7 @@ void run(CompareCommand command) {
                          : command.solve.progress ? ProgressBar::When::always
                                                   : ProgressBar::When::terminal);
     LoadOptions load;
+    load.allowOutside = command.solve.allowOutside;
     load.time = frameRange(command.solve.frames).first;
     LoadedScene loaded = loadUsdScene(command.solve.scene, load);
     checkOutputs(loaded.files, {command.output, command.json});

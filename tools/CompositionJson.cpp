@@ -73,13 +73,13 @@ std::string textOf(const UsdCompositionErrors::Error& error) {
 
 } // namespace
 
-CompositionJson compositionJson(const std::filesystem::path& scene) {
+CompositionJson compositionJson(const std::filesystem::path& scene, bool allowOutside) {
     CompositionJson result;
     Json json;
     json["Entry"] = scene.filename().string();
     auto& prims = (json["Composing"] = Json::object()).get_ref<Json::object_t&>();
     Json errors = Json::array();
-    const SceneFiles files;
+    const SceneFiles files(scene, allowOutside);
     try {
         UsdComposition composition(scene, {}, files);
         reportComposition(composition, [&](const UsdPrimReport& prim) {

@@ -19,6 +19,6 @@ struct CompositionJson {
     std::string fault; ///< why the root layer could not be read; empty if it could
 };
 
-CompositionJson compositionJson(const std::filesystem::path& scene);
+CompositionJson compositionJson(const std::filesystem::path& scene, bool allowOutside);
 
 } // namespace penumbra

@@ -20,6 +20,7 @@ namespace {
 struct ImportCommand {
     std::string model, output, unit;
     std::optional<UpAxis> up;
+    bool allowOutside = false;
     bool quiet = false;
 };
 
@@ -64,6 +65,7 @@ void run(const ImportCommand& command) {
     options.metersPerUnit = unitOf(command.unit);
     options.up = command.up;
     options.layer = command.output;
+    if (!command.allowOutside) options.folders = SceneFolders(command.model);
     if (std::filesystem::path(command.output).extension() != ".usda")
         throw CLI::ValidationError(
             "--output", fmt::format("'{}' would be USD text: name it .usda", command.output));
@@ -103,6 +105,8 @@ void addImportCommand(CLI::App& app) {
                      "Z for STL)")
         ->transform(CLI::CheckedTransformer(axes, CLI::ignore_case).description("{y,z}"))
         ->type_name("AXIS");
+    added->add_flag("--allow-outside", command->allowOutside,
+                    "Open buffers and materials outside of the model's folder, too");
     added->add_flag("--quiet", command->quiet, "Say nothing of what was assumed or left out");
     added->callback([command] { run(*command); });
 }

@@ -3,6 +3,7 @@
 #include "io/image/AtomicFile.h"
 #include "io/usd/scene/SceneFiles.h"
 #include "io/usd/scene/UsdScene.h"
+#include "io/usd/stage/UsdFlatten.h"
 #include "io/usd/text/UsdLayerWriter.h"
 #include "radiosity/mesh/LightShapes.h"
 #include "radiosity/query/LightAccount.h"
@@ -37,6 +38,7 @@ struct InfoCommand {
     SolveSettings solve;     ///< most of it counts with --at only
     std::string at;          ///< as it was given; empty: about the scene
     std::string text;        ///< where to write the file's own layer as text; empty: nowhere
+    std::string flatten;     ///< where to write all that it is composed of; empty: nowhere
     std::string composition; ///< where to write what it is composed of
 };
 
@@ -129,6 +131,7 @@ void printFrames(const LoadedScene& loaded) {
 
 void describeScene(const SolveSettings& command) {
     LoadOptions options;
+    options.allowOutside = command.allowOutside;
     options.time = command.frame;
     const LoadedScene loaded = loadUsdScene(command.scene, options);
     const PlacedScene placed = placeScene(*loaded.scene);
@@ -236,7 +239,7 @@ void explain(const SolveSettings& settings, glm::vec3 point) {
 
 /// The layer of the file alone, without what it refers to.
 void writeText(const SolveSettings& settings, const std::string& output) {
-    const SceneFiles files;
+    const SceneFiles files(settings.scene, settings.allowOutside);
     const UsdLayer layer = files.layer(settings.scene, {});
     auto read = files.parts();
     read.push_back(settings.scene);
@@ -251,9 +254,28 @@ void writeText(const SolveSettings& settings, const std::string& output) {
     reportDiagnostics(layer.diagnostics, settings.verbose);
 }
 
+/// The composed scene as one layer.
+void writeFlattened(const SolveSettings& settings, const std::string& output) {
+    const SceneFiles files(settings.scene, settings.allowOutside);
+    UsdStage stage = UsdStage::open(settings.scene, {}, files);
+    auto read = stage.files();
+    const auto parts = files.parts();
+    read.insert(read.end(), parts.begin(), parts.end());
+    checkOutputs(read, {output});
+    const auto place = std::filesystem::path(output == "-" ? "standard output" : output);
+    const std::string text = usdLayerText(flattenUsdStage(stage, files, place));
+    if (output == "-") {
+        fmt::print("{}", text);
+        finishStandardOutput();
+    } else {
+        writeFileAtomically(output, text);
+    }
+    reportDiagnostics(stage.diagnostics().take(), settings.verbose);
+}
+
 /// Writes what the scene is composed of.
 void writeComposition(const SolveSettings& settings, const std::string& output) {
-    const CompositionJson json = compositionJson(settings.scene);
+    const CompositionJson json = compositionJson(settings.scene, settings.allowOutside);
     checkOutputs(json.files, {output});
     if (output == "-")
         fmt::print("{}", json.text);
@@ -267,6 +289,8 @@ void writeComposition(const SolveSettings& settings, const std::string& output) 
 void run(const InfoCommand& command) {
     if (!command.text.empty())
         writeText(command.solve, command.text);
+    else if (!command.flatten.empty())
+        writeFlattened(command.solve, command.flatten);
     else if (!command.composition.empty())
         writeComposition(command.solve, command.composition);
     else if (command.at.empty())
@@ -282,7 +306,8 @@ void addInfoCommand(CLI::App& app) {
     CLI::App* const info = app.add_subcommand(
         "info", "What is in a scene, and what of it was not understood; with --at, why it is as\n"
                 "bright or dark as it is at a point; with --text, the file as USD text; with\n"
-                "--composition, what each prim is composed of, as JSON.\n"
+                "--flatten, all that it is composed of as one file; with --composition, what\n"
+                "each prim is composed of, as JSON.\n"
                 "Example: penumbra info room.usda --at 1.5,1,0 --direct-only");
     addSolveOptions(*info, command->solve);
     for (const char* name : {"--frames", "--from-scratch", "--stats"})
@@ -305,12 +330,18 @@ void addInfoCommand(CLI::App& app) {
         "package, model), and nothing else; - for standard output. One layer is written,\n"
         "without those it refers to");
     text->excludes(at);
+    CLI::Option* const flatten = info->add_option(
+        "--flatten", command->flatten,
+        "OUT.usda: write the composed scene as USD text, one file without sublayers,\n"
+        "references, payloads, variants and the like; - for standard output");
+    flatten->excludes(at)->excludes(text);
     info->add_option("--composition", command->composition,
                      "Write what each prim is composed of (layers, arcs, selections, targets) to\n"
                      "this file, as JSON; - is standard output")
         ->type_name("OUT.json")
         ->excludes(at)
-        ->excludes(text);
+        ->excludes(text)
+        ->excludes(flatten);
     for (const char* name : {"--patch-size", "--element-size", "--samples", "--residual",
                              "--direct-only", "--threads", "--progress", "--quiet"})
         info->get_option(name)->needs(at);

@@ -42,7 +42,7 @@ struct RenderCommand {
     std::vector<std::string> cameras;
     std::string quality = "drawn";
     std::string pixels = "half";
-    std::string fallback = "headlight";
+    std::string fallback = "ambient";
     int width = 1280;
     int height = 0; ///< 0: the camera's shape
 };
@@ -280,11 +280,12 @@ void addRenderCommand(CLI::App& app) {
         ->capture_default_str()
         ->check(CLI::IsMember({"drawn", "final"}));
     render
-        ->add_option("--fallback-light", command->fallback,
-                     "What a scene without lights is shown by: headlight (with even light from\n"
-                     "all round, 100 lux together, no shadows), or none: it is refused")
+        ->add_option(
+            "--fallback-light", command->fallback,
+            "What a scene without lights is shown by: ambient (a headlight with even light\n"
+            "from all round, 100 lux together, no shadows), or none: it is refused")
         ->capture_default_str()
-        ->check(CLI::IsMember({"headlight", "none"}));
+        ->check(CLI::IsMember({"ambient", "none"}));
     render->add_option("--pixels", command->pixels, "half (16 bit) or float (32 bit)")
         ->capture_default_str()
         ->check(CLI::IsMember({"half", "float"}));

@@ -84,6 +84,8 @@ void addReportOptions(CLI::App& command, SolveSettings& settings) {
     command.add_option("--threads", settings.threads, "Threads to use (default: one a core)")
         ->check(CLI::Range(1u, 1024u));
     command.add_option("--stats", settings.stats, "Write counts and times to this file, as JSON");
+    command.add_flag("--allow-outside", settings.allowOutside,
+                     "Open what the scene refers to outside of its folder, too");
     command.add_flag("--verbose", settings.verbose, "Say everything that was skipped in the file");
     command.add_flag("--progress", settings.progress,
                      "Show progress even when standard error is no terminal");
@@ -185,6 +187,7 @@ SceneSolution::SceneSolution(const SolveSettings& settings)
                                                          : ProgressBar::When::terminal) {
     progress_.show("reading", 0);
     LoadOptions options;
+    options.allowOutside = settings.allowOutside;
     options.time = settings.frame;
     if (!settings.frames.empty()) options.time = frameRange(settings.frames).first;
     loaded_ = timed("read", [&] { return loadUsdScene(settings.scene, options); });

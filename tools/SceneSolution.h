@@ -41,6 +41,7 @@ struct SolveSettings {
     std::string stats;
     std::vector<std::string> outputs; ///< names of all results: none may be a layer of the scene
     bool verbose = false;
+    bool allowOutside = false; ///< what the scene names is opened wherever it lies
     bool progress = false;
     bool quiet = false;
 };

@@ -25,6 +25,7 @@ void run(ViewCommand& command) {
     ViewerOptions& options = command.viewer;
     options.scene = command.solve.scene;
     options.frame = command.solve.frame;
+    options.allowOutside = command.solve.allowOutside;
     options.light.solving = command.solve.solver;
     options.asked = command.solve.asked;
     options.light.threads = command.solve.threads;

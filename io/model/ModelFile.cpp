@@ -68,18 +68,18 @@ private:
 /// Opens files for Assimp, within the limit, and keeps a list of them.
 class RecordedFiles : public Assimp::DefaultIOSystem {
 public:
-    RecordedFiles(std::uintmax_t maxFileBytes, std::vector<std::filesystem::path>& files)
-        : maxFileBytes_(maxFileBytes), files_(files) {}
+    RecordedFiles(const ModelLimits& limits, std::vector<std::filesystem::path>& files)
+        : limits_(limits), files_(files) {}
 
     // A pipe would be waited for: Assimp opens what it asks for.
     bool Exists(const char* file) const override {
         std::error_code failed;
-        return std::filesystem::is_regular_file(file, failed);
+        return std::filesystem::is_regular_file(file, failed) && limits_.folders.hold(file);
     }
     Assimp::IOStream* Open(const char* file, const char* mode) override {
         if (!Exists(file)) return nullptr;
         std::error_code failed;
-        if (std::filesystem::file_size(file, failed) > maxFileBytes_ && !failed) return nullptr;
+        if (std::filesystem::file_size(file, failed) > limits_.fileBytes && !failed) return nullptr;
         Assimp::IOStream* stream = Assimp::DefaultIOSystem::Open(file, mode);
         if (stream && std::find(files_.begin(), files_.end(), file) == files_.end())
             files_.emplace_back(file);
@@ -87,7 +87,7 @@ public:
     }
 
 private:
-    std::uintmax_t maxFileBytes_;
+    ModelLimits limits_;
     std::vector<std::filesystem::path>& files_;
 };
 
@@ -153,8 +153,8 @@ struct ModelFile::Reader {
 
     // What is read is checked before Assimp works on it any further, and after.
     const aiScene* read(const std::filesystem::path& file, ModelFormat format,
-                        std::uintmax_t maxFileBytes) {
-        importer.SetIOHandler(new RecordedFiles(maxFileBytes, files)); // which it deletes
+                        const ModelLimits& limits) {
+        importer.SetIOHandler(new RecordedFiles(limits, files)); // which it deletes
         importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
         importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
         if (!importer.ReadFile(file.string(), 0) || !importer.GetScene()) refuse(file, format);
@@ -171,30 +171,30 @@ struct ModelFile::Reader {
     }
 };
 
-ModelFile::ModelFile(std::filesystem::path file, ModelFormat format, std::uintmax_t maxFileBytes,
+ModelFile::ModelFile(std::filesystem::path file, ModelFormat format, const ModelLimits& limits,
                      Diagnostics& diagnostics)
-    : file_(std::move(file)), format_(format), source_(file_.string(), maxFileBytes),
+    : file_(std::move(file)), format_(format), source_(file_.string(), limits.fileBytes),
       reader_(std::make_unique<Reader>()) {
     if (bytes().empty()) throw SceneFileError({file_.string()}, "the file is empty");
     if (format_ == ModelFormat::gltf) gltf_ = readGltf(file_, bytes());
     reader_->files.push_back(file_);
     checkModelText(file_, format_, bytes());
-    scene_ = tryAndRead(maxFileBytes, diagnostics);
+    scene_ = tryAndRead(limits, diagnostics);
     animations_ = reader_->animations;
 }
 
-const aiScene* ModelFile::tryAndRead(std::uintmax_t maxFileBytes, Diagnostics& diagnostics) {
+const aiScene* ModelFile::tryAndRead(const ModelLimits& limits, Diagnostics& diagnostics) {
     const std::string file = file_.string();
     const std::string unreadable = std::string("this can't be read as ") + nameOf(format_) + ": ";
     const Listening listening;
-    const auto trial = [&] { Reader().read(file_, format_, maxFileBytes); };
+    const auto trial = [&] { Reader().read(file_, format_, limits); };
     const unsigned seconds = kTrialSeconds + unsigned(bytes().size() / kTrialBytesASecond);
     if (!survivesTrial(trial, seconds, kTrialClock * seconds))
         throw SceneFileError({file},
                              unreadable + "Assimp breaks down on it (export the model again)");
     const aiScene* scene = nullptr;
     try {
-        scene = reader_->read(file_, format_, maxFileBytes);
+        scene = reader_->read(file_, format_, limits);
     } catch (const Error&) {
         checkIndices(listening.warnings(), file);
         throw;

@@ -4,6 +4,7 @@
 #include "base/FileBytes.h"
 #include "io/model/GltfJson.h"
 #include "io/model/ModelFormat.h"
+#include "io/usd/layer/SceneFolders.h"
 #include "io/usd/layer/UsdDiagnostic.h"
 
 #include <cstdint>
@@ -16,12 +17,18 @@ struct aiScene;
 
 namespace penumbra {
 
+/// Which files of a model are opened.
+struct ModelLimits {
+    std::uintmax_t fileBytes; ///< of each
+    SceneFolders folders;     ///< where they may lie
+};
+
 /// A model that was read and checked: see checkModel().
 class ModelFile {
 public:
     /// Throws SceneFileError, also for what crashes Assimp: it is tried in a copy of the process
     /// first. Assimp's own warnings become diagnostics.
-    ModelFile(std::filesystem::path file, ModelFormat format, std::uintmax_t maxFileBytes,
+    ModelFile(std::filesystem::path file, ModelFormat format, const ModelLimits& limits,
               Diagnostics& diagnostics);
     ~ModelFile();
 
@@ -36,7 +43,7 @@ public:
 
 private:
     struct Reader;
-    const aiScene* tryAndRead(std::uintmax_t maxFileBytes, Diagnostics& diagnostics);
+    const aiScene* tryAndRead(const ModelLimits& limits, Diagnostics& diagnostics);
 
     std::filesystem::path file_;
     ModelFormat format_;

@@ -183,7 +183,7 @@ ImportedModel importModel(const std::filesystem::path& file, const ImportOptions
         throw SceneFileError({file.string()}, "no known model: glTF, OBJ, FBX, PLY, STL and "
                                               "Collada are known by the ending of the name");
     Diagnostics diagnostics;
-    const ModelFile model(file, *format, options.maxFileBytes, diagnostics);
+    const ModelFile model(file, *format, {options.maxFileBytes, options.folders}, diagnostics);
     const ModelFrame frame = frameOf(model);
     sayWhatWasTaken(frame, options, model, diagnostics);
     nameWhatIsLeftOut(model, diagnostics);

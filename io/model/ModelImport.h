@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/model/ModelFormat.h"
+#include "io/usd/layer/SceneFolders.h"
 #include "io/usd/layer/UsdLayer.h"
 #include "scenegraph/Scene.h"
 
@@ -22,6 +23,7 @@ struct ImportOptions {
     /// and names such pictures as in a package: `model.glb[picture1.png]`.
     std::filesystem::path layer = {};
     std::uintmax_t maxFileBytes = std::uintmax_t(2) << 30; ///< of each file that is read
+    SceneFolders folders = {}; ///< where those may lie
 };
 
 /// A picture that was within the model.

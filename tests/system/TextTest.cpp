@@ -64,4 +64,33 @@ TEST(InfoText, ASceneMayBeABinaryFile) {
     EXPECT_THAT(cut.err, HasSubstr("cut.usdc: error: damaged binary USD"));
 }
 
+TEST(InfoFlatten, WritesTheComposedSceneAsOneFile) {
+    const Workplace here;
+    here.write("part.usda", "#usda 1.0\n(defaultPrim = \"p\")\ndef Mesh \"p\"\n{\n"
+                            " int[] faceVertexCounts = [3]\n int[] faceVertexIndices = [0, 1, 2]\n"
+                            " point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]\n}\n");
+    const std::string scene =
+        here.write("a.usda", "#usda 1.0\ndef Xform \"a\" (references = @part.usda@)\n{\n}\n"
+                             "def \"b\" (payload = @part.usda@)\n{\n}\n");
+    const std::string flat = here.path("flat.usda");
+    const Outcome written = runPenumbra({"info", scene, "--flatten", flat});
+    EXPECT_EQ(written.exitCode, 0) << written.err;
+    EXPECT_THAT(readFile(flat), Not(HasSubstr("part.usda")));
+    EXPECT_EQ(runPenumbra({"info", scene, "--flatten", "-"}).out, readFile(flat));
+    const auto counts = [](const Outcome& info) { return info.out.substr(info.out.find('\n')); };
+    EXPECT_EQ(counts(runPenumbra({"info", flat})), counts(runPenumbra({"info", scene})));
+}
+
+TEST(InfoFlatten, DoesNotOverwriteALayerOfTheScene) {
+    const Workplace here;
+    const std::string part = here.write("part.usda", "#usda 1.0\ndef \"p\"\n{\n}\n");
+    const std::string scene =
+        here.write("a.usda", "#usda 1.0\ndef \"a\" (references = @part.usda@</p>)\n{\n}\n");
+    const std::string before = readFile(part);
+    const Outcome refused = runPenumbra({"info", scene, "--flatten", part});
+    EXPECT_EQ(refused.exitCode, 2);
+    EXPECT_THAT(refused.err, HasSubstr("would overwrite"));
+    EXPECT_EQ(readFile(part), before);
+}
+
 } // namespace penumbra

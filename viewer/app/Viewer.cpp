@@ -61,6 +61,9 @@ private:
     void perform(const Command& command);
     bool performOnPicture(const Command& command);
     void doAsAsked();
+    LoadOptions loadOptions(std::optional<double> frame) const {
+        return {.time = frame, .allowOutside = options_.allowOutside};
+    }
     void takeScene();
     void openScene(ReadyScene ready);
     void lightScene();
@@ -103,7 +106,7 @@ private:
 Viewer::Viewer(const ViewerOptions& options)
     : options_(options), scene_(options.scene),
       name_(std::filesystem::path(options.scene).filename().string()), settings_(loadSettings()),
-      loader_(std::in_place, options.scene, options.frame),
+      loader_(std::in_place, options.scene, loadOptions(options.frame)),
       window_({.width = settings_.width,
                .height = settings_.height,
                .title = name_ + " (loading) - Penumbra",
@@ -235,7 +238,7 @@ void Viewer::reload() {
         state_.notify("The file is not read again while a session is being recorded");
         return;
     }
-    loader_.emplace(scene_, scene_ == options_.scene ? options_.frame : std::nullopt);
+    loader_.emplace(scene_, loadOptions(scene_ == options_.scene ? options_.frame : std::nullopt));
     state_.notify("Reading " + name_ + " again");
 }
 
@@ -245,7 +248,7 @@ void Viewer::openFile(const std::string& file) {
         state_.notify("Another scene is still being read");
         return;
     }
-    loader_.emplace(file);
+    loader_.emplace(file, loadOptions(std::nullopt));
     state_.notify("Reading " + file);
 }
 

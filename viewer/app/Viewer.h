@@ -15,6 +15,7 @@ namespace penumbra {
 
 struct ViewerOptions {
     std::string scene;              ///< USD text
+    bool allowOutside = false;      ///< what a scene names is opened wherever it lies
     std::optional<double> frame;    ///< time code to begin with; none: the file's start
     RadiosityOptions light;         ///< but for what is in `asked`
     LightRequest asked;             ///< of the light; what is empty: what the file asks for

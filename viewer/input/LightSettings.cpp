@@ -9,7 +9,9 @@ LightRequest lightSettings(const std::string& file, const LoadedScene& loaded,
                            std::optional<double> frame, const LightRequest& asked) {
     LightRequest settings = asked.orElse(loaded.asked);
     if (settings.patchSize) return settings;
-    const std::shared_ptr<Scene> atStart = frame ? loadUsdScene(file).scene : loaded.scene;
+    LoadOptions options = loaded.options;
+    options.time.reset();
+    const std::shared_ptr<Scene> atStart = frame ? loadUsdScene(file, options).scene : loaded.scene;
     MeshingOptions sizes;
     sizes.elementSize = float(settings.elementSize.value_or(0));
     settings.patchSize = resolvedSizes(placeScene(*atStart), sizes).patchSize;

@@ -9,23 +9,21 @@ namespace penumbra {
 
 namespace {
 
-ReadyScene readyScene(const std::string& file, std::optional<double> frame) {
+ReadyScene readyScene(const std::string& file, const LoadOptions& options) {
     ReadyScene ready;
-    LoadOptions options;
-    options.time = frame;
     ready.loaded = loadUsdScene(file, options);
     ready.placed = placeScene(*ready.loaded.scene);
     if (ready.placed.meshes.empty() && ready.placed.lights.empty())
         throw SceneFileError({file}, "nothing to see: no visible mesh that can be read");
-    ready.settings = lightSettings(file, ready.loaded, frame, {});
+    ready.settings = lightSettings(file, ready.loaded, options.time, {});
     ready.rays = std::make_unique<SceneRays>(ready.placed);
     return ready;
 }
 
 } // namespace
 
-SceneLoader::SceneLoader(std::string file, std::optional<double> frame)
-    : file_(std::move(file)), future_(std::async(std::launch::async, readyScene, file_, frame)) {}
+SceneLoader::SceneLoader(std::string file, const LoadOptions& options)
+    : file_(std::move(file)), future_(std::async(std::launch::async, readyScene, file_, options)) {}
 
 std::optional<ReadyScene> SceneLoader::take() {
     if (!busy() || future_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)

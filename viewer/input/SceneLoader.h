@@ -24,8 +24,7 @@ struct ReadyScene {
 /// Reads a file in a thread of its own. Waits for it at destruction.
 class SceneLoader {
 public:
-    /// \param frame time code at which it is read; none: the file's start
-    explicit SceneLoader(std::string file, std::optional<double> frame = std::nullopt);
+    explicit SceneLoader(std::string file, const LoadOptions& options = {});
 
     /// The scene, once, when it is there. \throws Error what reading it threw
     std::optional<ReadyScene> take();

@@ -26,8 +26,19 @@ struct UsdFiles::OpenPackage {
     UsdPackage contents;
 };
 
-UsdFiles::UsdFiles(std::uintmax_t maxFileBytes) : maxFileBytes_(maxFileBytes) {}
+UsdFiles::UsdFiles(std::uintmax_t maxFileBytes, SceneFolders folders)
+    : maxFileBytes_(maxFileBytes), folders_(std::move(folders)) {}
 UsdFiles::~UsdFiles() = default;
+
+SceneFolders UsdFiles::folders() const {
+    const std::lock_guard lock(mutex_);
+    return folders_;
+}
+
+void UsdFiles::allowFolderOf(const std::string& identifier) const {
+    const std::lock_guard lock(mutex_);
+    folders_.add(fileOf(identifier));
+}
 
 std::string UsdFiles::canonical(const std::string& identifier) const {
     const std::string file = fileOf(identifier);
@@ -57,6 +68,8 @@ UsdFiles::package(const std::string& identifier) const {
 UsdAssetBytes UsdFiles::read(const std::string& identifier, std::uintmax_t maxBytes) const {
     const auto inside = splitPackagePath(identifier);
     if (!inside) {
+        if (!folders().hold(identifier))
+            refuse(identifier, "not opened: outside the scene's folder (--allow-outside opens it)");
         const auto file = std::make_shared<const FileBytes>(identifier, maxBytes);
         return {file, file->bytes()};
     }

@@ -1,6 +1,7 @@
 // Layers and assets of every kind that we read: text, binary, in packages.
 #pragma once
 
+#include "io/usd/layer/SceneFolders.h"
 #include "io/usd/layer/UsdAssets.h"
 
 #include <map>
@@ -22,7 +23,9 @@ class UsdPackage;
 /// several threads.
 class UsdFiles : public UsdAssets {
 public:
-    explicit UsdFiles(std::uintmax_t maxFileBytes = UsdLayerLimits().fileBytes);
+    /// \param folders where files may lie; others are refused when they are read
+    explicit UsdFiles(std::uintmax_t maxFileBytes = UsdLayerLimits().fileBytes,
+                      SceneFolders folders = {});
     ~UsdFiles() override;
 
     std::string resolve(const std::string& anchor, const std::string& asset) const override;
@@ -30,6 +33,12 @@ public:
     std::string fileOf(const std::string& identifier) const override;
     UsdLayer layer(const std::string& identifier, const UsdLayerLimits& limits) const override;
     UsdAssetBytes bytes(const std::string& identifier) const override;
+
+protected:
+    /// Where files may lie.
+    SceneFolders folders() const;
+    /// Allows the folder of one more file.
+    void allowFolderOf(const std::string& identifier) const;
 
 private:
     struct OpenPackage;
@@ -41,6 +50,7 @@ private:
 
     std::uintmax_t maxFileBytes_;
     mutable std::mutex mutex_;
+    mutable SceneFolders folders_;
     mutable std::map<std::string, std::shared_ptr<const OpenPackage>> packages_;
 };
 

@@ -4,9 +4,28 @@
 
 namespace penumbra {
 
+SceneFiles::SceneFiles(const std::filesystem::path& root, bool allowOutside,
+                       std::uintmax_t maxFileBytes)
+    : UsdFiles(maxFileBytes, allowOutside ? SceneFolders() : SceneFolders(root)),
+      rootLayers_{canonical(root.string())} {}
+
 UsdLayer SceneFiles::layer(const std::string& identifier, const UsdLayerLimits& limits) const {
+    UsdLayer layer = readLayer(identifier, limits);
+    const std::lock_guard lock(partsMutex_);
+    if (!rootLayers_.contains(canonical(identifier))) return layer;
+    for (const UsdSubLayer& sub : layer.subLayers) {
+        const std::string file = resolve(layer.file, sub.asset);
+        if (rootLayers_.insert(canonical(file)).second) allowFolderOf(file);
+    }
+    return layer;
+}
+
+UsdLayer SceneFiles::readLayer(const std::string& identifier, const UsdLayerLimits& limits) const {
     if (!modelFormatOf(identifier)) return UsdFiles::layer(identifier, limits);
-    ImportedModel model = importModel(identifier, {.maxFileBytes = limits.fileBytes});
+    const SceneFolders allowed = folders();
+    if (!allowed.hold(identifier)) return UsdFiles::layer(identifier, limits); // which refuses it
+    ImportedModel model =
+        importModel(identifier, {.maxFileBytes = limits.fileBytes, .folders = allowed});
     const std::lock_guard lock(partsMutex_);
     parts_.insert(parts_.end(), model.files.begin() + 1, model.files.end()); // without itself
     for (ImportedImage& image : model.images)
@@ -16,12 +35,21 @@ UsdLayer SceneFiles::layer(const std::string& identifier, const UsdLayerLimits& 
 }
 
 UsdAssetBytes SceneFiles::bytes(const std::string& identifier) const {
-    {
+    const std::string model = identifier.substr(0, identifier.find_last_of('['));
+    if (!identifier.ends_with(']') || !modelFormatOf(model)) return UsdFiles::bytes(identifier);
+    const auto find = [&]() -> UsdAssetBytes {
         const std::lock_guard lock(partsMutex_);
         const auto found = pictures_.find(canonical(identifier));
-        if (found != pictures_.end()) return {found->second, *found->second};
+        return found == pictures_.end() ? UsdAssetBytes()
+                                        : UsdAssetBytes{found->second, *found->second};
+    };
+    UsdAssetBytes picture = find();
+    if (!picture.owner) {
+        readLayer(model, {});
+        picture = find();
     }
-    return UsdFiles::bytes(identifier);
+    if (!picture.owner) throw SceneFileError({identifier}, "there is no such picture in the model");
+    return picture;
 }
 
 std::vector<std::filesystem::path> SceneFiles::parts() const {

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,18 +18,24 @@ namespace penumbra {
 /// (`io/model/ModelImport.h`).
 class SceneFiles : public UsdFiles {
 public:
-    explicit SceneFiles(std::uintmax_t maxFileBytes = UsdLayerLimits().fileBytes)
-        : UsdFiles(maxFileBytes) {}
+    /// \param root the scene's file: what is not in its folder, or below it, is refused unless
+    ///        `allowOutside`. Sublayers of the root layer, and theirs, may lie anywhere and bring
+    ///        their folders in: a layer over a scene, such as a recorded session, is put anywhere.
+    explicit SceneFiles(const std::filesystem::path& root, bool allowOutside,
+                        std::uintmax_t maxFileBytes = UsdLayerLimits().fileBytes);
 
     UsdLayer layer(const std::string& identifier, const UsdLayerLimits& limits) const override;
-    /// Those of a picture within a model (`model.glb[picture1.png]`) too, once its layer was read.
+    /// Those of a picture within a model (`model.glb[picture1.png]`) too.
     UsdAssetBytes bytes(const std::string& identifier) const override;
 
     /// What the models that were read name: their buffers, materials and pictures.
     std::vector<std::filesystem::path> parts() const;
 
 private:
+    UsdLayer readLayer(const std::string& identifier, const UsdLayerLimits& limits) const;
+
     mutable std::mutex partsMutex_;
+    mutable std::set<std::string> rootLayers_; ///< canonical: the root layer and its sublayers
     mutable std::vector<std::filesystem::path> parts_;
     mutable std::map<std::string, std::shared_ptr<const std::vector<std::byte>>> pictures_;
 };

@@ -93,9 +93,10 @@ LightRequest askedByDefaultPrim(const UsdStage& stage, double unit, Diagnostics&
 LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& options) {
     UsdComposeLimits limits;
     limits.layer.fileBytes = options.maxFileBytes;
-    const SceneFiles files(options.maxFileBytes);
+    const SceneFiles files(file, options.allowOutside, options.maxFileBytes);
     const auto stage = std::make_shared<UsdStage>(UsdStage::open(file, limits, files));
     LoadedScene loaded;
+    loaded.options = options;
     loaded.scene = std::make_shared<Scene>();
     Scene& scene = *loaded.scene;
     scene.name = file.stem().string();

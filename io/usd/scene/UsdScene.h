@@ -21,9 +21,12 @@ struct LoadOptions {
     std::optional<double> time = {};
     std::uintmax_t maxFileBytes = std::uintmax_t(2) << 30; ///< of one layer
     std::size_t maxInstanced = 250'000; ///< nodes that PointInstancers may make, in all
+    /// Whether what the scene names is opened wherever it lies: see SceneFiles.
+    bool allowOutside = false;
 };
 
 struct LoadedScene {
+    LoadOptions options; ///< that it was read with
     std::shared_ptr<Scene> scene;
     std::shared_ptr<UsdAnimation> animation; ///< plays the file's time samples; null: nothing moves
     LightRequest asked;                      ///< what the file asks of the light

@@ -156,8 +156,12 @@ TEST_F(LightBlendTest, IndirectLightStaysUntilItHasSettledAndComesThen) {
                 ASSERT_EQ(screen.blend.shown(*objects[o].geometry)->indirect[v], before[o][v]);
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    ASSERT_TRUE(screen.rest());
-    EXPECT_LT(largestStep(screen.frame(), screen.published()), 1e-5f);
+    float off = 1; // light that is published after it was certified fades in, too
+    for (int i = 0; i < 5 && off >= 1e-5f; ++i) {
+        ASSERT_TRUE(screen.rest());
+        off = largestStep(screen.frame(), screen.published());
+    }
+    EXPECT_LT(off, 1e-5f);
 }
 
 TEST_F(LightBlendTest, WhoTakesItAgainInTheMiddleSeesNoStep) {

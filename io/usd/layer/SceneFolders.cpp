@@ -1,0 +1,42 @@
+#include "io/usd/layer/SceneFolders.h"
+
+#include <algorithm>
+
+namespace penumbra {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Absolute and without links, as far as it exists.
+fs::path canonicalPath(const fs::path& path) {
+    std::error_code failed;
+    return fs::weakly_canonical(fs::absolute(path, failed), failed);
+}
+
+} // namespace
+
+SceneFolders::SceneFolders(const fs::path& file) : all_(false) {
+    add(file);
+}
+
+void SceneFolders::add(const fs::path& file) {
+    if (all_) return;
+    std::error_code failed;
+    const fs::path folder = canonicalPath(fs::absolute(file, failed).parent_path());
+    const fs::path target = canonicalPath(file).parent_path();
+    for (const fs::path& path : {folder, target})
+        if (!path.empty() && std::find(folders_.begin(), folders_.end(), path) == folders_.end())
+            folders_.push_back(path);
+}
+
+bool SceneFolders::hold(const fs::path& file) const {
+    if (all_) return true;
+    const fs::path path = canonicalPath(file);
+    return std::any_of(folders_.begin(), folders_.end(), [&](const fs::path& folder) {
+        return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
+               folder.end();
+    });
+}
+
+} // namespace penumbra
