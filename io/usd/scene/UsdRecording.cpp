@@ -143,11 +143,38 @@ struct LightTrack {
     bool changes() const { return colour.changes() || intensity.changes(); }
 };
 
+const UsdListEdits<std::string>& noConnection() {
+    static const UsdListEdits<std::string> kNone{{UsdListOp::explicitly, {}}};
+    return kNone;
+}
+
+/// A colour of a material: a constant, or the factor of a texture.
+struct ColourTrack {
+    Track constant{"color3f"}, scale{"float4"};
+
+    void put(double code, Rgb factor, const Texture* texture, const UsdTextureAddress& address) {
+        constant.put(code, listOf(texture ? factor * texture->mean() : factor));
+        if (texture && !address.shader.empty())
+            scale.put(code, std::vector{factor.r, factor.g, factor.b, address.alpha});
+    }
+    bool changes() const { return constant.changes() || scale.changes(); }
+
+    void write(UsdLayer& layer, const std::string& surface, const char* input,
+               const UsdTextureAddress& address) const {
+        const bool textured = !scale.empty();
+        UsdPrimSpec& spec = overAt(layer, textured ? address.shader : surface);
+        (textured ? scale : constant).write(spec, textured ? "inputs:scale" : input);
+        spec.properties.back().targets = noConnection();
+    }
+};
+
 struct PaintTrack {
-    Track diffuse{"color3f"}, emissive{"color3f"};
-    void put(double code, const Material& material) {
-        diffuse.put(code, listOf(material.reflectance()));
-        emissive.put(code, listOf(material.emission()));
+    ColourTrack diffuse, emissive;
+    void put(double code, const UsdAddresses::Paint& paint) {
+        const Material& material = *paint.material;
+        const MaterialTextures& textures = material.textures();
+        diffuse.put(code, material.reflectance(), textures.reflectance.get(), paint.reflectance);
+        emissive.put(code, material.emission(), textures.emission.get(), paint.emission);
     }
     bool changes() const { return diffuse.changes() || emissive.changes(); }
 };
@@ -209,7 +236,7 @@ void UsdRecording::Impl::sample(double code, bool all) {
     for (auto& [address, track, revision] : paints)
         if (all || revision != address.material->revision()) {
             revision = address.material->revision();
-            track.put(code, *address.material);
+            track.put(code, address);
         }
 }
 
@@ -301,7 +328,6 @@ std::string addPaint(UsdLayer& layer, const std::vector<std::string>& meshes) {
 } // namespace
 
 void UsdRecording::Impl::writePaints(UsdLayer& layer) const {
-    const UsdListEdits<std::string> noConnection{{UsdListOp::explicitly, {}}};
     for (const auto& [address, track, revision] : paints) {
         if (!track.changes() && !(animated && !address.shader.empty())) continue;
         std::string shader = address.shader;
@@ -309,13 +335,14 @@ void UsdRecording::Impl::writePaints(UsdLayer& layer) const {
             if (address.meshes.empty()) continue; // see missed()
             shader = addPaint(layer, address.meshes);
         }
+        track.diffuse.write(layer, shader, "inputs:diffuseColor", address.reflectance);
+        track.emissive.write(layer, shader, "inputs:emissiveColor", address.emission);
+        if (address.covering && !animated) continue;
         UsdPrimSpec& surface = overAt(layer, shader);
-        track.diffuse.write(surface, "inputs:diffuseColor");
-        surface.properties.back().targets = noConnection;
-        track.emissive.write(surface, "inputs:emissiveColor");
-        surface.properties.back().targets = noConnection;
         addFloat(surface, "inputs:metallic", 0);
+        surface.properties.back().targets = noConnection();
         addFloat(surface, "inputs:opacity", 1);
+        surface.properties.back().targets = noConnection();
     }
 }
 

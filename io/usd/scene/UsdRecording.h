@@ -21,6 +21,8 @@ namespace penumbra {
 /// The layer has the scene's file as its sublayer. Transforms are written as translate, orient and
 /// scale (a matrix if they are sheared or mirrored), the camera over the first camera of the
 /// file, or, if it has none, as /SessionCamera. What holds still has one value and no samples.
+/// Colours that are factors of a texture are written as its scale; if others read that texture as
+/// well, or it has a bias, its mean colour takes its place.
 /// Time codes begin at 1 and count kRate a second.
 class UsdRecording {
 public:
