@@ -38,6 +38,10 @@ public:
     /// one counts. \param cameraToWorld [m] \param lens clipping range in metres
     void sample(double seconds, const glm::dmat4& cameraToWorld, const Lens& lens);
 
+    /// Takes in how things are, as if they had been so from the beginning. The layer then has what
+    /// was edited, and nothing of time and of the camera: the file's own animation plays on.
+    void takeEdits();
+
     /// The layer so far, as it is to be written to the file `path`.
     std::string text(const std::filesystem::path& path) const;
     /// Writes it, whole or not at all. \throws Error
