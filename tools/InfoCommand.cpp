@@ -56,10 +56,11 @@ std::optional<glm::vec3> pointOf(const std::string& text) {
 }
 
 /// One line a light, in the units people compare: nits, lumens, and lux one metre in front.
-void printLight(const std::string& path, const char* kind, Rgb nits, double area) {
+/// \param area that emits, and as it is seen from there [m^2]
+void printLight(const std::string& path, const char* kind, Rgb nits, double area, double seen) {
     const double y = luminance(nits);
     fmt::print("  {:<40} {:<6} {:>10.4g} nit {:>10.4g} lm {:>10.4g} lux at 1 m\n", path, kind, y,
-               std::numbers::pi * y * area, y * area);
+               std::numbers::pi * y * area, y * seen);
 }
 
 void printLights(const PlacedScene& placed) {
@@ -68,7 +69,7 @@ void printLights(const PlacedScene& placed) {
         const Emitter emitter = lightEmitter(*light.node, light.toWorld);
         const bool sphere = emitter.kind == Emitter::Kind::sphere;
         printLight(light.path, kKinds[light.node->shape().index()], light.node->luminance(),
-                   emitter.area / (sphere ? 4 : 1)); // a sphere shows pi r^2, a quarter of its area
+                   emitter.area, emitter.area / (sphere ? 4 : 1)); // a sphere shows pi r^2
     }
 }
 

@@ -105,12 +105,31 @@ ModelCamera cameraOf(const Json& json) {
     return camera;
 }
 
+glm::dvec2 pair(const Json& object, const char* name, double fallback) {
+    const Json& value = member(object, name);
+    if (!value.is_array() || value.size() != 2 || !value[0].is_number() || !value[1].is_number())
+        return glm::dvec2(fallback);
+    return {value[0].get<double>(), value[1].get<double>()};
+}
+
+/// \param info the texture as a material names it
+GltfTextureUse textureUseOf(const Json& info) {
+    const Json& extension = member(member(info, "extensions"), "KHR_texture_transform");
+    return {{pair(extension, "offset", 0), pair(extension, "scale", 1),
+             number(extension, "rotation", 0)},
+            index(extension, "texCoord")};
+}
+
 GltfMaterial materialOf(const Json& json) {
     GltfMaterial material;
     material.name = text(json, "name");
     material.emissive = colour(json, "emissiveFactor", 0);
     const Json& extension = member(member(json, "extensions"), "KHR_materials_emissive_strength");
     material.strength = number(extension, "emissiveStrength", 1);
+    const Json& glossy = member(member(json, "extensions"), "KHR_materials_pbrSpecularGlossiness");
+    const Json& base = member(member(json, "pbrMetallicRoughness"), "baseColorTexture");
+    material.baseUse = textureUseOf(base.is_null() ? member(glossy, "diffuseTexture") : base);
+    material.emissiveUse = textureUseOf(member(json, "emissiveTexture"));
     return material;
 }
 

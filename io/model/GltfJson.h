@@ -3,6 +3,7 @@
 
 #include "io/model/ModelCamera.h"
 #include "io/model/ModelLight.h"
+#include "io/model/TextureTransform.h"
 
 #include <glm/glm.hpp>
 
@@ -21,13 +22,23 @@ struct GltfNode {
     std::optional<std::size_t> light, camera; ///< into Gltf::lights and Gltf::cameras
 };
 
+/// What a material says of one of its textures.
+struct GltfTextureUse {
+    GltfTextureTransform transform;
+    std::optional<std::size_t> texCoord; ///< of the transform, in place of the texture's own
+
+    friend bool operator==(const GltfTextureUse&, const GltfTextureUse&) = default;
+};
+
 struct GltfMaterial {
     std::string name;
     glm::dvec3 emissive{0};
     double strength = 1; ///< KHR_materials_emissive_strength
+    GltfTextureUse baseUse, emissiveUse;
 };
 
-/// Assimp 5.2 gives a light or a camera to one node only, and knows no emissive strength.
+/// Assimp 5.2 gives a light or a camera to one node only, knows no emissive strength, and turns and
+/// scales texture coordinates around the middle.
 struct Gltf {
     std::vector<GltfNode> nodes;
     std::vector<std::size_t> roots; ///< of the scene that is shown

@@ -163,8 +163,10 @@ struct ModelFile::Reader {
         animations = scene->mNumAnimations;
         dropNamed(*scene, format);
         const bool shown = scene->mNumMeshes > 0;
-        if (shown && !importer.ApplyPostProcessing(aiProcess_TransformUVCoords |
-                                                   aiProcess_ValidateDataStructure))
+        // Of glTF, ModelMaterials hands on how coordinates are transformed.
+        const unsigned coordinates =
+            format == ModelFormat::gltf ? 0u : unsigned(aiProcess_TransformUVCoords);
+        if (shown && !importer.ApplyPostProcessing(coordinates | aiProcess_ValidateDataStructure))
             refuse(file, format);
         checkModel(*importer.GetScene(), file.string());
         return importer.GetScene();

@@ -16,6 +16,7 @@ struct ModelMaterials::Texture {
     std::string file; ///< as the layer names it
     unsigned channel = 0;
     std::string wrapS = "repeat", wrapT = "repeat";
+    std::optional<UsdTextureTransform> transform;
 };
 
 struct ModelMaterials::Surface {
@@ -113,12 +114,14 @@ ModelMaterials::Surface ModelMaterials::surfaceOf(const aiMaterial& material) {
     const auto base = colourOf(material, AI_MATKEY_BASE_COLOR);
     made.diffuse =
         base ? *base : colourOf(material, AI_MATKEY_COLOR_DIFFUSE).value_or(glm::dvec3(0.5));
-    made.emission = emissionOf(material, made.name);
+    const GltfMaterial json = jsonOf(material);
+    made.emission = emissionOf(material, json);
     made.roughness = std::clamp(numberOf(material, 0.5, AI_MATKEY_ROUGHNESS_FACTOR), 0.0, 1.0);
     made.opacity = std::clamp(numberOf(material, 1, AI_MATKEY_OPACITY), 0.0, 1.0);
-    made.diffuseTexture = textureOf(material, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
-    made.emissionTexture =
-        textureOf(material, {aiTextureType_EMISSION_COLOR, aiTextureType_EMISSIVE});
+    made.diffuseTexture =
+        textureOf(material, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}, json.baseUse);
+    made.emissionTexture = textureOf(
+        material, {aiTextureType_EMISSION_COLOR, aiTextureType_EMISSIVE}, json.emissiveUse);
     const std::string alpha = textOf(material, AI_MATKEY_GLTF_ALPHAMODE);
     if (file_.format() == ModelFormat::gltf) {
         if (alpha != "BLEND" && alpha != "MASK") made.opacity = 1;
@@ -166,11 +169,14 @@ double ModelMaterials::metallicOf(const aiMaterial& material, const std::string&
     return metallic;
 }
 
-glm::dvec3 ModelMaterials::emissionOf(const aiMaterial& material, const std::string& name) {
+glm::dvec3 ModelMaterials::emissionOf(const aiMaterial& material, const GltfMaterial& json) {
     const glm::dvec3 emissive =
         colourOf(material, AI_MATKEY_COLOR_EMISSIVE).value_or(glm::dvec3(0));
     if (emissive == glm::dvec3(0)) return emissive;
-    if (file_.format() == ModelFormat::gltf) return emissive * strengthOf(name, emissive);
+    if (file_.format() == ModelFormat::gltf) {
+        const bool usable = json.strength >= 0 && std::isfinite(json.strength);
+        return emissive * (usable ? json.strength : 1);
+    }
     if (!emissionNamed_)
         diagnostics_.warn({file_.path().string()}, std::string("emission has no unit in ") +
                                                        nameOf(file_.format()) +
@@ -179,25 +185,48 @@ glm::dvec3 ModelMaterials::emissionOf(const aiMaterial& material, const std::str
     return emissive;
 }
 
-// Assimp 5.2 hands on names and factors, but no strength; its order of materials is not the file's.
-double ModelMaterials::strengthOf(const std::string& name, glm::dvec3 emissive) {
+namespace {
+
+// Assimp hands on scale and rotation as they are in the file, but for the sign.
+bool agree(const aiMaterial& material, aiTextureType type, const GltfTextureTransform& transform) {
+    aiUVTransform handedOn;
+    if (material.Get(AI_MATKEY_UVTRANSFORM(type, 0), handedOn) != aiReturn_SUCCESS) return true;
+    const glm::dvec2 scale(double(handedOn.mScaling.x), double(handedOn.mScaling.y));
+    const glm::dvec2 off = glm::abs(scale - transform.scale);
+    return std::max(off.x, off.y) <= 1e-5 * (1 + glm::length(scale)) &&
+           std::abs(double(handedOn.mRotation) + transform.rotation) <= 1e-5;
+}
+
+} // namespace
+
+/// What the file says of a material of glTF; of other formats nothing. Assimp's order of materials
+/// is not the file's: its own is found by what Assimp hands on of it.
+GltfMaterial ModelMaterials::jsonOf(const aiMaterial& material) {
+    const std::string name = textOf(material, AI_MATKEY_NAME);
+    const auto emissive = colourOf(material, AI_MATKEY_COLOR_EMISSIVE).value_or(glm::dvec3(0));
     const GltfMaterial* found = nullptr;
-    for (const GltfMaterial& material : file_.gltf().materials) {
-        const glm::dvec3 off = glm::abs(material.emissive - emissive);
-        if (material.name != name || std::max({off.r, off.g, off.b}) > 1e-5) continue;
-        if (found && found->strength != material.strength)
-            diagnostics_.warn({file_.path().string()},
-                              "materials '" + cleanText(name) +
-                                  "' differ in emissive strength alone: one is taken for all "
-                                  "(give them names)");
-        if (!found) found = &material;
+    bool differ = false;
+    for (const GltfMaterial& json : file_.gltf().materials) {
+        const glm::dvec3 off = glm::abs(json.emissive - emissive);
+        if (json.name != name || std::max({off.r, off.g, off.b}) > 1e-5 ||
+            !agree(material, aiTextureType_BASE_COLOR, json.baseUse.transform) ||
+            !agree(material, aiTextureType_EMISSIVE, json.emissiveUse.transform))
+            continue;
+        differ |= found && (found->strength != json.strength || found->baseUse != json.baseUse ||
+                            found->emissiveUse != json.emissiveUse);
+        if (!found) found = &json;
     }
-    const double strength = found ? found->strength : 1;
-    return strength >= 0 && std::isfinite(strength) ? strength : 1;
+    if (differ)
+        diagnostics_.warn({file_.path().string()},
+                          "materials '" + cleanText(name) +
+                              "' differ in emissive strength or texture offset alone: one is "
+                              "taken for all (give them names)");
+    return found ? *found : GltfMaterial();
 }
 
 std::optional<ModelMaterials::Texture> ModelMaterials::textureOf(const aiMaterial& material,
-                                                                 std::initializer_list<int> types) {
+                                                                 std::initializer_list<int> types,
+                                                                 const GltfTextureUse& use) {
     for (const int type : types) {
         const auto semantic = aiTextureType(type);
         aiString path;
@@ -210,42 +239,72 @@ std::optional<ModelMaterials::Texture> ModelMaterials::textureOf(const aiMateria
             continue;
         const auto file = images_.find(path.C_Str());
         if (!file) return std::nullopt;
+        if (use.texCoord) channel = unsigned(std::min<std::size_t>(*use.texCoord, 255));
         if (channel >= AI_MAX_NUMBER_OF_TEXTURECOORDS) channel = 0;
-        return Texture{*file, channel, wrapOf(modes[0]), wrapOf(modes[1])};
+        Texture texture{*file, channel, wrapOf(modes[0]), wrapOf(modes[1]), std::nullopt};
+        if (use.transform == GltfTextureTransform()) return texture;
+        texture.transform = usdTransformOf(use.transform);
+        if (!texture.transform)
+            diagnostics_.warn({file_.path().string()},
+                              "material '" + cleanText(textOf(material, AI_MATKEY_NAME)) +
+                                  "': a texture's transform left out, its numbers are too large");
+        return texture;
     }
     return std::nullopt;
 }
 
 namespace {
 
-/// A texture, and what reads its coordinates, as prims of a material.
+std::vector<float> two(glm::dvec2 v) {
+    return {float(v.x), float(v.y)};
+}
+std::vector<float> four(glm::dvec4 c) {
+    return {float(c.r), float(c.g), float(c.b), float(c.a)};
+}
+
+UsdPrimSpec transformPrim(const UsdTextureTransform& transform, const std::string& name,
+                          const std::string& in) {
+    UsdPrimSpec prim = makePrim("Shader", name);
+    addText(prim, "token", "info:id", "UsdTransform2d").uniform = true;
+    addConnection(prim, "float2", "inputs:in", in);
+    addAttribute(prim, "float2", "inputs:scale", two(transform.scale));
+    addFloat(prim, "inputs:rotation", transform.rotation);
+    addAttribute(prim, "float2", "inputs:translation", two(transform.translation));
+    declareAttribute(prim, "float2", "outputs:result");
+    return prim;
+}
+
+} // namespace
+
+/// A texture, what reads its coordinates, and what transforms them, as prims of a material.
 /// \param scale, fallback red, green, blue, alpha
-void addTexture(UsdPrimSpec& material, const std::string& path, const std::string& name,
-                const std::string& file, const std::string& primvar, const std::string& wrapS,
-                const std::string& wrapT, glm::dvec4 scale, glm::dvec4 fallback) {
-    const auto four = [](glm::dvec4 c) {
-        return std::vector{float(c.r), float(c.g), float(c.b), float(c.a)};
-    };
+void ModelMaterials::addTexture(UsdPrimSpec& material, const std::string& path,
+                                const std::string& name, const Texture& used, glm::dvec4 scale,
+                                glm::dvec4 fallback) {
     UsdPrimSpec reader = makePrim("Shader", name + "Coordinates");
     addText(reader, "token", "info:id", "UsdPrimvarReader_float2").uniform = true;
-    addText(reader, "string", "inputs:varname", primvar);
+    addText(reader, "string", "inputs:varname", textureCoordinates(used.channel));
     declareAttribute(reader, "float2", "outputs:result");
+    const std::string result = ".outputs:result";
+    const std::string read = path + "/" + reader.name + result;
+    const std::string transform = name + "Transform";
     UsdPrimSpec texture = makePrim("Shader", name + "Texture");
     addText(texture, "token", "info:id", "UsdUVTexture").uniform = true;
-    addText(texture, "asset", "inputs:file", file);
-    addConnection(texture, "float2", "inputs:st", path + "/" + reader.name + ".outputs:result");
+    addText(texture, "asset", "inputs:file", used.file);
+    addConnection(texture, "float2", "inputs:st",
+                  used.transform ? path + "/" + transform + result : read);
     addText(texture, "token", "inputs:sourceColorSpace", "sRGB");
-    addText(texture, "token", "inputs:wrapS", wrapS);
-    addText(texture, "token", "inputs:wrapT", wrapT);
+    addText(texture, "token", "inputs:wrapS", used.wrapS);
+    addText(texture, "token", "inputs:wrapT", used.wrapT);
     addAttribute(texture, "float4", "inputs:scale", four(scale));
     addAttribute(texture, "float4", "inputs:fallback", four(fallback));
     declareAttribute(texture, "float3", "outputs:rgb");
     declareAttribute(texture, "float", "outputs:a");
     material.children.push_back(std::move(texture));
+    if (used.transform)
+        material.children.push_back(transformPrim(*used.transform, transform, read));
     material.children.push_back(std::move(reader));
 }
-
-} // namespace
 
 UsdPrimSpec ModelMaterials::prim(const Surface& surface, const std::string& name) {
     UsdPrimSpec material = makePrim("Material", name);
@@ -274,12 +333,10 @@ UsdPrimSpec ModelMaterials::prim(const Surface& surface, const std::string& name
     declareAttribute(shader, "token", "outputs:surface");
     material.children.push_back(std::move(shader));
     if (const auto& texture = surface.diffuseTexture)
-        addTexture(material, path, "Diffuse", texture->file, textureCoordinates(texture->channel),
-                   texture->wrapS, texture->wrapT, {surface.diffuse, alpha},
+        addTexture(material, path, "Diffuse", *texture, {surface.diffuse, alpha},
                    {0.5 * surface.diffuse, alpha});
     if (const auto& texture = surface.emissionTexture)
-        addTexture(material, path, "Emission", texture->file, textureCoordinates(texture->channel),
-                   texture->wrapS, texture->wrapT, {surface.emission, 1}, {0, 0, 0, 1});
+        addTexture(material, path, "Emission", *texture, {surface.emission, 1}, {0, 0, 0, 1});
     keepDisplayName(material, surface.name);
     return material;
 }

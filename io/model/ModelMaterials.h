@@ -22,6 +22,7 @@ namespace penumbra {
 /// |---|---|
 /// | base colour (glTF), else diffuse colour | diffuseColor, or scale of its texture (glTF, OBJ) |
 /// | its texture | UsdUVTexture; fallback: half of the colour, for who reads no textures |
+/// | KHR_texture_transform (glTF) | UsdTransform2d; elsewhere the coordinates are transformed |
 /// | emission, times its strength | emissiveColor [cd/m2]; formats other than glTF have no unit |
 /// | its texture | the same, its fallback is dark |
 /// | metallic | metallic; 0 if a picture says where |
@@ -53,9 +54,12 @@ private:
     Surface surfaceOf(const aiMaterial& material);
     void nameOtherPictures(const aiMaterial& material, const std::string& name);
     double metallicOf(const aiMaterial& material, const std::string& name);
-    glm::dvec3 emissionOf(const aiMaterial& material, const std::string& name);
-    double strengthOf(const std::string& name, glm::dvec3 emissive);
-    std::optional<Texture> textureOf(const aiMaterial& material, std::initializer_list<int> types);
+    glm::dvec3 emissionOf(const aiMaterial& material, const GltfMaterial& json);
+    GltfMaterial jsonOf(const aiMaterial& material);
+    std::optional<Texture> textureOf(const aiMaterial& material, std::initializer_list<int> types,
+                                     const GltfTextureUse& use);
+    static void addTexture(UsdPrimSpec& material, const std::string& path, const std::string& name,
+                           const Texture& used, glm::dvec4 scale, glm::dvec4 fallback);
     UsdPrimSpec prim(const Surface& surface, const std::string& name);
 
     const ModelFile& file_;

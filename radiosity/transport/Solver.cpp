@@ -32,7 +32,8 @@ Rgb toRgb(glm::dvec3 v) {
 
 Solver::Solver(const PatchSet& patches, const RayScene& rays, const SolverOptions& options)
     : set_(patches), rays_(rays), options_(options), direct_(patches, rays, options.samples) {
-    if (!options.directOnly && !patches.patches.empty())
+    const bool lit = !patches.patches.empty() && !patches.emitters.empty(); // else all is black
+    if (!options.directOnly && lit)
         indirect_ = std::make_unique<IndirectLight>(patches, rays, direct_, options.rowMemory,
                                                     options.flatPatches);
     if (indirect_ && options.detail) detail_ = std::make_unique<DetailGather>(patches);

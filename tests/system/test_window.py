@@ -279,11 +279,16 @@ def work_overlays(view):
     display.hands("key", "o")
 
 
+def orange_places(rows):
+    """The pixels that are orange, every other one of a row, left of the panels."""
+    return [(x, y) for y, row in enumerate(rows) for x in range(0, 900, 2)
+            if row[3 * x] > 110 and row[3 * x + 1] < 0.62 * row[3 * x]
+            and row[3 * x + 2] < 0.45 * row[3 * x]]
+
+
 def orange(rows):
-    """The middle of what is orange like the seat in the office, left of the panels [pixel]."""
-    places = [(x, y) for y, row in enumerate(rows) for x in range(0, 900, 2)
-              if row[3 * x] > 110 and row[3 * x + 1] < 0.62 * row[3 * x]
-              and row[3 * x + 2] < 0.45 * row[3 * x] and y > 350]
+    """The middle of what is orange like the seat in the office [pixel]."""
+    places = [(x, y) for x, y in orange_places(rows) if y > 350]
     check(len(places) > 500, "the seat is seen")
     xs, ys = sorted(x for x, _ in places), sorted(y for _, y in places)
     return xs[len(xs) // 2], ys[len(ys) // 2]

@@ -10,6 +10,7 @@ import sys
 import tempfile
 import time
 
+HERE = pathlib.Path(__file__).resolve().parent
 TOOLS = ("Xvfb", "xdotool")
 
 

@@ -5,6 +5,7 @@
 #include "io/image/PngWriter.h"
 #include "radiosity/process/ProcessLink.h"
 #include "radiosity/transport/LitLevel.h"
+#include "viewer/app/EditsFile.h"
 #include "viewer/app/FileWatcher.h"
 #include "viewer/app/InteractiveRenderer.h"
 #include "viewer/app/OverlayChoice.h"
@@ -68,6 +69,8 @@ private:
     void openScene(ReadyScene ready);
     void lightScene();
     void reload();
+    void askForFile(const std::string& file);
+    bool saveChanges();
     void openFile(const std::string& file);
     void takeOver();
     void advance(double seconds);
@@ -242,12 +245,31 @@ void Viewer::reload() {
     state_.notify("Reading " + name_ + " again");
 }
 
-/// Another scene; this one stays until it has been read, or if it can't be.
-void Viewer::openFile(const std::string& file) {
+/// Another scene is wanted, which this one's edits would be lost for. A recording has them.
+void Viewer::askForFile(const std::string& file) {
     if (loader_) {
         state_.notify("Another scene is still being read");
         return;
     }
+    if (state_.leave.ask(file, walk_ && !session_ && walk_->history().edited())) openFile(file);
+}
+
+/// \return whether the edits are in a file
+bool Viewer::saveChanges() {
+    const std::string layer = freeEditsName(std::filesystem::path(name_).stem().string());
+    try {
+        for (const std::string& name : saveEdits(walk_->loaded(), scene_, walk_->history(), layer))
+            state_.notify("What was done to '" + name + "' can't be saved", 15);
+        state_.notify("Saved " + layer, 15);
+        return true;
+    } catch (const Error& error) {
+        state_.notify(error.what(), 20);
+        return false;
+    }
+}
+
+/// This scene stays until the other one has been read, or if it can't be.
+void Viewer::openFile(const std::string& file) {
     loader_.emplace(file, loadOptions(std::nullopt));
     state_.notify("Reading " + file);
 }
@@ -314,6 +336,10 @@ bool Viewer::performOnPicture(const Command& command) {
         state_.overlay = after(state_.overlay, -1);
         return true;
     case Action::cancel:
+        if (!state_.leave.file().empty()) {
+            state_.leaveAnswer = LeaveQuestion::Answer::cancel;
+            return true;
+        }
         return std::exchange(state_.showHelp, false) || std::exchange(state_.showOpen, false);
     default:
         return false;
@@ -324,7 +350,12 @@ bool Viewer::performOnPicture(const Command& command) {
 void Viewer::doAsAsked() {
     if (std::exchange(state_.wantsUpdate, false) && light_) light_->requestUpdate();
     if (std::exchange(state_.wantsReload, false)) reload();
-    if (const std::string file = std::exchange(state_.wantsOpen, {}); !file.empty()) openFile(file);
+    if (const std::string file = std::exchange(state_.wantsOpen, {}); !file.empty())
+        askForFile(file);
+    if (const auto answer = std::exchange(state_.leaveAnswer, std::nullopt)) {
+        const std::string file = state_.leave.answer(*answer, [&] { return saveChanges(); });
+        if (!file.empty()) openFile(file);
+    }
     if (std::exchange(state_.wantsRestart, false) && walk_) lightScene();
     if (light_) light_->setTrigger(state_.trigger);
     if (light_) light_->setPolicy(state_.policy);
@@ -420,6 +451,7 @@ void Viewer::drawPanelsOver() {
     drawLegend(state_);
     drawStatusLine(state_);
     drawOpen(state_);
+    drawLeave(state_);
     drawHelp(state_);
     gui_->end();
 }

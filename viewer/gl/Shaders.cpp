@@ -92,6 +92,7 @@ void main() {
 
 const char* const kPreviewFragment = R"(
 in vec3 eyePosition;
+in vec3 eyeNormal;                       // of the front, any length; 0: the file has none
 
 uniform int lightCount;
 uniform vec4 lightPositions[16];         // position [m], area [m^2]
@@ -103,6 +104,18 @@ layout(location = 0) out vec4 beauty;
 
 const float kInversePi = 0.31830988618;
 const float kMost = 65000.0;
+
+// The file's, no more than 60 degrees off the surface's own, as LimitSurface has it.
+vec3 shadingNormal(vec3 own) {
+    float size = length(eyeNormal);
+    if (!(size > 0.0)) return own;
+    vec3 shading = (gl_FrontFacing ? eyeNormal : -eyeNormal) / size;
+    float along = dot(shading, own);
+    if (along >= 0.5) return shading;
+    vec3 aside = shading - along * own;
+    float off = length(aside);
+    return off > 0.0 ? 0.5 * own + sqrt(0.75) / off * aside : own;
+}
 
 vec3 illuminance(vec3 normal) {
     float headOn = abs(dot(normal, normalize(eyePosition)));
@@ -123,7 +136,8 @@ vec3 illuminance(vec3 normal) {
 void main() {
     vec3 rho = reflectanceHere();
     vec3 nits = emissionHere();
-    vec3 normal = normalize(cross(dFdx(eyePosition), dFdy(eyePosition))); // towards the eye
+    vec3 own = normalize(cross(dFdx(eyePosition), dFdy(eyePosition))); // towards the eye
+    vec3 normal = shadingNormal(own);
     vec3 reflected = rho * kInversePi * illuminance(normal);
     float emitted = max(max(nits.r, nits.g), nits.b);
     beauty = vec4(min(reflected + nits, kMost), emitted > 0.0 ? 0.0 : 1.0);
@@ -163,17 +177,20 @@ void main() {
 
 const char* const kPreviewVertexShader = R"(#version 330 core
 layout(location = 0) in vec3 position;   // local frame
+layout(location = 1) in vec3 normal;     // local frame, of the front; 0: none
 layout(location = 6) in vec2 uv;
 
 uniform mat4 localToClip;
 uniform mat4 localToEye;
 
 out vec3 eyePosition;                    // the camera is at the origin and looks along -z [m]
+out vec3 eyeNormal;
 out vec2 surfaceUv;
 
 void main() {
     gl_Position = localToClip * vec4(position, 1.0);
     eyePosition = vec3(localToEye * vec4(position, 1.0));
+    eyeNormal = transpose(inverse(mat3(localToEye))) * normal;
     surfaceUv = uv;
 }
 )";

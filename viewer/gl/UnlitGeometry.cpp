@@ -1,6 +1,7 @@
 #include "viewer/gl/UnlitGeometry.h"
 
 #include "radiosity/mesh/LightShapes.h"
+#include "radiosity/mesh/SurfaceMesh.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Mesh.h"
 #include "viewer/gl/Shaders.h"
@@ -37,21 +38,51 @@ MeshData byCorners(const MeshData& mesh) {
     return corners;
 }
 
+void attach(GLuint attribute, GLint components) {
+    glVertexAttribPointer(attribute, components, GL_FLOAT, GL_FALSE, 0, nullptr);
+    glEnableVertexAttribArray(attribute);
+}
+
 } // namespace
 
+std::vector<glm::vec3> frontNormals(const MeshData& mesh) {
+    std::vector<glm::vec3> normals = mesh.normals;
+    std::size_t first = 0;
+    for (const std::int32_t corners : mesh.faceVertexCounts) {
+        if (normals.empty()) break;
+        const auto count = std::size_t(corners);
+        std::vector<std::uint32_t> points;
+        for (std::size_t i = first; i < first + count; ++i)
+            points.push_back(std::uint32_t(mesh.faceVertexIndices[i]));
+        const glm::dvec3 area = newellNormal(mesh.points, points);
+        const double length = glm::length(area);
+        const glm::vec3 own = length > 0 ? glm::vec3(area / length) : glm::vec3(0);
+        const auto here = std::span(normals).subspan(first, count);
+        for (glm::vec3& normal : here)
+            if (normal == glm::vec3(0)) normal = own;
+        if (std::all_of(here.begin(), here.end(), [&](glm::vec3 n) { return dot(n, own) < 0; }))
+            for (glm::vec3& normal : here) normal = -normal;
+        first += count;
+    }
+    return normals;
+}
+
 UnlitGeometry::UnlitGeometry(const MeshData& mesh) : vertexArray_(makeVertexArray()) {
-    const bool textured = !mesh.uvs.empty();
-    const MeshData corners = textured ? byCorners(mesh) : MeshData();
-    FaceTriangles triangles = faceTriangles(textured ? corners : mesh);
+    const std::vector<glm::vec3> normals = frontNormals(mesh);
+    const bool parted = !mesh.uvs.empty() || !normals.empty();
+    const MeshData corners = parted ? byCorners(mesh) : MeshData();
+    FaceTriangles triangles = faceTriangles(parted ? corners : mesh);
     ranges_ = std::move(triangles.ranges);
     glBindVertexArray(vertexArray_.name());
-    positions_ = filledBuffer(GL_ARRAY_BUFFER, textured ? corners.points : mesh.points);
-    glVertexAttribPointer(kPosition, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
-    glEnableVertexAttribArray(kPosition);
-    if (textured) {
+    positions_ = filledBuffer(GL_ARRAY_BUFFER, parted ? corners.points : mesh.points);
+    attach(kPosition, 3);
+    if (!normals.empty()) {
+        normals_ = filledBuffer(GL_ARRAY_BUFFER, normals);
+        attach(kNormal, 3);
+    } // else the attribute is (0, 0, 0)
+    if (!mesh.uvs.empty()) {
         uvs_ = filledBuffer(GL_ARRAY_BUFFER, mesh.uvs);
-        glVertexAttribPointer(kUv, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
-        glEnableVertexAttribArray(kUv);
+        attach(kUv, 2);
     }
     indices_ = filledBuffer(GL_ELEMENT_ARRAY_BUFFER, triangles.indices);
     glBindVertexArray(0);

@@ -18,8 +18,13 @@ namespace penumbra {
 
 struct MeshData;
 
-/// One mesh or light, ready to be drawn: positions and texture coordinates; the shader finds the
-/// normals.
+/// The normals of a mesh as its front is shaded, one a corner: those of the file, the face's own
+/// where it has none, opposite ones where all of a face point away from its front (LimitSurface
+/// says the same). Empty if the file has none: faces are flat.
+std::vector<glm::vec3> frontNormals(const MeshData& mesh);
+
+/// One mesh or light, ready to be drawn: positions, normals of the file and texture coordinates.
+/// Where there are no normals, the shader finds those of the faces.
 class UnlitGeometry {
 public:
     explicit UnlitGeometry(const MeshData& mesh);
@@ -28,7 +33,7 @@ public:
     const std::vector<MaterialRange>& ranges() const { return ranges_; }
 
 private:
-    GlObject vertexArray_, positions_, uvs_, indices_;
+    GlObject vertexArray_, positions_, normals_, uvs_, indices_;
     std::vector<MaterialRange> ranges_;
 };
 

@@ -94,6 +94,15 @@ void EditHistory::note(const Step& step) {
     last_ = kNever;
 }
 
+bool EditHistory::edited() const {
+    const auto tells = [](const SceneEdit& edit) {
+        return !std::holds_alternative<LoosenEdit>(edit) && changes(edit);
+    };
+    return std::any_of(
+        steps_.begin(), steps_.begin() + std::ptrdiff_t(made_),
+        [&](const Step& step) { return std::any_of(step.begin(), step.end(), tells); });
+}
+
 bool EditHistory::undo() {
     last_ = kNever;
     if (made_ == 0) return false;

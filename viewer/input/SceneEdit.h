@@ -63,6 +63,8 @@ public:
     bool undo();
     bool redo();
     std::size_t undoable() const { return made_; }
+    /// Whether the scene is another one by these edits: more than what may be moved.
+    bool edited() const;
     std::size_t redoable() const { return steps_.size() - made_; }
 
     static constexpr double kMergeSeconds = 0.7;

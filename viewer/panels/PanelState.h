@@ -6,6 +6,7 @@
 #include "radiosity/process/RadiosityOptions.h"
 #include "radiosity/process/RadiosityState.h"
 #include "viewer/gl/DrawStatistics.h"
+#include "viewer/input/LeaveQuestion.h"
 #include "viewer/input/SceneBrowser.h"
 #include "viewer/input/Walkthrough.h"
 #include "viewer/overlay/Legend.h"
@@ -63,6 +64,7 @@ struct PanelState {
     std::string sceneName, scenePath, renderer;
     std::vector<std::string> recent;     ///< paths of scenes that were opened, the latest first
     std::optional<SceneBrowser> browser; ///< while another scene is chosen
+    LeaveQuestion leave;
     bool showPanels = true, showHelp = false, showOpen = false;
     bool noLights = false; ///< the scene has none: a headlight stands in for them
     bool recording = false, playing = false, hasAnimation = false;
@@ -72,6 +74,7 @@ struct PanelState {
     // Asked for by a panel, and done by the main loop.
     bool wantsUpdate = false, wantsSave = false, wantsReload = false, wantsRestart = false;
     std::string wantsOpen; ///< a file; empty: none
+    std::optional<LeaveQuestion::Answer> leaveAnswer;
 
     void notify(std::string text, double seconds = 6) {
         notices.push_back({std::move(text), time + seconds});

@@ -21,6 +21,8 @@ void drawLegend(const PanelState& state);
 void drawSelectionBox(const PanelState& state);
 /// The choice of another scene.
 void drawOpen(PanelState& state);
+/// What becomes of edits when another scene takes the place of this one.
+void drawLeave(PanelState& state);
 /// All keys.
 void drawHelp(PanelState& state);
 

@@ -1,6 +1,7 @@
 // Where in a file the nodes of a scene come from: what it takes to write about them.
 #pragma once
 
+#include "io/usd/shade/UsdTextureAddress.h"
 #include "scenegraph/Camera.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Material.h"
@@ -31,6 +32,9 @@ struct UsdAddresses {
         std::shared_ptr<Material> material;
         std::string shader;              ///< of a Material prim; empty: it has none
         std::vector<std::string> meshes; ///< then those that are painted with it alone
+        /// Of textures that nothing else reads: where the factors are written as their scales.
+        UsdTextureAddress reflectance = {}, emission = {};
+        bool covering = true; ///< see UsdSurface
     };
     struct Eye {
         std::shared_ptr<Camera> node;

@@ -29,13 +29,14 @@ public:
         put(code, UsdValue{usdTypeNamed(type_), std::move(components)});
     }
     bool empty() const { return samples_.empty(); }
-    bool changes() const { return samples_.size() > 1; }
+    /// Whether it became another value, be it at its first time code.
+    bool changes() const { return changed_; }
     std::vector<double> first() const { return samples_.front().value.numbers(); }
 
     /// As an attribute of a prim: time samples, or one value that never changes.
     void write(UsdPrimSpec& prim, std::string_view name) const {
         UsdProperty& property = declareAttribute(prim, type_, name);
-        property.hasSamples = changes();
+        property.hasSamples = samples_.size() > 1;
         if (property.hasSamples)
             property.samples = samples_;
         else
@@ -47,6 +48,7 @@ private:
         if (!samples_.empty()) {
             const UsdTimeSample last = samples_.back();
             if (last.value == value) return;
+            changed_ = true;
             if (last.time == code)
                 samples_.pop_back(); // the last of several within one time code counts
             else if (last.time < code - 1)
@@ -57,6 +59,7 @@ private:
 
     const char* type_;
     std::vector<UsdTimeSample> samples_;
+    bool changed_ = false;
 };
 
 template <class Vector>
@@ -143,11 +146,38 @@ struct LightTrack {
     bool changes() const { return colour.changes() || intensity.changes(); }
 };
 
+const UsdListEdits<std::string>& noConnection() {
+    static const UsdListEdits<std::string> kNone{{UsdListOp::explicitly, {}}};
+    return kNone;
+}
+
+/// A colour of a material: a constant, or the factor of a texture.
+struct ColourTrack {
+    Track constant{"color3f"}, scale{"float4"};
+
+    void put(double code, Rgb factor, const Texture* texture, const UsdTextureAddress& address) {
+        constant.put(code, listOf(texture ? factor * texture->mean() : factor));
+        if (texture && !address.shader.empty())
+            scale.put(code, std::vector{factor.r, factor.g, factor.b, address.alpha});
+    }
+    bool changes() const { return constant.changes() || scale.changes(); }
+
+    void write(UsdLayer& layer, const std::string& surface, const char* input,
+               const UsdTextureAddress& address) const {
+        const bool textured = !scale.empty();
+        UsdPrimSpec& spec = overAt(layer, textured ? address.shader : surface);
+        (textured ? scale : constant).write(spec, textured ? "inputs:scale" : input);
+        spec.properties.back().targets = noConnection();
+    }
+};
+
 struct PaintTrack {
-    Track diffuse{"color3f"}, emissive{"color3f"};
-    void put(double code, const Material& material) {
-        diffuse.put(code, listOf(material.reflectance()));
-        emissive.put(code, listOf(material.emission()));
+    ColourTrack diffuse, emissive;
+    void put(double code, const UsdAddresses::Paint& paint) {
+        const Material& material = *paint.material;
+        const MaterialTextures& textures = material.textures();
+        diffuse.put(code, material.reflectance(), textures.reflectance.get(), paint.reflectance);
+        emissive.put(code, material.emission(), textures.emission.get(), paint.emission);
     }
     bool changes() const { return diffuse.changes() || emissive.changes(); }
 };
@@ -166,6 +196,7 @@ struct UsdRecording::Impl {
     std::filesystem::path file;
     std::shared_ptr<Scene> scene;
     bool animated = false; ///< the file itself plays: what it moves is to hold still
+    bool timeless = false; ///< edits alone
     std::string defaultPrim, camera;
     bool ownCamera = false;
     std::vector<Followed<UsdAddresses::TransformAddress, PoseTrack>> transforms;
@@ -209,7 +240,7 @@ void UsdRecording::Impl::sample(double code, bool all) {
     for (auto& [address, track, revision] : paints)
         if (all || revision != address.material->revision()) {
             revision = address.material->revision();
-            track.put(code, *address.material);
+            track.put(code, address);
         }
 }
 
@@ -249,6 +280,12 @@ void UsdRecording::sample(double seconds, const glm::dmat4& cameraToWorld, const
     impl_->sample(code, cameraToWorld, lens);
 }
 
+void UsdRecording::takeEdits() {
+    impl_->sample(1, false);
+    impl_->timeless = true;
+    impl_->animated = false; // what it moves goes on
+}
+
 void UsdRecording::Impl::writePlaces(UsdLayer& layer) const {
     for (const auto& [address, track, revision] : transforms) {
         const bool held = animated && address.node->movable();
@@ -257,6 +294,7 @@ void UsdRecording::Impl::writePlaces(UsdLayer& layer) const {
         if (address.node->movable()) addBool(prim, "penumbra:movable", true);
         track.write(prim, false);
     }
+    if (timeless) return;
     for (const auto& [node, prim] : choices)
         addText(overAt(layer, prim), "token", "visibility",
                 node->visible() ? "inherited" : "invisible");
@@ -301,7 +339,6 @@ std::string addPaint(UsdLayer& layer, const std::vector<std::string>& meshes) {
 } // namespace
 
 void UsdRecording::Impl::writePaints(UsdLayer& layer) const {
-    const UsdListEdits<std::string> noConnection{{UsdListOp::explicitly, {}}};
     for (const auto& [address, track, revision] : paints) {
         if (!track.changes() && !(animated && !address.shader.empty())) continue;
         std::string shader = address.shader;
@@ -309,13 +346,14 @@ void UsdRecording::Impl::writePaints(UsdLayer& layer) const {
             if (address.meshes.empty()) continue; // see missed()
             shader = addPaint(layer, address.meshes);
         }
+        track.diffuse.write(layer, shader, "inputs:diffuseColor", address.reflectance);
+        track.emissive.write(layer, shader, "inputs:emissiveColor", address.emission);
+        if (address.covering && !animated) continue;
         UsdPrimSpec& surface = overAt(layer, shader);
-        track.diffuse.write(surface, "inputs:diffuseColor");
-        surface.properties.back().targets = noConnection;
-        track.emissive.write(surface, "inputs:emissiveColor");
-        surface.properties.back().targets = noConnection;
         addFloat(surface, "inputs:metallic", 0);
+        surface.properties.back().targets = noConnection();
         addFloat(surface, "inputs:opacity", 1);
+        surface.properties.back().targets = noConnection();
     }
 }
 
@@ -335,11 +373,13 @@ std::string UsdRecording::text(const std::filesystem::path& path) const {
     UsdDictionary& metadata = layer.metadata;
     if (!impl_->defaultPrim.empty())
         addMetadata(metadata, "defaultPrim", UsdKind::token, impl_->defaultPrim);
-    addMetadata(metadata, "doc", UsdKind::string, "A recorded session of Penumbra.");
-    addMetadata(metadata, "endTimeCode", impl_->lastCode);
+    const bool timeless = impl_->timeless;
+    addMetadata(metadata, "doc", UsdKind::string,
+                timeless ? "Edits made in Penumbra." : "A recorded session of Penumbra.");
+    addMetadata(metadata, "endTimeCode", timeless ? scene.endTimeCode : impl_->lastCode);
     addMetadata(metadata, "metersPerUnit", scene.metersPerUnit);
-    addMetadata(metadata, "startTimeCode", 1);
-    addMetadata(metadata, "timeCodesPerSecond", kRate);
+    addMetadata(metadata, "startTimeCode", timeless ? scene.startTimeCode : 1);
+    addMetadata(metadata, "timeCodesPerSecond", timeless ? scene.timeCodesPerSecond : kRate);
     addMetadata(metadata, "upAxis", UsdKind::token, scene.upAxis == UpAxis::z ? "Z" : "Y");
     layer.subLayers.push_back({relativeAsset(impl_->file, path), {}, {}});
     impl_->writePlaces(layer);

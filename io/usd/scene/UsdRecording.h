@@ -21,6 +21,8 @@ namespace penumbra {
 /// The layer has the scene's file as its sublayer. Transforms are written as translate, orient and
 /// scale (a matrix if they are sheared or mirrored), the camera over the first camera of the
 /// file, or, if it has none, as /SessionCamera. What holds still has one value and no samples.
+/// Colours that are factors of a texture are written as its scale; if others read that texture as
+/// well, or it has a bias, its mean colour takes its place.
 /// Time codes begin at 1 and count kRate a second.
 class UsdRecording {
 public:
@@ -35,6 +37,10 @@ public:
     /// Takes in how things are at a time [s] since the beginning; between two time codes the last
     /// one counts. \param cameraToWorld [m] \param lens clipping range in metres
     void sample(double seconds, const glm::dmat4& cameraToWorld, const Lens& lens);
+
+    /// Takes in how things are, as if they had been so from the beginning. The layer then has what
+    /// was edited, and nothing of time and of the camera: the file's own animation plays on.
+    void takeEdits();
 
     /// The layer so far, as it is to be written to the file `path`.
     std::string text(const std::filesystem::path& path) const;

@@ -374,10 +374,22 @@ private:
 
     void notePaints() {
         std::unordered_map<const Material*, std::size_t> known;
+        std::unordered_map<std::string, int> readers; // of textures
+        for (const auto& [path, surface] : materials_.made())
+            for (const UsdTextureAddress& texture : {surface.reflectance, surface.emission})
+                ++readers[texture.shader];
+        const auto own = [&](const UsdTextureAddress& texture) {
+            return readers[texture.shader] == 1 ? texture : UsdTextureAddress();
+        };
         for (const auto& [path, surface] : materials_.made()) {
             if (!surface.material) continue;
             known[surface.material.get()] = addresses_.paints.size();
-            addresses_.paints.push_back({surface.material, surface.shader, {}});
+            addresses_.paints.push_back({surface.material,
+                                         surface.shader,
+                                         {},
+                                         own(surface.reflectance),
+                                         own(surface.emission),
+                                         surface.covering});
         }
         const std::size_t shaders = addresses_.paints.size();
         for (const auto& [mesh, path, isLight] : painted_)

@@ -51,6 +51,9 @@ UsdSurface UsdMaterials::make(const UsdPrim& prim) {
     else if (opacity < 1 && threshold == 0)
         diagnostics_.warn(prim.location(), "transparency ignored: the surface blocks light");
     const double cover = (threshold > 0 ? 1 : opacity) * (specularWorkflow ? 1 : 1 - metallic);
+    surface.covering = cover == 1;
+    surface.reflectance = diffuse.address;
+    surface.emission = emissive.address;
     surface.primvar = diffuse.texture ? diffuse.primvar : emissive.primvar;
     if (diffuse.texture && emissive.texture && diffuse.primvar != emissive.primvar)
         diagnostics_.warn(prim.location(), "two sets of texture coordinates: '" + diffuse.primvar +
@@ -152,7 +155,7 @@ UsdMaterials::Colour UsdMaterials::factored(const UsdTexture& read, float most) 
         return {Rgb(1), read.texture, read.primvar};
     auto texture = std::make_shared<Texture>(*read.texture);
     texture->scale = Rgb(1);
-    return {scale, std::move(texture), read.primvar};
+    return {scale, std::move(texture), read.primvar, read.address};
 }
 
 std::string UsdMaterials::primvarOf(const Material& material) const {

@@ -18,6 +18,9 @@ struct UsdSurface {
     bool invisible = false;             ///< cut out or fully transparent: the faces are not there
     std::string shader = {};            ///< path of the UsdPreviewSurface it comes from
     std::string primvar = {};           ///< with the coordinates of its textures; empty: no texture
+    UsdTextureAddress reflectance = {}; ///< where its reflectance and
+    UsdTextureAddress emission = {};    ///< its emission are scales of textures
+    bool covering = true; ///< its reflectance is not diminished by metallic or opacity
 };
 
 /// The materials of a stage, each made once and shared by all that is bound to it.
@@ -54,6 +57,7 @@ private:
         Rgb factor;
         std::shared_ptr<const Texture> texture = nullptr;
         std::string primvar = {};
+        UsdTextureAddress address = {};
     };
 
     UsdSurface make(const UsdPrim& prim);

@@ -82,6 +82,10 @@ std::string followCoordinates(const UsdStage& stage, const UsdAttributes& shader
     return "st";
 }
 
+std::vector<double> scaleOf(const UsdStage& stage, const UsdPrim& shader, UsdTime time) {
+    return tupleAt(stage, shader, "inputs:scale", {1, 1, 1, 1}, time);
+}
+
 Rgb colourOf(const std::vector<double>& v) {
     return {float(v[0]), float(v[1]), float(v[2])};
 }
@@ -91,8 +95,15 @@ Rgb colourOf(const std::vector<double>& v) {
 const UsdTexture& UsdTextures::at(const UsdStage& stage, const UsdPrim& shader, UsdTime time,
                                   Diagnostics& diagnostics) {
     const auto [entry, fresh] = made_.try_emplace(shader.path);
-    if (fresh && files_) entry->second = make(stage, UsdAttributes(shader, time), diagnostics);
-    return entry->second;
+    UsdTexture& known = entry->second;
+    if (fresh && files_) known = make(stage, UsdAttributes(shader, time), diagnostics);
+    if (fresh || !known.texture) return known;
+    const Rgb scale = colourOf(scaleOf(stage, shader, time));
+    if (scale == known.texture->scale) return known;
+    auto texture = std::make_shared<Texture>(*known.texture);
+    texture->scale = scale;
+    known.texture = std::move(texture);
+    return known;
 }
 
 UsdTexture UsdTextures::make(const UsdStage& stage, const UsdAttributes& shader,
@@ -102,12 +113,12 @@ UsdTexture UsdTextures::make(const UsdStage& stage, const UsdAttributes& shader,
     if (!texture.image) return {};
     texture.wrapS = wrapOf(shader, "inputs:wrapS", diagnostics);
     texture.wrapT = wrapOf(shader, "inputs:wrapT", diagnostics);
-    texture.scale =
-        colourOf(tupleAt(stage, shader.prim(), "inputs:scale", {1, 1, 1, 1}, shader.time()));
+    const auto scale = scaleOf(stage, shader.prim(), shader.time());
+    texture.scale = colourOf(scale);
     texture.bias =
         colourOf(tupleAt(stage, shader.prim(), "inputs:bias", {0, 0, 0, 0}, shader.time()));
     const std::string primvar = followCoordinates(stage, shader, texture, diagnostics);
-    return {std::make_shared<Texture>(texture), primvar};
+    return {std::make_shared<Texture>(texture), primvar, {shader.prim().path, float(scale[3])}};
 }
 
 /// Null, with a warning, if it can't be read.

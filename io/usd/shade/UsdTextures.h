@@ -3,6 +3,7 @@
 
 #include "io/usd/layer/UsdAssets.h"
 #include "io/usd/layer/UsdDiagnostic.h"
+#include "io/usd/shade/UsdTextureAddress.h"
 #include "io/usd/stage/UsdAttributes.h"
 #include "scenegraph/Mesh.h"
 #include "scenegraph/Texture.h"
@@ -19,6 +20,7 @@ namespace penumbra {
 struct UsdTexture {
     std::shared_ptr<const Texture> texture; ///< null: it can't be used
     std::string primvar;                    ///< with its texture coordinates, e.g. `st`
+    UsdTextureAddress address = {};
 };
 
 /// The textures of a stage. Each picture is read once, whoever asks for it how often; a shader is
@@ -31,7 +33,7 @@ public:
 
     /// Understood of a UsdUVTexture: file, st (UsdPrimvarReader_float2, UsdTransform2d), wrapS,
     /// wrapT, scale, bias, sourceColorSpace. What can't be used, a picture in tiles (UDIM) for one,
-    /// is warned of.
+    /// is warned of. The scale is that at the time asked for.
     const UsdTexture& at(const UsdStage& stage, const UsdPrim& shader, UsdTime time,
                          Diagnostics& diagnostics);
 

@@ -121,6 +121,8 @@ TEST(Solver, WithoutLightIsDarkAndDone) {
     const Solution solution(sceneOf({object("floor", floorData(0, 1, 0, 1, 0))}), kCoarse);
     for (std::size_t v = 0; v < solution.patches().vertices.size(); ++v)
         EXPECT_EQ(solution.at(v), Rgb());
+    EXPECT_EQ(solution.solver.state(), SolutionState::exact);
+    EXPECT_EQ(solution.solver.done().rays, 0u) << "nothing sends any light";
 }
 
 } // namespace

@@ -75,6 +75,29 @@ TEST_F(InteractiveRendererTest, WhatIsNotLitYetIsSeenByHeadlightAndLights) {
     EXPECT_EQ(interactive.statistics().unlit, 1u);
 }
 
+TEST_F(InteractiveRendererTest, WhatIsNotLitYetIsShadedByTheNormalsOfTheFile) {
+    // All lean by 45 degrees: the headlight's half falls off by their cosine, on both sides, also
+    // where the file has them the wrong way round or the thing is mirrored.
+    preview.ambient = Rgb(10);
+    const Rgb expected = kRho * (5 * (1 + std::sqrt(0.5f)) / 3.14159265f);
+    const glm::dmat4 back = glm::rotate(glm::dmat4(1.0), 3.14159265358979, glm::dvec3(0, 1, 0));
+    const glm::dmat4 mirrored = glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, 1));
+    for (const glm::dmat4& pose : {glm::dmat4(1.0), back, mirrored})
+        for (const float sign : {1.0f, -1.0f}) {
+            MeshData data = paintedSquare(kRho)->data();
+            data.doubleSided = true;
+            data.normals.assign(4, sign * glm::normalize(glm::vec3(1, 0, 1)));
+            Group sheet("");
+            sheet.add(placed(pose, std::make_shared<Mesh>("leaning", data)));
+            InteractiveRenderer interactive(kExact);
+            const View view = viewFrom(2, kSize + 1, kSize + 1);
+            interactive.drawScene(listVisible(sheet, Frustum(view.worldToClip())), view, preview,
+                                  kSize, kSize);
+            const std::size_t centre = std::size_t(kSize / 2) * kSize + kSize / 2;
+            expectNear(interactive.readLuminances()[centre], expected, 2e-2f);
+        }
+}
+
 TEST_F(InteractiveRendererTest, TheBackOfAnUnlitSheetIsNotDrawnUnlessItIsDoubleSided) {
     MeshData both = paintedSquare(kRho)->data();
     both.doubleSided = true;

@@ -32,6 +32,16 @@ TEST(UnlitGeometry, CutsFacesIntoTrianglesByMaterialAndLeavesHolesOpen) {
     EXPECT_EQ(triangles.ranges[1].indexCount, 6u);
 }
 
+TEST(UnlitGeometry, TakesTheNormalsOfTheFileAsThoseOfTheFront) {
+    MeshData mesh = square("square")->data(); // faces +z
+    EXPECT_TRUE(frontNormals(mesh).empty()) << "flat";
+    const glm::vec3 up(0, 0, 1), aside = glm::normalize(glm::vec3(1, 0, 1));
+    mesh.normals = {up, aside, glm::vec3(0), up};
+    EXPECT_EQ(frontNormals(mesh), (std::vector<glm::vec3>{up, aside, up, up}));
+    mesh.normals = {-up, -aside, -aside, -up};
+    EXPECT_EQ(frontNormals(mesh), (std::vector<glm::vec3>{up, aside, aside, up}));
+}
+
 TEST(UnlitLighting, ALightGivesItsIlluminanceFarAwayAndTheMeanSpreadsItsFlux) {
     // A rectangle of 1 m^2 and 100 nit sends pi * 100 lm, 100 cd straight ahead.
     Scene scene;

@@ -1,6 +1,7 @@
 // A session as a layer, and back.
 #include "io/usd/scene/UsdRecording.h"
 
+#include "io/image/PngEncoder.h"
 #include "scenegraph/Mesh.h"
 #include "scenegraph/Objects.h"
 #include "tests/support/TemporaryFolder.h"
@@ -227,6 +228,101 @@ TEST_F(UsdRecordingTest, PlaysRepaintedMaterialsAndColoursOfMeshesWithoutOne) {
     EXPECT_EQ(colourOf(2, "/World/Bin"), Rgb(0.1f, 0.8f, 0.1f));
     EXPECT_EQ(colourOf(2, "/World/Stone"), Rgb(0.5f)) << "untouched";
     EXPECT_TRUE(recording->missed().empty());
+}
+
+/// A wall whose colour is a texture's, times a scale; with connected inputs of other kinds.
+std::string texturedWall(const std::string& texture, const std::string& more = "") {
+    return R"(#usda 1.0
+(
+    metersPerUnit = 1
+)
+def Mesh "Wall" (
+    prepend apiSchemas = ["MaterialBindingAPI"]
+)
+{
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+    texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (
+        interpolation = "vertex"
+    )
+    uniform token subdivisionScheme = "none"
+    rel material:binding = </M>
+}
+def Material "M"
+{
+    token outputs:surface.connect = </M/S.outputs:surface>
+    float inputs:metal = 0.5
+    def Shader "S"
+    {
+        uniform token info:id = "UsdPreviewSurface"
+        color3f inputs:diffuseColor.connect = </M/T.outputs:rgb>
+        float inputs:metallic.connect = </M.inputs:metal>
+)" + more + R"(
+        token outputs:surface
+    }
+    def Shader "T"
+    {
+        uniform token info:id = "UsdUVTexture"
+        asset inputs:file = @a.png@
+        float2 inputs:st.connect = </M/R.outputs:result>
+        token inputs:wrapS = "repeat"
+        token inputs:wrapT = "repeat"
+        token inputs:sourceColorSpace = "raw"
+)" + texture +
+           R"(
+        float3 outputs:rgb
+    }
+    def Shader "R"
+    {
+        uniform token info:id = "UsdPrimvarReader_float2"
+        string inputs:varname = "st"
+        float2 outputs:result
+    }
+}
+)";
+}
+
+/// What a material reflects, on the mean.
+Rgb shownBy(const Material& material) {
+    const auto& texture = material.textures().reflectance;
+    return material.reflectance() * (texture ? texture->mean() : Rgb(1));
+}
+
+TEST_F(UsdRecordingTest, RepaintedTexturesAreReadAgainAsTheyWereShown) {
+    const auto png = encodePng(2, 1, std::vector<std::uint8_t>{255, 0, 102, 51, 255, 102});
+    std::ofstream(folder / "a.png", std::ios::binary)
+        .write(reinterpret_cast<const char*>(png.data()), std::streamsize(png.size()));
+    const std::string glow = "        color3f inputs:emissiveColor.connect = </M/T.outputs:rgb>";
+    const struct {
+        std::string texture, more;
+        bool kept; ///< whether it is a texture still
+    } cases[] = {{"", "", true},
+                 {"        float4 inputs:scale = (0.5, 0.25, 1, 0.75)", "", true},
+                 {"        float4 inputs:scale = (0.5, 0.25, 1, 1)\n"
+                  "        float4 inputs:bias = (0.1, 0.2, 0, 0)",
+                  "", false},
+                 {"", glow, false}};
+    for (const auto& [texture, more, kept] : cases) {
+        SCOPED_TRACE(texture + more);
+        open(texturedWall(texture, more));
+        ASSERT_TRUE(scene.diagnostics.empty()) << scene.diagnostics.front().line();
+        const Material& painted = paint("/M/S");
+        const Rgb before = shownBy(painted);
+        sample(1);
+        paint("/M/S").setReflectance({0.3f, 0.6f, 0.2f});
+        sample(2);
+        const auto shown = [&](double seconds) {
+            const LoadedScene loaded = replay(seconds);
+            const Material& material =
+                *meshAt(placeScene(*loaded.scene), "/Wall").node->materialOf(0);
+            EXPECT_EQ(bool(material.textures().reflectance), kept);
+            return shownBy(material);
+        };
+        EXPECT_LT(maxChannel(absolute(shown(0.5) - before)), 1e-5f);
+        EXPECT_LT(maxChannel(absolute(shown(2) - shownBy(painted))), 1e-5f);
+        EXPECT_GT(maxChannel(absolute(shown(2) - before)), 0.01f);
+    }
 }
 
 TEST_F(UsdRecordingTest, TheFirstCameraOfTheFileWalksThePathThatWasWalked) {

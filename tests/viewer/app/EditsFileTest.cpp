@@ -1,0 +1,144 @@
+// Edits are saved as a layer, and people are asked before they are lost.
+#include "viewer/app/EditsFile.h"
+
+#include "base/Error.h"
+#include "scenegraph/Mesh.h"
+#include "scenegraph/Objects.h"
+#include "tests/support/TemporaryFolder.h"
+#include "viewer/input/LeaveQuestion.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+namespace penumbra {
+
+namespace {
+
+using Answer = LeaveQuestion::Answer;
+
+TEST(LeaveQuestion, IsNotAskedWhereNothingWouldBeLost) {
+    LeaveQuestion question;
+    EXPECT_TRUE(question.ask("other.usda", false));
+    EXPECT_EQ(question.file(), "");
+}
+
+TEST(LeaveQuestion, OpensTheOtherSceneOnceTheEditsAreSavedOrDiscarded) {
+    for (const auto& [answer, saves, opened] :
+         {std::tuple{Answer::save, true, "other.usda"}, std::tuple{Answer::save, false, ""},
+          std::tuple{Answer::discard, true, "other.usda"}, std::tuple{Answer::cancel, true, ""}}) {
+        LeaveQuestion question;
+        EXPECT_FALSE(question.ask("other.usda", true));
+        EXPECT_EQ(question.file(), "other.usda");
+        int saved = 0;
+        const std::string file = question.answer(answer, [&, could = saves] {
+            ++saved;
+            return could;
+        });
+        EXPECT_EQ(file, opened);
+        EXPECT_EQ(saved, answer == Answer::save);
+        EXPECT_EQ(question.file(), "") << "it is asked once";
+    }
+}
+
+class EditsFile : public testing::Test {
+protected:
+    EditsFile() {
+        folder.write("room.usda", R"(#usda 1.0
+(
+    metersPerUnit = 1
+    startTimeCode = 3
+    endTimeCode = 7
+)
+def Cube "Seat"
+{
+    color3f[] primvars:displayColor = [(0.5, 0.1, 0.1)]
+    double3 xformOp:translate = (1, 2, 3)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def Cube "Flag"
+{
+    token visibility.timeSamples = { 3: "inherited", 7: "invisible" }
+}
+def SphereLight "Lamp"
+{
+    float inputs:intensity = 100
+}
+)");
+        file = folder.file("room.usda");
+        scene = loadUsdScene(file);
+    }
+    std::shared_ptr<Transform> seat() const {
+        for (const auto& address : scene.addresses.transforms)
+            if (address.prim == "/Seat") return address.node;
+        return nullptr;
+    }
+    LoadedScene saved() {
+        const std::filesystem::path layer = folder.file("room-edited.usda");
+        EXPECT_TRUE(saveEdits(scene, file, history, layer).empty());
+        return loadUsdScene(layer);
+    }
+
+    TemporaryFolder folder;
+    std::filesystem::path file;
+    LoadedScene scene;
+    EditHistory history;
+};
+
+TEST_F(EditsFile, HasWhatWasMovedDimmedAndRepainted) {
+    const auto node = seat();
+    ASSERT_TRUE(node);
+    const glm::dmat4 before = node->matrix(), after = glm::translate(before, {0.5, 0, 0});
+    history.make({MoveEdit{node, before, after}}, 0);
+    const auto light = scene.addresses.lights.at(0).light;
+    history.make({LightEdit{light, light->luminance(), Rgb(20)}}, 10);
+    EXPECT_TRUE(history.edited());
+    const LoadedScene again = saved();
+    EXPECT_EQ(node->matrix(), after) << "it is as it was";
+    EXPECT_EQ(again.addresses.lights.at(0).light->luminance(), Rgb(20));
+    const PlacedScene then = placeScene(*again.scene), now = placeScene(*scene.scene);
+    ASSERT_EQ(then.meshes.size(), now.meshes.size());
+    for (std::size_t i = 0; i < now.meshes.size(); ++i)
+        EXPECT_EQ(then.meshes[i].toWorld, now.meshes[i].toWorld);
+}
+
+TEST_F(EditsFile, LeavesTheAnimationAsItIs) {
+    const auto light = scene.addresses.lights.at(0).light;
+    history.make({LightEdit{light, light->luminance(), Rgb(20)}}, 0);
+    const LoadedScene again = saved();
+    EXPECT_EQ(again.scene->startTimeCode, 3);
+    EXPECT_EQ(again.scene->endTimeCode, 7);
+    ASSERT_TRUE(again.animation);
+    const auto shown = [&](double time) {
+        again.animation->setTime(time);
+        const PlacedScene placed = placeScene(*again.scene);
+        std::size_t visible = 0;
+        for (const auto& mesh : placed.meshes) visible += placed.objects[mesh.object.value].visible;
+        return visible;
+    };
+    EXPECT_EQ(shown(3), shown(7) + 1);
+}
+
+TEST_F(EditsFile, IsNotNeededForWhatWasMerelyMadeMovable) {
+    history.make({LoosenEdit{seat(), false, true}}, 0);
+    EXPECT_FALSE(history.edited());
+    EXPECT_EQ(history.undoable(), 1u);
+}
+
+TEST_F(EditsFile, ThatCanNotBeWrittenIsAnErrorAndChangesNothing) {
+    const auto node = seat();
+    const glm::dmat4 after = glm::translate(node->matrix(), {0.5, 0, 0});
+    history.make({MoveEdit{node, node->matrix(), after}}, 0);
+    EXPECT_THROW(saveEdits(scene, file, history, folder.path() / "none" / "a.usda"), Error);
+    EXPECT_EQ(node->matrix(), after);
+}
+
+TEST_F(EditsFile, TakesANameThatIsFree) {
+    const std::string name = folder.file("room");
+    EXPECT_EQ(freeEditsName(name), name + "-edited.usda");
+    folder.write("room-edited.usda", "");
+    EXPECT_EQ(freeEditsName(name), name + "-edited-2.usda");
+}
+
+} // namespace
+
+} // namespace penumbra
