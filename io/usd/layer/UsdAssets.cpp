@@ -12,7 +12,9 @@ std::string UsdAssets::resolve(const std::string& anchor, const std::string& ass
 
 std::string UsdAssets::canonical(const std::string& identifier) const {
     std::error_code ignored;
-    return fs::weakly_canonical(identifier, ignored).string();
+    // Absolute first: of a path that is not there, as those within files, the start is kept as it
+    // is.
+    return fs::weakly_canonical(fs::absolute(identifier, ignored), ignored).string();
 }
 
 UsdLayer UsdAssets::layer(const std::string& identifier, const UsdLayerLimits& limits) const {

@@ -36,6 +36,12 @@ std::string errorOf(const std::string& package) {
 
 } // namespace
 
+TEST(UsdAssets, WhatIsNotThereHasOneCanonicalNameAsWell) { // a picture within a model
+    const UsdAssets assets;
+    EXPECT_EQ(assets.canonical("none.glb[picture.png]"),
+              assets.canonical("./none.glb[picture.png]"));
+}
+
 TEST(UsdFiles, TheKindOfALayerIsToldByItsContent) {
     const TemporaryFolder folder;
     const UsdLayer expected = parseUsdLayer(std::string(kSampleText), "t");
