@@ -23,7 +23,7 @@ struct ImportOptions {
     /// and names such pictures as in a package: `model.glb[picture1.png]`.
     std::filesystem::path layer = {};
     std::uintmax_t maxFileBytes = std::uintmax_t(2) << 30; ///< of each file that is read
-    SceneFolders folders = {}; ///< where those may lie
+    SceneFolders folders = {};                             ///< where those may lie
 };
 
 /// A picture that was within the model.

@@ -33,6 +33,7 @@ void SceneFolders::add(const fs::path& file) {
 bool SceneFolders::hold(const fs::path& file) const {
     if (all_) return true;
     const fs::path path = canonicalPath(file);
+    if (path.empty()) return true; // links in a circle: opening it says so
     return std::any_of(folders_.begin(), folders_.end(), [&](const fs::path& folder) {
         return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
                folder.end();
