@@ -43,7 +43,8 @@ TEST(ViewerAttention, SwitchesTheOrderAndBackWhileLightIsWorkedOn) {
     ViewerAttention viewer;
     viewer.setCamera(viewFrom({0, 0, 1}, 100, 100));
     double now = 100;
-    // Each switch sorts all work anew, which steps this small do in several: so not at each of them.
+    // Each switch sorts all work anew, which steps this small do in several: so not at each of
+    // them.
     for (int turn = 0; !lit.solver().step(1e-4); ++turn) {
         viewer.setPolicy(PolicyKind(turn / 8 % 3));
         viewer.setCamera(viewFrom({0, 0.01 * turn, 1}, 100, 100));
