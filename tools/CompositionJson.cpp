@@ -94,8 +94,7 @@ CompositionJson compositionJson(const std::filesystem::path& scene, bool allowOu
         result.files.push_back(scene);
         result.fault = fault.what();
     }
-    const auto parts = files.parts();
-    result.files.insert(result.files.end(), parts.begin(), parts.end());
+    result.files = files.withParts(std::move(result.files));
     if (!errors.empty()) json["Errors"] = std::move(errors);
     result.text = json.dump(4, ' ', false, Json::error_handler_t::replace) + "\n";
     return result;

@@ -238,20 +238,19 @@ void explain(const SolveSettings& settings, glm::vec3 point) {
     finishStandardOutput();
 }
 
+/// \param output a file, or `-` for standard output
+void writeWhole(const std::string& output, const std::string& text) {
+    if (output != "-") return writeFileAtomically(output, text);
+    fmt::print("{}", text);
+    finishStandardOutput();
+}
+
 /// The layer of the file alone, without what it refers to.
 void writeText(const SolveSettings& settings, const std::string& output) {
     const SceneFiles files(settings.scene, settings.allowOutside);
     const UsdLayer layer = files.layer(settings.scene, {});
-    auto read = files.parts();
-    read.push_back(settings.scene);
-    checkOutputs(read, {output});
-    const std::string text = usdLayerText(layer);
-    if (output == "-") {
-        fmt::print("{}", text);
-        finishStandardOutput();
-    } else {
-        writeFileAtomically(output, text);
-    }
+    checkOutputs(files.withParts({settings.scene}), {output});
+    writeWhole(output, usdLayerText(layer));
     reportDiagnostics(layer.diagnostics, settings.verbose);
 }
 
@@ -259,18 +258,9 @@ void writeText(const SolveSettings& settings, const std::string& output) {
 void writeFlattened(const SolveSettings& settings, const std::string& output) {
     const SceneFiles files(settings.scene, settings.allowOutside);
     UsdStage stage = UsdStage::open(settings.scene, {}, files);
-    auto read = stage.files();
-    const auto parts = files.parts();
-    read.insert(read.end(), parts.begin(), parts.end());
-    checkOutputs(read, {output});
+    checkOutputs(files.withParts(stage.files()), {output});
     const auto place = std::filesystem::path(output == "-" ? "standard output" : output);
-    const std::string text = usdLayerText(flattenUsdStage(stage, files, place));
-    if (output == "-") {
-        fmt::print("{}", text);
-        finishStandardOutput();
-    } else {
-        writeFileAtomically(output, text);
-    }
+    writeWhole(output, usdLayerText(flattenUsdStage(stage, files, place)));
     reportDiagnostics(stage.diagnostics().take(), settings.verbose);
 }
 
@@ -278,11 +268,7 @@ void writeFlattened(const SolveSettings& settings, const std::string& output) {
 void writeComposition(const SolveSettings& settings, const std::string& output) {
     const CompositionJson json = compositionJson(settings.scene, settings.allowOutside);
     checkOutputs(json.files, {output});
-    if (output == "-")
-        fmt::print("{}", json.text);
-    else
-        writeFileAtomically(output, json.text);
-    finishStandardOutput();
+    writeWhole(output, json.text);
     reportDiagnostics(json.diagnostics, settings.verbose);
     if (!json.fault.empty()) throw Error(json.fault);
 }

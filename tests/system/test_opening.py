@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
 """Models and other scenes in a real window: opened, dropped, dragged about, left.
 Usage: test_opening.py PENUMBRA SCENES OUTPUT"""
-import shutil
 import subprocess
 import sys
 import time
 
 import xwindow
-from test_window import OUTPUT, SCENES, SKIPPED, View, check, orange_places
+from test_window import OUTPUT, SCENES, View, check, orange_places
 
 # A floor, a stool on it and a panel that shines; no camera, nothing says what may be moved.
 BOX = ((1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4))
@@ -120,12 +119,7 @@ def open_by_the_dialog(view):
 
 
 def main():
-    missing = xwindow.missing()
-    if missing:
-        print(f"skipped: no {', '.join(missing)} (scripts/deps installs them)")
-        sys.exit(SKIPPED)
-    shutil.rmtree(OUTPUT, ignore_errors=True)
-    OUTPUT.mkdir(parents=True)
+    xwindow.prepared(OUTPUT)
     model = write_model(OUTPUT)
     with xwindow.Display() as display:
         xwindow.remember_size(OUTPUT / "config", 1280, 800)

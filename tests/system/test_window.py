@@ -18,7 +18,6 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import xwindow  # noqa: E402
 
 PENUMBRA, SCENES, OUTPUT = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
-SKIPPED = 77
 
 
 def check(holds, what):
@@ -377,12 +376,7 @@ def replay_in_the_window(display, take):
 
 def main():
     without_a_display()
-    missing = xwindow.missing()
-    if missing:
-        print(f"skipped: no {', '.join(missing)} (scripts/deps installs them)")
-        sys.exit(SKIPPED)
-    shutil.rmtree(OUTPUT, ignore_errors=True)
-    OUTPUT.mkdir(parents=True)
+    xwindow.prepared(OUTPUT)
     with xwindow.Display() as display:
         recording_over_a_layer(display)
         xwindow.remember_size(OUTPUT / "config", 1280, 800)

@@ -12,11 +12,21 @@ import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 TOOLS = ("Xvfb", "xdotool")
+SKIPPED = 77  # the exit code that ctest knows
 
 
 def missing():
     """The tools that are not installed; scripts/deps installs them."""
     return [tool for tool in TOOLS if not shutil.which(tool)]
+
+
+def prepared(folder):
+    """An empty folder for what a test makes; ends it as skipped where tools are missing."""
+    if missing():
+        print(f"skipped: no {', '.join(missing())} (scripts/deps installs them)")
+        sys.exit(SKIPPED)
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
 
 
 class Display:

@@ -1,20 +1,12 @@
 #include "io/usd/layer/SceneFolders.h"
 
+#include "io/usd/layer/UsdAssets.h"
+
 #include <algorithm>
 
 namespace penumbra {
 
-namespace {
-
 namespace fs = std::filesystem;
-
-/// Absolute and without links, as far as it exists.
-fs::path canonicalPath(const fs::path& path) {
-    std::error_code failed;
-    return fs::weakly_canonical(fs::absolute(path, failed), failed);
-}
-
-} // namespace
 
 SceneFolders::SceneFolders(const fs::path& file) : all_(false) {
     add(file);

@@ -11,10 +11,7 @@ std::string UsdAssets::resolve(const std::string& anchor, const std::string& ass
 }
 
 std::string UsdAssets::canonical(const std::string& identifier) const {
-    std::error_code ignored;
-    // Absolute first: of a path that is not there, as those within files, the start is kept as it
-    // is.
-    return fs::weakly_canonical(fs::absolute(identifier, ignored), ignored).string();
+    return canonicalPath(identifier).string();
 }
 
 UsdLayer UsdAssets::layer(const std::string& identifier, const UsdLayerLimits& limits) const {
@@ -26,13 +23,14 @@ UsdAssetBytes UsdAssets::bytes(const std::string& identifier) const {
     return {file, file->bytes()};
 }
 
+fs::path canonicalPath(const fs::path& path) {
+    std::error_code failed; // made absolute first, for what does not exist would stay as it is
+    return fs::weakly_canonical(fs::absolute(path, failed), failed);
+}
+
 std::string relativeAsset(const fs::path& file, const fs::path& layer) {
-    std::error_code failed;
-    const auto whole = [&](const fs::path& path) {
-        return fs::weakly_canonical(fs::absolute(path, failed), failed);
-    };
-    const fs::path target = whole(file);
-    const fs::path relative = target.lexically_relative(whole(layer).parent_path());
+    const fs::path target = canonicalPath(file);
+    const fs::path relative = target.lexically_relative(canonicalPath(layer).parent_path());
     if (relative.empty()) return target.generic_string();
     const std::string text = relative.generic_string();
     return text.starts_with("..") ? text : "./" + text;

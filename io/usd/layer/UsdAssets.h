@@ -37,6 +37,10 @@ public:
     virtual UsdAssetBytes bytes(const std::string& identifier) const;
 };
 
+/// The same for all ways to name a file: absolute and without links, as far as it exists; beyond
+/// that, as it is. Empty where links lead in a circle.
+std::filesystem::path canonicalPath(const std::filesystem::path& path);
+
 /// How a layer names a file by a path relative to its own folder, beginning with a dot; the whole
 /// path if there is no such way. Links are followed, and neither needs to exist.
 std::string relativeAsset(const std::filesystem::path& file, const std::filesystem::path& layer);

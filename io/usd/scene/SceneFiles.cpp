@@ -27,6 +27,7 @@ UsdLayer SceneFiles::readLayer(const std::string& identifier, const UsdLayerLimi
     ImportedModel model =
         importModel(identifier, {.maxFileBytes = limits.fileBytes, .folders = allowed});
     const std::lock_guard lock(partsMutex_);
+    models_.insert(canonical(identifier));
     parts_.insert(parts_.end(), model.files.begin() + 1, model.files.end()); // without itself
     for (ImportedImage& image : model.images)
         pictures_[canonical(identifier + "[" + image.name + "]")] =
@@ -37,24 +38,23 @@ UsdLayer SceneFiles::readLayer(const std::string& identifier, const UsdLayerLimi
 UsdAssetBytes SceneFiles::bytes(const std::string& identifier) const {
     const std::string model = identifier.substr(0, identifier.find_last_of('['));
     if (!identifier.ends_with(']') || !modelFormatOf(model)) return UsdFiles::bytes(identifier);
-    const auto find = [&]() -> UsdAssetBytes {
+    const auto isRead = [&] {
         const std::lock_guard lock(partsMutex_);
-        const auto found = pictures_.find(canonical(identifier));
-        return found == pictures_.end() ? UsdAssetBytes()
-                                        : UsdAssetBytes{found->second, *found->second};
+        return models_.contains(canonical(model));
     };
-    UsdAssetBytes picture = find();
-    if (!picture.owner) {
-        readLayer(model, {});
-        picture = find();
-    }
-    if (!picture.owner) throw SceneFileError({identifier}, "there is no such picture in the model");
-    return picture;
+    if (!isRead()) readLayer(model, {});
+    const std::lock_guard lock(partsMutex_);
+    const auto found = pictures_.find(canonical(identifier));
+    if (found == pictures_.end())
+        throw SceneFileError({identifier}, "there is no such picture in the model");
+    return {found->second, *found->second};
 }
 
-std::vector<std::filesystem::path> SceneFiles::parts() const {
+std::vector<std::filesystem::path>
+SceneFiles::withParts(std::vector<std::filesystem::path> layers) const {
     const std::lock_guard lock(partsMutex_);
-    return parts_;
+    layers.insert(layers.end(), parts_.begin(), parts_.end());
+    return layers;
 }
 
 } // namespace penumbra

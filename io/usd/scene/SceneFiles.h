@@ -28,8 +28,8 @@ public:
     /// Those of a picture within a model (`model.glb[picture1.png]`) too.
     UsdAssetBytes bytes(const std::string& identifier) const override;
 
-    /// What the models that were read name: their buffers, materials and pictures.
-    std::vector<std::filesystem::path> parts() const;
+    /// Layers that were read, and what models among them name: buffers, materials, pictures.
+    std::vector<std::filesystem::path> withParts(std::vector<std::filesystem::path> layers) const;
 
 private:
     UsdLayer readLayer(const std::string& identifier, const UsdLayerLimits& limits) const;
@@ -37,6 +37,7 @@ private:
     mutable std::mutex partsMutex_;
     mutable std::set<std::string> rootLayers_; ///< canonical: the root layer and its sublayers
     mutable std::vector<std::filesystem::path> parts_;
+    mutable std::set<std::string> models_; ///< canonical, that were read
     mutable std::map<std::string, std::shared_ptr<const std::vector<std::byte>>> pictures_;
 };
 

@@ -118,9 +118,7 @@ LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& o
     buildUsdScene(*stage, {time, options.maxInstanced, scene.metersPerUnit}, *textures, *tracks,
                   loaded.addresses, scene.root);
     textures->close();
-    loaded.files = stage->files();
-    const auto parts = files.parts();
-    loaded.files.insert(loaded.files.end(), parts.begin(), parts.end());
+    loaded.files = files.withParts(stage->files());
     if (!tracks->empty()) loaded.animation = tracks;
     const PlacedScene placed = placeScene(scene);
     if (placed.meshes.empty() && placed.lights.empty())

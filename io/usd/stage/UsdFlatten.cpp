@@ -1,7 +1,5 @@
 #include "io/usd/stage/UsdFlatten.h"
 
-#include "io/usd/layer/UsdListOps.h"
-
 #include <algorithm>
 #include <unordered_set>
 
@@ -56,18 +54,11 @@ private:
         spec.specifier = prim.specifier;
         spec.typeName = prim.typeName;
         spec.name = prim.name;
-        std::vector<std::string> schemas;
-        bool anySchema = false;
         for (const UsdOpinion& opinion : prim.opinions)
             addWeaker(spec.metadata, ofLayer(opinion.spec->metadata, *opinion.layer));
-        for (std::size_t i = prim.opinions.size(); i-- > 0;)
-            if (const auto& arcs = prim.opinions[i].spec->arcs; arcs && !arcs->apiSchemas.empty()) {
-                applyUsdListEdits(arcs->apiSchemas, schemas);
-                anySchema = true;
-            }
-        if (anySchema) {
+        if (auto schemas = UsdStage::apiSchemas(prim)) {
             spec.arcs = std::make_unique<UsdArcs>();
-            spec.arcs->apiSchemas = {{UsdListOp::explicitly, std::move(schemas)}};
+            spec.arcs->apiSchemas = {{UsdListOp::explicitly, std::move(*schemas)}};
         }
         for (const std::string& name : propertyNames(prim))
             spec.properties.push_back(property(prim, name));

@@ -42,12 +42,20 @@ std::vector<std::string> UsdStage::targets(const UsdPrim& prim, std::string_view
     return composeTargets(opinions).paths;
 }
 
+std::optional<std::vector<std::string>> UsdStage::apiSchemas(const UsdPrim& prim) {
+    std::optional<std::vector<std::string>> schemas;
+    for (std::size_t i = prim.opinions.size(); i-- > 0;) { // from the weakest
+        const auto& arcs = prim.opinions[i].spec->arcs;
+        if (!arcs || arcs->apiSchemas.empty()) continue;
+        if (!schemas) schemas.emplace();
+        applyUsdListEdits(arcs->apiSchemas, *schemas);
+    }
+    return schemas;
+}
+
 bool UsdStage::hasApi(const UsdPrim& prim, std::string_view schema) {
-    std::vector<std::string> schemas;
-    for (std::size_t i = prim.opinions.size(); i-- > 0;) // from the weakest
-        if (const auto& arcs = prim.opinions[i].spec->arcs)
-            applyUsdListEdits(arcs->apiSchemas, schemas);
-    return std::find(schemas.begin(), schemas.end(), schema) != schemas.end();
+    const auto schemas = apiSchemas(prim);
+    return schemas && std::find(schemas->begin(), schemas->end(), schema) != schemas->end();
 }
 
 const UsdValue* UsdStage::metadata(const UsdPrim& prim, std::string_view property,

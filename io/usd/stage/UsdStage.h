@@ -92,6 +92,8 @@ public:
     /// Composed targets of a relationship, or sources of a connected attribute, as paths of the
     /// stage. What lies outside of the prims that an arc brought is left out.
     static std::vector<std::string> targets(const UsdPrim& prim, std::string_view property);
+    /// Applied API schemas; nothing if no layer says a word of them.
+    static std::optional<std::vector<std::string>> apiSchemas(const UsdPrim& prim);
     static bool hasApi(const UsdPrim& prim, std::string_view schema);
     /// Metadata of a property, e.g. its interpolation; null if not authored.
     static const UsdValue* metadata(const UsdPrim& prim, std::string_view property,
