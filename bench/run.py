@@ -113,7 +113,7 @@ def print_tables(results):
     table(results, "edit/building/", BUILDING + [name + "_over_first" for name in GROWTH])
     print()
     for result in results:
-        if result["name"].startswith(("formFactor/", "occluded/", "order/", "crate/")):
+        if result["name"].startswith(("formFactor/", "occluded/", "order/", "crate/", "text/")):
             rate = f", {result['Mrays_per_s']:.3g} Mrays/s" if "Mrays_per_s" in result else ""
             if "bytes_per_second" in result:
                 rate = f", {result['bytes_per_second'] / 1e6:.0f} MB/s"

@@ -151,7 +151,7 @@ void addCrateMetadata(CrateFile& file, std::string_view field, CrateRep rep,
                       UsdDictionary& metadata) {
     constexpr std::size_t kLongest = 1024;
     const std::string key(usdMetadataKey(field.substr(0, kLongest)));
-    if (field.size() > kLongest || !isUsdIdentifier(key))
+    if (field.size() > kLongest || !isUsdIdentifier(key) || usdListOpNamed(key))
         throw CrateFault(rep.payload(), "metadata of an impossible name");
     if (metadata.size() >= kMaxEntries)
         throw CrateFault(rep.payload(), "more than 256 entries of metadata");

@@ -4,7 +4,10 @@
 #include "io/usd/crate/CrateListOps.h"
 #include "io/usd/crate/CrateMetadata.h"
 #include "io/usd/crate/CrateValues.h"
+#include "io/usd/layer/UsdMetadataParser.h"
 #include "io/usd/layer/UsdPath.h"
+
+#include <algorithm>
 
 namespace penumbra {
 
@@ -12,12 +15,14 @@ namespace {
 
 // `Mesh`, `ns::Type`, `a.b`.
 bool isTypeName(std::string_view name) {
-    for (std::size_t i = 0; i < name.size(); ++i) {
-        const bool scope = name.substr(i, 2) == "::";
-        if (!isUsdIdentifierPart(name[i]) && name[i] != '.' && !scope) return false;
-        if (scope) ++i;
+    while (!name.empty()) {
+        const std::size_t end = std::min(name.find('.'), name.find("::"));
+        if (!isUsdIdentifier(name.substr(0, end))) return false;
+        if (end == std::string_view::npos) return true;
+        name.remove_prefix(end + (name[end] == '.' ? 1 : 2));
+        if (name.empty()) return false;
     }
-    return name.empty() || isUsdIdentifierStart(name.front());
+    return true;
 }
 
 std::string typeName(CrateFile& file, CrateRep rep) {
@@ -95,6 +100,7 @@ void readCrateLayerField(CrateFile& file, std::string_view name, CrateRep rep, U
     case CrateFieldName::primOrder:
         return assign(layer.metadata, {"reorder rootPrims", {}, crateNameOrder(file, rep)});
     default:
+        if (name == "relocates") throw CrateFault(rep.payload(), "relocates that are metadata");
         return addCrateMetadata(file, name, rep, layer.metadata);
     }
 }
@@ -126,6 +132,7 @@ void readCratePrimField(CrateFile& file, std::string_view name, CrateRep rep, Us
         return assign(spec.metadata, {"reorder properties", {}, crateNameOrder(file, rep)});
     default:
         if (isArc(field)) return readArc(file, field, rep, spec);
+        if (isUsdArcKey(name)) throw CrateFault(rep.payload(), "arcs that are metadata");
         return addCrateMetadata(file, name, rep, spec.metadata);
     }
 }

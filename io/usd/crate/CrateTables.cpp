@@ -105,14 +105,8 @@ void TableReader::tokens(CrateBytes in) {
 
 void TableReader::splitTokens(std::uint64_t tokenCount, std::uint64_t byte) {
     char* text = reinterpret_cast<char*>(tables_.tokenBytes.data.get());
+    tables_.badText = replaceBadUtf8({text, tables_.tokenBytes.size});
     std::string_view rest(text, tables_.tokenBytes.size);
-    std::size_t bad = 0;
-    while ((bad = firstBadUtf8(rest)) != std::string_view::npos) {
-        text[std::size_t(rest.data() - text) + bad] = '?';
-        rest.remove_prefix(bad + 1);
-        tables_.badText = true;
-    }
-    rest = {text, tables_.tokenBytes.size};
     tables_.tokens.reserve(std::min<std::uint64_t>(tokenCount, rest.size()));
     for (std::uint64_t i = 0; i < tokenCount; ++i) {
         const std::size_t end = rest.find('\0');

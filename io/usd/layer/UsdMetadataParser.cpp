@@ -230,10 +230,7 @@ bool parseArc(UsdScanner& in, UsdPrimSpec& prim, const std::string& owner, UsdLi
     const auto references = [&] {
         return parseUsdItems<UsdReference>(in, [&] { return parseReference(in); });
     };
-    constexpr std::array<std::string_view, 7> kKeys{"references",  "payload",     "inherits",
-                                                    "specializes", "variantSets", "variants",
-                                                    "apiSchemas"};
-    if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) return false;
+    if (!isUsdArcKey(key)) return false;
     if (!prim.arcs) prim.arcs = std::make_unique<UsdArcs>();
     UsdArcs& arcs = *prim.arcs;
     arcs.where = in.position(in.cursor());
@@ -282,6 +279,13 @@ void parsePrimMetadata(UsdScanner& scanner, UsdPrimSpec& prim, const std::string
 
 void parsePropertyMetadata(UsdScanner& scanner, UsdDictionary& metadata) {
     parseBlock(scanner, metadata, [](UsdListOp, const std::string&) { return false; });
+}
+
+bool isUsdArcKey(std::string_view key) {
+    constexpr std::array<std::string_view, 7> kKeys{"references",  "payload",     "inherits",
+                                                    "specializes", "variantSets", "variants",
+                                                    "apiSchemas"};
+    return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
 }
 
 UsdType usdMetadataType(std::string_view key) {

@@ -17,6 +17,9 @@ void parsePropertyMetadata(UsdScanner& scanner, UsdDictionary& metadata);
 /// The type that OpenUSD prescribes for a key of metadata; kind unknown if it prescribes none.
 UsdType usdMetadataType(std::string_view key);
 
+/// Whether a prim's metadata of that name are arcs, or what composes like one.
+bool isUsdArcKey(std::string_view key);
+
 /// `prepend`, `add`, ... as list operation; nothing for any other word.
 std::optional<UsdListOp> usdListOpNamed(std::string_view word);
 

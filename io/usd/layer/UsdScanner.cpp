@@ -1,7 +1,9 @@
 #include "io/usd/layer/UsdScanner.h"
 
 #include "io/usd/layer/UsdPath.h"
+#include "io/usd/layer/UsdText.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace penumbra {
@@ -138,6 +140,7 @@ std::string UsdScanner::string() {
     std::string text = isLong ? longString(quote) : shortString(quote);
     if (const std::size_t nul = text.find('\0'); nul != std::string::npos)
         text.resize(nul); // as OpenUSD
+    replaceBadUtf8(text); // escapes can make any byte
     return text;
 }
 
@@ -217,7 +220,7 @@ std::string UsdScanner::asset() {
     while (*p != '@' && *p != '\n' && p != end_) ++p;
     if (*p != '@') failAt(open, "this asset path is not closed by '@'");
     cursor_ = p + 1;
-    return {open + 1, p};
+    return checkedAsset({open + 1, p}, open);
 }
 
 // Up to two @ may come right before the closing three; `\@@@` is three @ of the path itself.
@@ -231,12 +234,19 @@ std::string UsdScanner::longAsset(const char* open) {
         } else if (std::strncmp(p, "@@@", 3) == 0) {
             for (int i = 0; i < 2 && p[3] == '@'; ++i) text += *p++;
             cursor_ = p + 3;
-            return text;
+            return checkedAsset(std::move(text), open);
         } else {
             text += *p++;
         }
     }
     failAt(open, "this asset path is not closed by '@@@'");
+}
+
+std::string UsdScanner::checkedAsset(std::string path, const char* open) const {
+    if (std::any_of(path.begin(), path.end(),
+                    [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
+        failAt(open, "there is a control character in this asset path");
+    return path;
 }
 
 std::string_view UsdScanner::path() {

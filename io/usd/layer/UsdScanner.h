@@ -84,6 +84,7 @@ private:
     std::string shortString(char quote);
     std::string longString(char quote);
     std::string longAsset(const char* open);
+    std::string checkedAsset(std::string path, const char* open) const;
     void appendEscape(std::string& text);
     void skipGroup();
 

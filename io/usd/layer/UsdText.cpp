@@ -63,6 +63,16 @@ std::size_t firstBadUtf8(std::string_view text) {
     return std::string_view::npos;
 }
 
+bool replaceBadUtf8(std::span<char> text) {
+    std::size_t bad = 0;
+    const std::size_t size = text.size();
+    while ((bad = firstBadUtf8({text.data(), text.size()})) != std::string_view::npos) {
+        text[bad] = '?';
+        text = text.subspan(bad + 1);
+    }
+    return text.size() != size;
+}
+
 std::string printable(std::string_view text) {
     constexpr std::size_t kLongest = 80;
     std::string result;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -9,6 +10,9 @@ namespace penumbra {
 
 /// Offset of the first byte that isn't part of valid UTF-8 (RFC 3629), or npos.
 std::size_t firstBadUtf8(std::string_view text);
+
+/// Makes `text` valid: bytes that are not become '?'. \return whether there were any
+bool replaceBadUtf8(std::span<char> text);
 
 /// `text` for a message: control characters and invalid bytes become '?', long text is cut.
 std::string printable(std::string_view text);

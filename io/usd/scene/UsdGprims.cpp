@@ -1,6 +1,7 @@
 #include "io/usd/scene/UsdGprims.h"
 
 #include "io/usd/layer/UsdNumber.h"
+#include "io/usd/text/UsdValueText.h"
 
 #include <algorithm>
 #include <array>
@@ -197,6 +198,21 @@ UsdPolygons makeUsdGprim(const UsdAttributes& prim, Diagnostics& diagnostics) {
     p.doubleSided = prim.flag("doubleSided", type == "Plane");
     p.leftHanded = prim.text("orientation", "rightHanded") == "leftHanded";
     return p;
+}
+
+std::string usdGprimKey(const UsdAttributes& prim) {
+    std::string key = prim.prim().typeName;
+    for (const UsdOpinion& opinion : prim.prim().opinions)
+        for (const UsdProperty& property : opinion.spec->properties) {
+            const std::string& name = property.name;
+            if (name.starts_with("primvars:")) return {};
+            if (property.relationship || name == "visibility" || name == "extent" ||
+                name.starts_with("xformOp"))
+                continue;
+            key.append("\n").append(name).append(" ");
+            if (const UsdResolved value = prim.value(name)) appendUsdText(key, *value, 0);
+        }
+    return key += '\n';
 }
 
 } // namespace penumbra

@@ -3,6 +3,8 @@
 
 #include "io/usd/scene/UsdPolygons.h"
 
+#include <string>
+
 namespace penumbra {
 
 /// Whether makeUsdGprim() knows the type.
@@ -21,5 +23,9 @@ bool isUsdGprim(std::string_view typeName);
 ///
 /// Sizes that are not positive give faces without area, hence, with a warning, nothing.
 UsdPolygons makeUsdGprim(const UsdAttributes& prim, Diagnostics& diagnostics);
+
+/// What makes a gprim's mesh besides its material: gprims of the same key have the same. Empty for
+/// those that have primvars.
+std::string usdGprimKey(const UsdAttributes& prim);
 
 } // namespace penumbra

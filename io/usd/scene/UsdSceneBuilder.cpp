@@ -294,13 +294,27 @@ private:
         const auto known = meshes_.find(path);
         if (known != meshes_.end() && known->second.inherited == inherited && !light)
             return known->second.mesh;
-        NodePtr mesh =
-            prim.typeName == "Mesh"
-                ? makeMesh(name, attributes, place)
-                : makeUsdMesh(name, stage_, attributes, makeUsdGprim(attributes, warnings_),
-                              place.inherited, materials_, std::nullopt, warnings_);
+        NodePtr mesh = prim.typeName == "Mesh" ? makeMesh(name, attributes, place)
+                                               : makeGprim(name, attributes, place);
         if (mesh && place.copy == 0) meshes_[path] = {mesh, std::move(inherited)};
         return mesh;
+    }
+
+    // Nameless gprims of the same sizes and material are one node: a scattered hundred thousand of
+    // them would take gigabytes. Those with a paint of their own are not, for it may be edited.
+    NodePtr makeGprim(const std::string& name, const UsdAttributes& attributes,
+                      const Place& place) {
+        const UsdPrim& prim = attributes.prim();
+        const auto make = [&] {
+            return makeUsdMesh(name, stage_, attributes, makeUsdGprim(attributes, warnings_),
+                               place.inherited, materials_, std::nullopt, warnings_);
+        };
+        const std::string key = usdGprimKey(attributes);
+        if (!name.empty() || !prim.children.empty() || key.empty() || place.inherited.displayColour)
+            return make();
+        NodePtr& node = gprims_[key + place.inherited.material];
+        if (!node) node = make();
+        return node;
     }
 
     NodePtr makeMesh(const std::string& name, const UsdAttributes& attributes, const Place& place) {
@@ -425,6 +439,7 @@ private:
     };
     UsdSharedContents shared_;
     std::unordered_map<std::string, SharedMesh> meshes_; // by path
+    std::unordered_map<std::string, NodePtr> gprims_;    // by sizes and material
 
     struct Painted {
         std::shared_ptr<Mesh> mesh;

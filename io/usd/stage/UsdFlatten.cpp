@@ -78,26 +78,22 @@ private:
     UsdProperty property(const UsdPrim& prim, const std::string& name) const {
         UsdProperty made;
         made.name = name;
-        bool first = true, targets = false;
-        for (const UsdOpinion& opinion : prim.opinions) {
-            const UsdProperty* found = opinion.spec->property(name);
-            if (!found) continue;
-            if (first) {
-                made.relationship = found->relationship;
-                made.uniform = found->uniform;
-                made.varying = found->varying;
-                made.custom = found->custom;
-                first = false;
-            }
-            if (found->relationship != made.relationship) continue;
+        bool targets = false;
+        const UsdProperty& strongest = *UsdStage::property(prim, name);
+        made.relationship = strongest.relationship;
+        made.uniform = strongest.uniform;
+        made.varying = strongest.varying;
+        made.custom = strongest.custom;
+        eachUsdDeclaration(prim, name, [&](const UsdProperty& found, const UsdOpinion& opinion) {
             if (made.typeName.empty()) {
-                made.typeName = found->typeName;
-                made.type = found->type;
+                made.typeName = found.typeName;
+                made.type = found.type;
             }
-            addValue(made, *found, opinion);
-            targets = targets || !found->targets.empty();
-            addWeaker(made.metadata, ofLayer(found->metadata, *opinion.layer));
-        }
+            addValue(made, found, opinion);
+            targets = targets || !found.targets.empty();
+            addWeaker(made.metadata, ofLayer(found.metadata, *opinion.layer));
+            return false;
+        });
         if (targets) made.targets = {{UsdListOp::explicitly, UsdStage::targets(prim, name)}};
         return made;
     }

@@ -65,32 +65,35 @@ UsdSampled sampleUsd(std::span<const UsdTimeSample> samples, double time) {
 
 UsdResolved UsdStage::value(const UsdPrim& prim, std::string_view attribute, UsdTime time) {
     const UsdProperty* earliest = nullptr;
-    for (const UsdOpinion& opinion : prim.opinions) {
-        const UsdProperty* property = opinion.spec->property(attribute);
-        if (!property) continue;
-        if (!property->samples.empty() && !earliest) earliest = property;
-        if (time && !property->samples.empty()) {
-            const double local = (*time - opinion.offset.offset) / opinion.offset.scale;
-            UsdSampled sampled = sampleUsd(property->samples, local);
-            if (sampled.held->blocked()) return {};
-            return sampled.made.empty() ? UsdResolved(sampled.held)
-                                        : UsdResolved(std::move(sampled.made));
-        }
-        if (property->value.blocked()) return {};
-        if (!property->value.empty()) return UsdResolved(&property->value);
-    }
-    if (!earliest || earliest->samples.front().value.blocked()) return {};
+    UsdResolved result;
+    bool found = false;
+    eachUsdDeclaration(
+        prim, attribute, [&](const UsdProperty& property, const UsdOpinion& opinion) {
+            if (!property.samples.empty() && !earliest) earliest = &property;
+            if (time && !property.samples.empty()) {
+                const double local = (*time - opinion.offset.offset) / opinion.offset.scale;
+                UsdSampled sampled = sampleUsd(property.samples, local);
+                if (!sampled.held->blocked())
+                    result = sampled.made.empty() ? UsdResolved(sampled.held)
+                                                  : UsdResolved(std::move(sampled.made));
+                return found = true;
+            }
+            if (property.value.empty()) return false; // a block is not empty
+            if (!property.value.blocked()) result = UsdResolved(&property.value);
+            return found = true;
+        });
+    if (found || !earliest || earliest->samples.front().value.blocked()) return result;
     return UsdResolved(&earliest->samples.front().value);
 }
 
 bool UsdStage::animated(const UsdPrim& prim, std::string_view attribute) {
-    for (const UsdOpinion& opinion : prim.opinions) {
-        const UsdProperty* property = opinion.spec->property(attribute);
-        if (!property) continue;
-        for (const UsdTimeSample& sample : property->samples)
-            if (!(sample.value == property->samples.front().value)) return true;
-    }
-    return false;
+    bool changes = false;
+    eachUsdDeclaration(prim, attribute, [&](const UsdProperty& property, const UsdOpinion&) {
+        for (const UsdTimeSample& sample : property.samples)
+            changes = changes || !(sample.value == property.samples.front().value);
+        return changes;
+    });
+    return changes;
 }
 
 } // namespace penumbra

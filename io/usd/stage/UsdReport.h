@@ -39,9 +39,8 @@ struct UsdPrimReport {
 std::vector<std::string> layerNames(const UsdComposition& composition);
 
 /// Calls `take` with each prim of a composition, depth first. Says which targets and properties are
-/// wrong, among the composition's errors. Two rules are followed here only, not by the stage:
-/// opinions that make an attribute of a relationship, or the other way round, are left out; and so
-/// are targets in a class that name what inherits it.
+/// wrong, among the composition's errors. One rule is followed here only, not by the stage: targets
+/// in a class that name what inherits it are left out.
 void reportComposition(UsdComposition& composition,
                        const std::function<void(const UsdPrimReport&)>& take);
 

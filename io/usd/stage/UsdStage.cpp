@@ -35,9 +35,10 @@ const UsdProperty* UsdStage::property(const UsdPrim& prim, std::string_view name
 
 std::vector<std::string> UsdStage::targets(const UsdPrim& prim, std::string_view property) {
     std::vector<UsdTargetOpinion> opinions;
-    for (const UsdOpinion& opinion : prim.opinions)
-        if (const UsdProperty* found = opinion.spec->property(property))
-            opinions.push_back({found, opinion.toStage.get()});
+    eachUsdDeclaration(prim, property, [&](const UsdProperty& found, const UsdOpinion& opinion) {
+        opinions.push_back({&found, opinion.toStage.get()});
+        return false;
+    });
     if (opinions.empty()) return {};
     return composeTargets(opinions).paths;
 }
@@ -60,10 +61,12 @@ bool UsdStage::hasApi(const UsdPrim& prim, std::string_view schema) {
 
 const UsdValue* UsdStage::metadata(const UsdPrim& prim, std::string_view property,
                                    std::string_view key) {
-    for (const UsdOpinion& opinion : prim.opinions)
-        if (const UsdProperty* found = opinion.spec->property(property))
-            if (const UsdValue* value = penumbra::find(found->metadata, key)) return value;
-    return nullptr;
+    const UsdValue* value = nullptr;
+    eachUsdDeclaration(prim, property, [&](const UsdProperty& found, const UsdOpinion&) {
+        value = penumbra::find(found.metadata, key);
+        return value != nullptr;
+    });
+    return value;
 }
 
 SourceLocation UsdStage::location(const UsdPrim& prim, std::string_view property) {

@@ -112,4 +112,18 @@ private:
     friend class UsdStageBuilder;
 };
 
+/// Calls `take(property, opinion)` with what each layer says of a property, strongest first, until
+/// it returns true. An attribute that a stronger layer has as a relationship is left out, and the
+/// other way round.
+template <class Take>
+void eachUsdDeclaration(const UsdPrim& prim, std::string_view name, Take take) {
+    const UsdProperty* strongest = nullptr;
+    for (const UsdOpinion& opinion : prim.opinions) {
+        const UsdProperty* found = opinion.spec->property(name);
+        if (!found) continue;
+        if (!strongest) strongest = found;
+        if (found->relationship == strongest->relationship && take(*found, opinion)) return;
+    }
+}
+
 } // namespace penumbra

@@ -21,6 +21,7 @@ std::string_view usdPrefix(UsdListOp op) {
 }
 
 bool isUsdReorder(const UsdNamedValue& entry) {
+    if (entry.value.type.kind != UsdKind::string || !entry.value.type.array) return false;
     return entry.name == "reorder rootPrims" || entry.name == "reorder nameChildren" ||
            entry.name == "reorder properties";
 }
@@ -29,7 +30,8 @@ void UsdTextOutput::metadata(const UsdDictionary& entries) {
     for (const UsdNamedValue& entry : entries) {
         if (isUsdReorder(entry)) continue;
         line();
-        if (entry.name != "comment") text.append(entry.name).append(" = ");
+        const bool comment = entry.name == "comment" && entry.value.text();
+        if (!comment) text.append(entry.name).append(" = ");
         appendUsdText(text, entry.value, depth);
         text += '\n';
     }

@@ -112,12 +112,16 @@ std::string usdLiteral(std::string_view text) {
 bool isUsdAssetPath(std::string_view path) {
     for (const char c : path)
         if (static_cast<unsigned char>(c) < 0x20) return false;
-    return path.find('@') == std::string_view::npos || path.find('\\') == std::string_view::npos;
+    if (path.find('@') == std::string_view::npos) return true;
+    // Before the closing @@@ a backslash would be read as that of `\@@@`.
+    for (const std::string_view end : {"\\", "\\@", "\\@@"})
+        if (path.ends_with(end)) return false;
+    return true;
 }
 
 std::string usdAssetLiteral(std::string_view path) {
     if (!isUsdAssetPath(path)) return usdLiteral(path);
-    if (path.find('@') == std::string_view::npos) return "@" + std::string(path) + "@";
+    if (path.find('@') == std::string_view::npos) return std::string("@").append(path).append("@");
     std::string literal = "@@@";
     for (std::size_t i = 0; i < path.size(); ++i) {
         if (path.substr(i, 3) == "@@@") {

@@ -16,7 +16,8 @@ void appendUsdText(std::string& out, const UsdDictionary& dictionary, std::size_
 
 /// A string with all that must be escaped; three quotes if it has several lines.
 std::string usdLiteral(std::string_view text);
-/// Whether a path can be written between @: one with control characters can't.
+/// Whether a path can be written between @: one with control characters can't, nor one
+/// that has an @ and ends with a backslash.
 bool isUsdAssetPath(std::string_view path);
 /// `@path@`, or as a string where that form can't hold it.
 std::string usdAssetLiteral(std::string_view path);

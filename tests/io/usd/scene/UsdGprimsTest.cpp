@@ -109,4 +109,29 @@ TEST(UsdGprims, NothingComesOfNoSize) {
     }
 }
 
+// A hundred thousand marbles would take 5 GB.
+TEST(UsdGprims, ThoseOfOneSizeAndMaterialAreOneMesh) {
+    const std::string translated =
+        "double3 xformOp:translate = (1, 0, 0)\nuniform token[] xformOpOrder = "
+        "[\"xformOp:translate\"]\n";
+    const LoadedScene loaded =
+        loadText("def Sphere \"a\"\n{\n double radius = 2\n" + translated + "}\n" +
+                 "def Sphere \"b\"\n{\n double radius = 2\n token visibility = \"inherited\"\n" +
+                 translated + "}\n" + "def Sphere \"larger\"\n{\n double radius = 3\n" +
+                 translated + "}\n" + "def Sphere \"red\"\n{\n double radius = 2\n" + translated +
+                 " color3f[] primvars:displayColor = [(1, 0, 0)]\n}\n" +
+                 "def Sphere \"bound\" (prepend apiSchemas = [\"MaterialBindingAPI\"])\n{\n"
+                 " double radius = 2\n" +
+                 translated + " rel material:binding = </M>\n}\n" +
+                 "def Material \"M\"\n{\n token outputs:surface.connect = </M/S.outputs:surface>\n"
+                 " def Shader \"S\"\n {\n  uniform token info:id = \"UsdPreviewSurface\"\n"
+                 "  color3f inputs:diffuseColor = (0, 0, 0.5)\n  token outputs:surface\n }\n}\n");
+    const auto nodes = nodesByPath(*loaded.scene);
+    const auto mesh = [&](const char* path) { return leafOf(nodes, path)->mesh(); };
+    ASSERT_TRUE(mesh("/a"));
+    EXPECT_EQ(mesh("/a"), mesh("/b"));
+    for (const char* other : {"/larger", "/red", "/bound"}) EXPECT_NE(mesh("/a"), mesh(other));
+    EXPECT_FLOAT_EQ(mesh("/bound")->materialOf(0)->reflectance().b, 0.5f);
+}
+
 } // namespace penumbra

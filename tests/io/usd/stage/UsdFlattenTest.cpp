@@ -3,13 +3,11 @@
 
 #include "io/usd/crate/UsdFiles.h"
 #include "io/usd/text/UsdLayerWriter.h"
-#include "io/usd/text/UsdValueText.h"
 #include "tests/io/usd/RandomLayers.h"
+#include "tests/io/usd/stage/StageDescription.h"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include <set>
 
 namespace penumbra {
 
@@ -17,45 +15,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-
-/// Numbers to nine digits: a time that was scaled is the same but for rounding.
-std::string described(const UsdValue& value) {
-    const std::vector<double> numbers = value.numbers();
-    if (numbers.empty()) return usdText(value);
-    std::string text = value.type.array ? "array" : "";
-    for (const double number : numbers) text += fmt::format(" {:.9g}", number);
-    return text;
-}
-
-/// All properties of a prim with what they say, at three times and without one.
-void describeProperties(const UsdPrim& prim, std::string& text) {
-    std::set<std::string> names;
-    for (const UsdOpinion& opinion : prim.opinions)
-        for (const UsdProperty& property : opinion.spec->properties) names.insert(property.name);
-    for (const std::string& name : names) {
-        const UsdProperty& strongest = *UsdStage::property(prim, name);
-        text.append(" ").append(name).append(strongest.custom ? " custom" : "");
-        text += strongest.uniform ? " uniform" : "";
-        for (const UsdTime time : {UsdTime(), UsdTime(0.0), UsdTime(2.5), UsdTime(7.0)})
-            if (const UsdResolved value = UsdStage::value(prim, name, time))
-                if (value->type.kind != UsdKind::asset) text.append(" ").append(described(*value));
-        for (const std::string& target : UsdStage::targets(prim, name))
-            text.append(" <").append(target).append(">");
-        if (const UsdValue* value = UsdStage::metadata(prim, name, "interpolation"))
-            text.append(" ").append(usdText(*value));
-        text += "\n";
-    }
-}
-
-std::string described(const UsdStage& stage) {
-    std::string text;
-    for (const UsdPrim& prim : stage.prims()) {
-        text.append(prim.path).append(" ").append(prim.typeName).append(" ");
-        text.append(std::to_string(int(prim.specifier))).append("\n");
-        describeProperties(prim, text);
-    }
-    return text;
-}
 
 /// Writes the stage as one layer, which is opened on its own. \return what both say
 std::pair<std::string, std::string> bothWays(const std::filesystem::path& root,

@@ -1,0 +1,20 @@
+// What the fuzzers try: any bytes must be understood, or refused by one line.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace penumbra {
+
+/// Each returns what is wrong with the answer to the bytes, in words; empty if nothing is. A crash,
+/// a run without end and memory without bounds are for the fuzzer to find.
+
+/// A layer of USD text: read, written and read again it is the same.
+std::string tryText(std::string_view bytes);
+/// A crate file: what was read of it survives being written as text.
+std::string tryCrate(std::string_view bytes);
+/// The layers of a scene, the text of each behind a line `---`; the first one is opened. They are
+/// composed, reported, flattened and loaded; nothing from outside of their folder comes in.
+std::string tryComposition(std::string_view bytes);
+
+} // namespace penumbra
