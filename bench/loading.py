@@ -33,17 +33,20 @@ def best(command, times=3):
     return failed[0] if failed else min(runs, key=lambda run: run["seconds"])
 
 
-def case(reader, file, what, command):
-    figures = {**measured.stamp(), **best(command)}
-    figures["name"] = f"loading/{reader}/{file.name}/{what}"
+def case(file, readers):
+    """One file, as every reader takes it as a layer and as a scene: bytes a second, and peak memory over its size."""
     size = file.stat().st_size
-    if "error" not in figures:
-        figures.update(file_bytes=size, bytes_per_second=size / figures["seconds"],
-                       peak_over_file=figures["peak_bytes"] / size)
-        print(f"{figures['name']}: {figures['seconds']:.3f} s, {figures['bytes_per_second'] / 1e6:.0f} MB/s, "
-              f"{figures['peak_bytes'] / 1e6:.0f} MB, {figures['peak_over_file']:.1f} times the file", flush=True)
-    else:
-        print(f"{figures['name']}: {figures['error']}", flush=True)
+    figures = {**measured.stamp(), "name": f"loading/{file.name}", "file_MB": size / 1e6}
+    for reader, command in readers.items():
+        for what in ("layer", "scene"):
+            one = best([*command, what, file])
+            if "error" in one:
+                print(f"{file.name}: {reader}, {what}: {one['error']}", flush=True)
+                continue
+            figures[f"{reader}_{what}_MB_per_s"] = size / 1e6 / one["seconds"]
+            figures[f"{reader}_{what}_peak_over_file"] = one["peak_bytes"] / size
+            print(f"{file.name}: {reader}, {what}: {one['seconds']:.3f} s, {size / 1e6 / one['seconds']:.0f} MB/s, "
+                  f"{one['peak_bytes'] / 1e6:.0f} MB, {one['peak_bytes'] / size:.1f} times the file", flush=True)
     return figures
 
 
@@ -53,15 +56,12 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("loading.json"))
     parser.add_argument("--tinyusdz", type=pathlib.Path)
     options = parser.parse_args()
-    results = []
+    readers = {"penumbra": [options.program]}
+    if options.tinyusdz:
+        readers["tinyusdz"] = ["node", OTHER, options.tinyusdz.resolve()]
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([options.program, "write", folder], check=True)
-        for file in sorted(pathlib.Path(folder).iterdir()):
-            for what in ("layer", "scene"):
-                results.append(case("penumbra", file, what, [options.program, what, file]))
-                if options.tinyusdz:
-                    command = ["node", OTHER, options.tinyusdz.resolve(), what, file]
-                    results.append(case("tinyusdz", file, what, command))
+        results = [case(file, readers) for file in sorted(pathlib.Path(folder).iterdir())]
     measured.write(options.out, results)
 
 

@@ -146,8 +146,7 @@ private:
         if (!in_.atString()) in_.fail("expected the prim's name in quotes, found " + in_.found());
         const char* where = in_.cursor();
         std::string name = in_.string();
-        // An escape may have made bytes that are no UTF-8.
-        if (!isUsdIdentifier(name) || firstBadUtf8(name) != std::string_view::npos)
+        if (!isUsdIdentifier(name))
             in_.failAt(where, "'" + printable(name) +
                                   "' can't be a prim's name (letters, digits and _ only)");
         return name;

@@ -169,7 +169,7 @@ std::string UsdScanner::longString(char quote) {
             appendEscape(text);
         } else if (cursor_[1] == quote && cursor_[2] == quote) {
             cursor_ += 3;
-            if (*cursor_ == quote) fail("a fourth quote; write \\" + std::string(1, quote));
+            if (*cursor_ == quote) fail(std::string("a fourth quote; write \\").append(1, quote));
             return text;
         } else {
             text += *cursor_++;

@@ -8,7 +8,6 @@
 
 #include <gmock/gmock.h>
 
-
 namespace penumbra {
 
 namespace {
