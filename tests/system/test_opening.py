@@ -100,6 +100,23 @@ def edits_are_asked_about(view):
     opened(view, "cornell.usda")
 
 
+def the_end_is_asked_about(view):
+    """Ctrl+Q and F5 ask, too, where something was changed; a second Ctrl+Q is an answer."""
+    display = view.display
+    before = view.rest()
+    for key in ("F5", "ctrl+q"):
+        display.hands("key", key)
+        time.sleep(1)
+        check(xwindow.difference(before, view.shot("opening-end")) > 0.3, key + ": they are asked")
+        display.hands("key", "Escape")
+        time.sleep(1)
+        check(xwindow.difference(before, view.rest()) < 0.3, "Escape: the scene stays")
+    display.hands("key", "ctrl+q")
+    time.sleep(1)
+    display.hands("key", "ctrl+q")
+    check(view.program.wait() == 0, "Ctrl+Q, twice, ends it with exit code 0")
+
+
 def open_by_the_dialog(view):
     """Ctrl+O lists first what was opened lately: the model, below the scene that is shown."""
     display = view.display
@@ -129,7 +146,8 @@ def main():
         drag_what_no_file_calls_movable(view)
         edits_are_asked_about(view)
         open_by_the_dialog(view)
-        check(view.program.end() == 0, "SIGTERM ends it with exit code 0")
+        drag_what_no_file_calls_movable(view)
+        the_end_is_asked_about(view)
 
 
 if __name__ == "__main__":

@@ -69,7 +69,9 @@ private:
     void openScene(ReadyScene ready);
     void lightScene();
     void reload();
-    void askForFile(const std::string& file);
+    void readAgain();
+    void leaveFor(const Departure& next);
+    void goTo(const Departure& next);
     bool saveChanges();
     void openFile(const std::string& file);
     void takeOver();
@@ -237,21 +239,31 @@ void Viewer::lightScene() {
 
 void Viewer::reload() {
     if (loader_) return;
-    if (session_) {
+    if (session_)
         state_.notify("The file is not read again while a session is being recorded");
-        return;
-    }
+    else
+        leaveFor({Departure::To::itselfAgain});
+}
+
+void Viewer::readAgain() {
     loader_.emplace(scene_, loadOptions(scene_ == options_.scene ? options_.frame : std::nullopt));
     state_.notify("Reading " + name_ + " again");
 }
 
-/// Another scene is wanted, which this one's edits would be lost for. A recording has them.
-void Viewer::askForFile(const std::string& file) {
-    if (loader_) {
+/// Goes there, unless edits would be lost: then people are asked. A recording has them.
+void Viewer::leaveFor(const Departure& next) {
+    if (loader_ && next.to != Departure::To::nothing) {
         state_.notify("Another scene is still being read");
         return;
     }
-    if (state_.leave.ask(file, walk_ && !session_ && walk_->history().edited())) openFile(file);
+    stale_ = kAfterglow;
+    if (state_.leave.ask(next, walk_ && !session_ && walk_->history().edited())) goTo(next);
+}
+
+void Viewer::goTo(const Departure& next) {
+    if (next.to == Departure::To::another) openFile(next.file);
+    if (next.to == Departure::To::itselfAgain) readAgain();
+    if (next.to == Departure::To::nothing) quit_ = true;
 }
 
 /// \return whether the edits are in a file
@@ -278,7 +290,7 @@ void Viewer::perform(const Command& command) {
     if (performOnPicture(command)) return;
     switch (command.action) {
     case Action::quit:
-        quit_ = true;
+        leaveFor({Departure::To::nothing});
         break;
     case Action::fullScreen:
         window_.setFullScreen(!window_.fullScreen());
@@ -336,7 +348,7 @@ bool Viewer::performOnPicture(const Command& command) {
         state_.overlay = after(state_.overlay, -1);
         return true;
     case Action::cancel:
-        if (!state_.leave.file().empty()) {
+        if (state_.leave.next()) {
             state_.leaveAnswer = LeaveQuestion::Answer::cancel;
             return true;
         }
@@ -349,12 +361,13 @@ bool Viewer::performOnPicture(const Command& command) {
 /// What panels and keys asked for.
 void Viewer::doAsAsked() {
     if (std::exchange(state_.wantsUpdate, false) && light_) light_->requestUpdate();
+    if (window_.takeClosing()) leaveFor({Departure::To::nothing});
     if (std::exchange(state_.wantsReload, false)) reload();
     if (const std::string file = std::exchange(state_.wantsOpen, {}); !file.empty())
-        askForFile(file);
+        leaveFor({Departure::To::another, file});
     if (const auto answer = std::exchange(state_.leaveAnswer, std::nullopt)) {
-        const std::string file = state_.leave.answer(*answer, [&] { return saveChanges(); });
-        if (!file.empty()) openFile(file);
+        if (const auto next = state_.leave.answer(*answer, [&] { return saveChanges(); }))
+            goTo(*next);
     }
     if (std::exchange(state_.wantsRestart, false) && walk_) lightScene();
     if (light_) light_->setTrigger(state_.trigger);
@@ -483,7 +496,7 @@ void Viewer::draw(double seconds) {
 void Viewer::run() {
     Clock::time_point last = Clock::now();
     double sinceCertificate = 0;
-    while (!quit_ && !window_.closing() && !signals_.endWanted()) {
+    while (!quit_ && !signals_.endWanted()) {
         window_.poll(changing() ? 0 : kIdlePoll);
         takeEvents();
         takeScene();

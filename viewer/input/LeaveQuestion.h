@@ -1,35 +1,48 @@
-// Whether a scene that was edited is left for another one.
+// Whether a scene that was edited is left.
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 
 namespace penumbra {
 
-/// Edits are lost when another scene is opened: people are asked first, and may save them.
+/// What takes the place of the scene that is shown.
+struct Departure {
+    enum class To { another, itselfAgain, nothing };
+    To to = To::nothing;
+    std::string file = {}; ///< of another scene
+    bool operator==(const Departure&) const = default;
+};
+
+/// Edits are lost when another scene is opened, the same file is read again, or the program ends:
+/// people are asked first, and may save them.
 class LeaveQuestion {
 public:
     enum class Answer { save, discard, cancel };
 
-    /// Another scene is wanted. \return whether it may be opened at once: nothing would be lost
-    bool ask(std::string file, bool unsaved) {
-        file_ = unsaved ? std::move(file) : std::string();
-        return !unsaved;
+    /// \return whether to go at once: nothing would be lost, or the end is asked for once more
+    /// while the question stands
+    bool ask(Departure next, bool unsaved) {
+        const bool insists = next.to == Departure::To::nothing && next_ == next;
+        const bool go = !unsaved || insists;
+        next_ = go ? std::nullopt : std::optional(std::move(next));
+        return go;
     }
-    /// The scene that is wanted while the question stands; empty: there is none.
-    const std::string& file() const { return file_; }
+    /// What the question is about while it stands.
+    const std::optional<Departure>& next() const { return next_; }
 
     /// \param save what saves the edits, and whether it could
-    /// \return the scene to be opened now; empty: none
-    std::string answer(Answer answer, const std::function<bool()>& save) {
-        std::string file = std::exchange(file_, {});
+    /// \return where to go now; nothing: the scene stays
+    std::optional<Departure> answer(Answer answer, const std::function<bool()>& save) {
+        std::optional<Departure> next = std::exchange(next_, std::nullopt);
         const bool go = answer == Answer::discard || (answer == Answer::save && save());
-        return go ? file : std::string();
+        return go ? next : std::nullopt;
     }
 
 private:
-    std::string file_;
+    std::optional<Departure> next_;
 };
 
 } // namespace penumbra

@@ -220,8 +220,10 @@ void Window::show() {
                     kHint);
 }
 
-bool Window::closing() const {
-    return glfwWindowShouldClose(impl_->window);
+bool Window::takeClosing() {
+    const bool closing = glfwWindowShouldClose(impl_->window);
+    glfwSetWindowShouldClose(impl_->window, GLFW_FALSE);
+    return closing;
 }
 
 void Window::setTitle(const std::string& title) {

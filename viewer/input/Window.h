@@ -38,7 +38,8 @@ public:
     /// Shows what was drawn. \throws Error if the graphics card was reset and the context is gone
     void show();
 
-    bool closing() const;
+    /// Whether somebody has asked, since the last call, that the window be closed.
+    bool takeClosing();
     void setTitle(const std::string& title);
     /// Hides the pointer and lets it move without end, for looking around.
     void capturePointer(bool captured);

@@ -16,28 +16,43 @@ namespace {
 
 using Answer = LeaveQuestion::Answer;
 
+const Departure kOther{Departure::To::another, "other.usda"};
+const Departure kAgain{Departure::To::itselfAgain};
+const Departure kEnd{Departure::To::nothing};
+
 TEST(LeaveQuestion, IsNotAskedWhereNothingWouldBeLost) {
-    LeaveQuestion question;
-    EXPECT_TRUE(question.ask("other.usda", false));
-    EXPECT_EQ(question.file(), "");
+    for (const Departure& next : {kOther, kAgain, kEnd}) {
+        LeaveQuestion question;
+        EXPECT_TRUE(question.ask(next, false));
+        EXPECT_FALSE(question.next());
+    }
 }
 
-TEST(LeaveQuestion, OpensTheOtherSceneOnceTheEditsAreSavedOrDiscarded) {
-    for (const auto& [answer, saves, opened] :
-         {std::tuple{Answer::save, true, "other.usda"}, std::tuple{Answer::save, false, ""},
-          std::tuple{Answer::discard, true, "other.usda"}, std::tuple{Answer::cancel, true, ""}}) {
-        LeaveQuestion question;
-        EXPECT_FALSE(question.ask("other.usda", true));
-        EXPECT_EQ(question.file(), "other.usda");
-        int saved = 0;
-        const std::string file = question.answer(answer, [&, could = saves] {
-            ++saved;
-            return could;
-        });
-        EXPECT_EQ(file, opened);
-        EXPECT_EQ(saved, answer == Answer::save);
-        EXPECT_EQ(question.file(), "") << "it is asked once";
-    }
+TEST(LeaveQuestion, GoesOnceTheEditsAreSavedOrDiscarded) {
+    for (const Departure& next : {kOther, kAgain, kEnd})
+        for (const auto& [answer, saves, goes] :
+             {std::tuple{Answer::save, true, true}, std::tuple{Answer::save, false, false},
+              std::tuple{Answer::discard, true, true}, std::tuple{Answer::cancel, true, false}}) {
+            LeaveQuestion question;
+            EXPECT_FALSE(question.ask(next, true));
+            EXPECT_EQ(question.next(), next);
+            int saved = 0;
+            const auto to = question.answer(answer, [&, could = saves] {
+                ++saved;
+                return could;
+            });
+            EXPECT_EQ(to, goes ? std::optional(next) : std::nullopt);
+            EXPECT_EQ(saved, answer == Answer::save);
+            EXPECT_FALSE(question.next()) << "it is asked once";
+        }
+}
+
+TEST(LeaveQuestion, WhoAsksForTheEndTwiceMeansIt) {
+    LeaveQuestion question;
+    EXPECT_FALSE(question.ask(kEnd, true));
+    EXPECT_TRUE(question.ask(kEnd, true));
+    EXPECT_FALSE(question.ask(kAgain, true));
+    EXPECT_FALSE(question.ask(kEnd, true)) << "it was another question";
 }
 
 class EditsFile : public testing::Test {
