@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <utility>
@@ -174,6 +175,15 @@ void addCosts(SolveStatistics& sum, const SolveStatistics& s) {
     sum.detail += s.detail;
 }
 
+/// Sizes for a scene without lights: what stands in for them throws no shadow and is smooth.
+MeshingOptions coarse(MeshingOptions meshing, const Bounds& scene) {
+    constexpr float kShare = 1.0f / 64; // of the scene
+    const float size = kShare * scene.diagonal();
+    meshing.patchSize = std::max(meshing.patchSize, size);
+    meshing.elementSize = std::max(meshing.elementSize, size);
+    return meshing;
+}
+
 } // namespace
 
 SceneSolution::PhaseTimer::PhaseTimer(double& sum) : sum_(sum), start_(steadySeconds()) {}
@@ -201,7 +211,8 @@ SceneSolution::SceneSolution(const SolveSettings& settings)
     const RadiosityOptions resolved =
         timed("read", [&] { return resolvedOptions(settings, loaded_, options.time); });
     solving_ = resolved.solving;
-    mesh(resolved.meshing);
+    const bool dark = settings.frames.empty() && !hasLights(placed_); // and stays so
+    mesh(dark ? coarse(resolved.meshing, placed_.bounds) : resolved.meshing);
     light();
     if (settings.frames.empty()) return;
     const SolveStatistics s = solver().statistics();
