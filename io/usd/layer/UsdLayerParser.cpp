@@ -2,14 +2,13 @@
 #include "io/usd/layer/UsdLayer.h"
 
 #include "io/usd/layer/UsdMetadataParser.h"
+#include "io/usd/layer/UsdNameIndex.h"
 #include "io/usd/layer/UsdPath.h"
 #include "io/usd/layer/UsdPropertyParser.h"
 #include "io/usd/layer/UsdText.h"
 #include "io/usd/layer/UsdValueParser.h"
 
 #include <charconv>
-#include <unordered_map>
-#include <unordered_set>
 
 namespace penumbra {
 
@@ -22,8 +21,7 @@ struct Frame {
     bool isVariant = false;
     std::string path; // of the prim
     const char* open = nullptr;
-    std::unordered_set<std::string> childNames;
-    std::unordered_map<std::string, std::size_t> propertyIndex;
+    UsdNameIndex childIndex = {}, propertyIndex = {};
 };
 
 class LayerParser {
@@ -126,8 +124,9 @@ private:
         in_.skipBlanks();
         spec.name = primName();
         const std::string path = usdChildPath(stack_.empty() ? "/" : stack_.back().path, spec.name);
-        auto& names = stack_.empty() ? rootNames_ : stack_.back().childNames;
-        if (!names.insert(spec.name).second)
+        auto& siblings = stack_.empty() ? layer_.prims : stack_.back().body->children;
+        UsdNameIndex& index = stack_.empty() ? rootIndex_ : stack_.back().childIndex;
+        if (index.find(siblings, spec.name) != UsdNameIndex::kNone)
             throw SceneFileError({in_.file(), where.line, where.column},
                                  "a second prim <" + path + ">");
         if (++primCount_ > limits_.prims) in_.fail("too many prims");
@@ -137,9 +136,8 @@ private:
         in_.skipSpace();
         const char* open = in_.cursor();
         in_.expect('{', "to begin the prim's contents");
-        auto& siblings = stack_.empty() ? layer_.prims : stack_.back().body->children;
         siblings.push_back(std::move(spec));
-        stack_.push_back({&siblings.back(), nullptr, false, path, open, {}, {}});
+        stack_.push_back({&siblings.back(), nullptr, false, path, open});
     }
 
     std::string primName() {
@@ -204,7 +202,7 @@ private:
         if (stack_.size() >= limits_.primDepth) in_.fail("variant sets nested too deeply");
         auto& sets = stack_.back().body->variantSets;
         sets.push_back({name, {}});
-        stack_.push_back({nullptr, &sets.back(), false, stack_.back().path, open, {}, {}});
+        stack_.push_back({nullptr, &sets.back(), false, stack_.back().path, open});
     }
 
     // `"name" (metadata) {`
@@ -225,7 +223,7 @@ private:
         in_.expect('{', "to begin the variant's contents");
         auto& variants = stack_.back().set->variants;
         variants.push_back(std::move(spec));
-        stack_.push_back({&variants.back(), nullptr, true, stack_.back().path, open, {}, {}});
+        stack_.push_back({&variants.back(), nullptr, true, stack_.back().path, open});
     }
 
     UsdScanner in_;
@@ -235,7 +233,7 @@ private:
     int formatMinor_ = 0;
     std::size_t primCount_ = 0;
     std::vector<Frame> stack_;
-    std::unordered_set<std::string> rootNames_;
+    UsdNameIndex rootIndex_;
 };
 
 } // namespace

@@ -97,8 +97,8 @@ public:
 private:
     // The property of that name, new or declared before.
     UsdProperty& declare(const Declaration& d, const std::string& name, const char* where) {
-        const auto [place, isNew] = table_.indexOf.try_emplace(name, table_.properties.size());
-        if (isNew) {
+        const std::size_t known = table_.index.find(table_.properties, name);
+        if (known == UsdNameIndex::kNone) {
             UsdProperty& fresh = table_.properties.emplace_back();
             fresh.name = name;
             fresh.typeName = d.typeName;
@@ -106,7 +106,8 @@ private:
             fresh.relationship = d.relationship;
             fresh.where = d.where;
         }
-        UsdProperty& property = table_.properties[place->second];
+        UsdProperty& property =
+            known == UsdNameIndex::kNone ? table_.properties.back() : table_.properties[known];
         const bool same = property.relationship == d.relationship &&
                           property.typeName == d.typeName && property.type == d.type;
         if (!same)

@@ -2,16 +2,17 @@
 #pragma once
 
 #include "io/usd/layer/UsdLayer.h"
+#include "io/usd/layer/UsdNameIndex.h"
 
 #include <string>
-#include <unordered_map>
+#include <vector>
 
 namespace penumbra {
 
 /// The properties of the prim body that is being read, found by name.
 struct UsdPropertyTable {
     std::vector<UsdProperty>& properties;
-    std::unordered_map<std::string, std::size_t>& indexOf;
+    UsdNameIndex& index;
 };
 
 /// Reads one statement: a declaration, value, timeSamples, connection, relationship or (skipped
