@@ -3,7 +3,6 @@
 #include <chrono>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 
 namespace penumbra {
 
@@ -56,20 +55,6 @@ double Stopwatch::wall() const {
 }
 double Stopwatch::cpu() const {
     return cpuClock() - cpuStart_;
-}
-
-double peakMemory() {
-    // Not getrusage(): its figure survives exec() and so may be that of the starting program.
-    std::ifstream status("/proc/self/status");
-    for (std::string word; status >> word;) {
-        double kilobytes = 0;
-        if (word == "VmHWM:" && status >> kilobytes) return kilobytes * 1024;
-    }
-    return 0;
-}
-
-void resetPeakMemory() {
-    std::ofstream("/proc/self/clear_refs") << "5\n";
 }
 
 } // namespace penumbra

@@ -43,10 +43,4 @@ private:
     double wallStart_, cpuStart_, threadStart_;
 };
 
-/// Peak resident memory of this process since the last reset (Linux) [bytes].
-double peakMemory();
-/// Where the kernel refuses, the peak since the start of the process stays; run.py gives each case
-/// a process of its own.
-void resetPeakMemory();
-
 } // namespace penumbra

@@ -3,6 +3,7 @@
 #include "bench/BenchCase.h"
 #include "bench/BenchScene.h"
 #include "bench/MoveRun.h"
+#include "bench/PeakMemory.h"
 
 #include <string>
 

@@ -2,6 +2,7 @@
 #include "bench/BareTracing.h"
 #include "bench/BenchCase.h"
 #include "bench/BenchScene.h"
+#include "bench/PeakMemory.h"
 #include "radiosity/rays/RayScene.h"
 #include "radiosity/transport/Solver.h"
 

@@ -1,6 +1,7 @@
 // Indirect light and its detail, at the scenes' default sizes.
 #include "bench/BenchCase.h"
 #include "bench/BenchScene.h"
+#include "bench/PeakMemory.h"
 #include "radiosity/rays/RayScene.h"
 #include "radiosity/transport/DetailGather.h"
 #include "radiosity/transport/Solver.h"

@@ -9,7 +9,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <utility>
@@ -175,12 +174,13 @@ void addCosts(SolveStatistics& sum, const SolveStatistics& s) {
     sum.detail += s.detail;
 }
 
-/// Sizes for a scene without lights: what stands in for them throws no shadow and is smooth.
+/// Sizes for a scene without lights, where none are asked for: what stands in for lights throws no
+/// shadow and is smooth.
 MeshingOptions coarse(MeshingOptions meshing, const Bounds& scene) {
     constexpr float kShare = 1.0f / 64; // of the scene
     const float size = kShare * scene.diagonal();
-    meshing.patchSize = std::max(meshing.patchSize, size);
-    meshing.elementSize = std::max(meshing.elementSize, size);
+    if (meshing.patchSize == 0) meshing.patchSize = size;
+    if (meshing.elementSize == 0) meshing.elementSize = size;
     return meshing;
 }
 

@@ -1,9 +1,10 @@
-// Writes large files, and reads one as a process of its own, so that peak memory is that of
-// reading.
+// Writes large files, and reads one as a process of its own: peak memory is that of reading.
 //
-//   penumbra_loading write FOLDER   mesh.usda, mesh.usdc (1 M points), prims.usda, prims.usdc
-//   (20,000 spheres) penumbra_loading layer FILE     the layer alone:   prints seconds and peak
-//   bytes penumbra_loading scene FILE     the scene graph:   the same
+// - penumbra_loading write FOLDER: mesh.usda, mesh.usdc (a million points), prims.usda, prims.usdc
+//   (20,000 spheres)
+// - penumbra_loading layer FILE, penumbra_loading scene FILE: reads the layer alone, or makes the
+//   scene graph of it; prints seconds and peak bytes as JSON
+#include "bench/PeakMemory.h"
 #include "bench/loading/LoadingFiles.h"
 #include "io/usd/crate/UsdFiles.h"
 #include "io/usd/scene/UsdScene.h"
@@ -33,16 +34,6 @@ void writeFiles(const std::filesystem::path& folder) {
     write(folder / "mesh.usdc", meshCrate(1'000'000));
     write(folder / "prims.usda", primsText(20'000));
     write(folder / "prims.usdc", primsCrate(20'000));
-}
-
-/// [bytes] Not getrusage(): its figure survives exec() and so may be that of the starting program.
-std::size_t peakMemory() {
-    std::ifstream status("/proc/self/status");
-    for (std::string word; status >> word;) {
-        std::size_t kilobytes = 0;
-        if (word == "VmHWM:" && status >> kilobytes) return kilobytes * 1024;
-    }
-    return 0;
 }
 
 /// Prints what reading takes. `read` returns what it has read, which lives until all is measured.

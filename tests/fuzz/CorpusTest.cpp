@@ -1,22 +1,16 @@
 // What the fuzzers have found their ways by, tried again; and new ways, a few.
-#include "tests/fuzz/CrateMutator.h"
 #include "tests/fuzz/FuzzTargets.h"
-#include "tests/fuzz/TokenMutator.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iterator>
 
 namespace penumbra {
 
 namespace {
-
-using Try = std::function<std::string(std::string_view)>;
-using Mutate = std::function<std::string(std::string_view, FuzzRandom&)>;
 
 struct Input {
     std::string name, bytes;
@@ -35,52 +29,31 @@ std::vector<Input> corpus(const std::string& kind) {
     return inputs;
 }
 
-void replay(const std::string& kind, const Try& attempt) {
-    const std::vector<Input> inputs = corpus(kind);
+class FuzzCorpus : public testing::TestWithParam<FuzzTarget> {};
+
+} // namespace
+
+TEST_P(FuzzCorpus, IsReadOrRefused) {
+    const std::vector<Input> inputs = corpus(GetParam().name);
     EXPECT_GE(inputs.size(), 20u);
-    for (const Input& input : inputs) EXPECT_EQ(attempt(input.bytes), "") << input.name;
+    for (const Input& input : inputs) EXPECT_EQ(GetParam().attempt(input.bytes), "") << input.name;
 }
 
-/// Changes each input a few times over, as the fuzzer does.
-void mutate(const std::string& kind, const Try& attempt, const Mutate& mutated) {
+// Each input is changed a few times over, as the fuzzer does.
+TEST_P(FuzzCorpus, ChangedIsReadOrRefused) {
     FuzzRandom random(1);
-    for (const Input& input : corpus(kind)) {
+    for (const Input& input : corpus(GetParam().name)) {
         std::string bytes = input.bytes;
         for (int i = 0; i < 10; ++i) {
-            bytes = mutated(bytes, random);
-            ASSERT_EQ(attempt(bytes), "") << input.name << ", change " << i + 1 << ":\n" << bytes;
+            bytes = GetParam().mutated(bytes, random).value_or(bytes);
+            ASSERT_EQ(GetParam().attempt(bytes), "") << input.name << ", change " << i + 1 << ":\n"
+                                                     << bytes;
         }
     }
 }
 
-} // namespace
-
-TEST(FuzzCorpus, TextIsReadOrRefused) {
-    replay("text", tryText);
-}
-TEST(FuzzCorpus, CratesAreReadOrRefused) {
-    replay("crate", tryCrate);
-}
-TEST(FuzzCorpus, ScenesAreComposedOrRefused) {
-    replay("composition", tryComposition);
-}
-
-TEST(FuzzCorpus, ChangedTextIsReadOrRefused) {
-    mutate("text", tryText, [](std::string_view bytes, FuzzRandom& random) {
-        return mutatedText(bytes, layerStatements(), random);
-    });
-}
-
-TEST(FuzzCorpus, ChangedCratesAreReadOrRefused) {
-    mutate("crate", tryCrate, [](std::string_view bytes, FuzzRandom& random) {
-        return mutatedCrate(bytes, random).value_or(std::string(bytes));
-    });
-}
-
-TEST(FuzzCorpus, ChangedScenesAreComposedOrRefused) {
-    mutate("composition", tryComposition, [](std::string_view bytes, FuzzRandom& random) {
-        return mutatedText(bytes, arcStatements(), random);
-    });
-}
+INSTANTIATE_TEST_SUITE_P(Of, FuzzCorpus,
+                         testing::Values(textTarget(), crateTarget(), compositionTarget()),
+                         [](const auto& of) { return std::string(of.param.name); });
 
 } // namespace penumbra

@@ -180,7 +180,7 @@ const std::vector<std::string>& layerStatements() {
         "# comment\n",
         "/* comment */",
         "None",
-        "\0",
+        std::string(1, '\0'),
         "\xc3",
         "é",
         "spline"};

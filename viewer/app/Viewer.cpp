@@ -9,6 +9,7 @@
 #include "viewer/app/FileWatcher.h"
 #include "viewer/app/InteractiveRenderer.h"
 #include "viewer/app/OverlayChoice.h"
+#include "viewer/app/PictureCommands.h"
 #include "viewer/app/PictureSaver.h"
 #include "viewer/app/Replay.h"
 #include "viewer/app/SessionFile.h"
@@ -60,7 +61,6 @@ public:
 private:
     void takeEvents();
     void perform(const Command& command);
-    bool performOnPicture(const Command& command);
     void doAsAsked();
     LoadOptions loadOptions(std::optional<double> frame) const {
         return {.time = frame, .allowOutside = options_.allowOutside};
@@ -287,7 +287,7 @@ void Viewer::openFile(const std::string& file) {
 }
 
 void Viewer::perform(const Command& command) {
-    if (performOnPicture(command)) return;
+    if (performOnPicture(command, state_)) return;
     switch (command.action) {
     case Action::quit:
         leaveFor({Departure::To::nothing});
@@ -315,46 +315,6 @@ void Viewer::perform(const Command& command) {
         break;
     default:
         if (walk_) walk_->perform(command);
-    }
-}
-
-/// Does what is only about how the picture is shown. \return whether the command was that
-bool Viewer::performOnPicture(const Command& command) {
-    constexpr float kStop = 1.0f / 3;
-    AutoExposure& exposure = state_.exposure;
-    switch (command.action) {
-    case Action::help:
-        state_.showHelp = !state_.showHelp;
-        return true;
-    case Action::panels:
-        state_.showPanels = !state_.showPanels;
-        return true;
-    case Action::brighterView:
-        exposure.setCompensation(exposure.compensation() + kStop);
-        return true;
-    case Action::darkerView:
-        exposure.setCompensation(exposure.compensation() - kStop);
-        return true;
-    case Action::autoExposure:
-        exposure.fix(exposure.automatic() ? std::optional(exposure.uncompensated()) : std::nullopt);
-        return true;
-    case Action::nextTone:
-        state_.tone = ToneStyle((int(state_.tone) + 1) % int(kToneStyleNames.size()));
-        return true;
-    case Action::nextOverlay:
-        state_.overlay = after(state_.overlay, 1);
-        return true;
-    case Action::previousOverlay:
-        state_.overlay = after(state_.overlay, -1);
-        return true;
-    case Action::cancel:
-        if (state_.leave.next()) {
-            state_.leaveAnswer = LeaveQuestion::Answer::cancel;
-            return true;
-        }
-        return std::exchange(state_.showHelp, false) || std::exchange(state_.showOpen, false);
-    default:
-        return false;
     }
 }
 

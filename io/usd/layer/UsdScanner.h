@@ -67,7 +67,8 @@ public:
     std::string_view peekIdentifier() const;
 
     bool atString() const { return *cursor_ == '"' || *cursor_ == '\''; }
-    /// A quoted string, single or triple, with its escapes resolved.
+    /// A quoted string, single or triple, with its escapes resolved; what they make that is
+    /// no UTF-8 is '?'.
     std::string string();
     /// `@path@` or `@@@path@@@`.
     std::string asset();

@@ -115,11 +115,12 @@ void UsdStageBuilder::checkTargets(const UsdPrim& prim) {
             if (!seen.insert(property.name).second) continue;
             std::vector<UsdTargetOpinion> opinions;
             std::vector<const UsdLayer*> layers;
-            for (const UsdOpinion& one : prim.opinions)
-                if (const UsdProperty* found = one.spec->property(property.name)) {
-                    opinions.push_back({found, one.toStage.get()});
-                    layers.push_back(one.layer);
-                }
+            eachUsdDeclaration(prim, property.name,
+                               [&](const UsdProperty& found, const UsdOpinion& one) {
+                                   opinions.push_back({&found, one.toStage.get()});
+                                   layers.push_back(one.layer);
+                                   return false;
+                               });
             for (const auto& [i, target] : composeTargets(opinions).unmapped)
                 composition_.errors().report(layers[i]->location(opinions[i].property->where),
                                              "target <" + target + "> of <" + prim.path + "." +

@@ -1,17 +1,13 @@
-// What npm's tinyusdz finds in a file: `node round_trip.mjs PACKAGE FILE` prints meshes, triangles and the box of all points.
+// What npm's tinyusdz finds in a file: `node round_trip.mjs PACKAGE FILE` prints meshes, triangles and the box of all
+// points as JSON.
 import fs from "fs";
 
-globalThis.window = globalThis; // it was compiled for browsers, and asks
-process.type = "renderer";
+import {check, makeReader} from "../../support/tinyusdz.mjs";
+
 const [folder, file] = process.argv.slice(2);
-const {default: load} = await import(`${folder}/tinyusdz.js`);
-const tinyusdz = await load({wasmBinary: fs.readFileSync(`${folder}/tinyusdz.wasm`)});
-const reader = new tinyusdz.TinyUSDZLoaderNative();
+const reader = await makeReader(folder);
 reader.setLoadTextureInNative(false);
-if (!reader.loadFromBinary(fs.readFileSync(file), file)) {
-  console.error(`tinyusdz: ${reader.error()}`);
-  process.exit(1);
-}
+check(reader, reader.loadFromBinary(fs.readFileSync(file), file));
 let triangles = 0;
 const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
 for (let i = 0; i < reader.numMeshes(); ++i) {
