@@ -131,6 +131,14 @@ void dropNamed(aiScene& scene, ModelFormat format) {
     drop(scene.mLights, scene.mNumLights);
 }
 
+// STL says which way each facet faces, nothing of the surface that the facets stand for.
+void dropNormals(aiScene& scene) {
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        delete[] scene.mMeshes[m]->mNormals;
+        scene.mMeshes[m]->mNormals = nullptr;
+    }
+}
+
 std::string advice(const std::string& why) {
     if (why.find("could not open") != std::string::npos) return " (put it beside the model)";
     return " (export the model again)";
@@ -162,6 +170,7 @@ struct ModelFile::Reader {
         checkModel(*scene, file.string());
         animations = scene->mNumAnimations;
         dropNamed(*scene, format);
+        if (format == ModelFormat::stl) dropNormals(*scene);
         const bool shown = scene->mNumMeshes > 0;
         // Of glTF, ModelMaterials hands on how coordinates are transformed.
         const unsigned coordinates =

@@ -108,6 +108,30 @@ void addNormals(UsdPrimSpec& spec, const aiMesh& mesh, const Polygons& polygons,
         diagnostics.warn(where, what + ": normals left out, some are not finite");
 }
 
+/// One a face; a zero where it has no area.
+std::vector<float> faceNormals(const Polygons& polygons) {
+    std::vector<float> normals;
+    const auto point = [&](std::size_t corner) {
+        const float* at = &polygons.points[3 * std::size_t(polygons.indices[corner])];
+        return aiVector3t<double>(at[0], at[1], at[2]);
+    };
+    std::size_t first = 0;
+    for (const std::int32_t count : polygons.counts) {
+        aiVector3t<double> sum; // of the fan's triangles
+        for (std::size_t i = first + 1; i + 1 < first + std::size_t(count); ++i)
+            sum += (point(i) - point(first)) ^ (point(i + 1) - point(first));
+        sum.NormalizeSafe();
+        for (const double component : {sum.x, sum.y, sum.z}) normals.push_back(float(component));
+        first += std::size_t(count);
+    }
+    return normals;
+}
+
+void addFlatNormals(UsdPrimSpec& spec, const Polygons& polygons) {
+    UsdProperty& property = addAttribute(spec, "normal3f[]", "normals", faceNormals(polygons));
+    addMetadata(property.metadata, "interpolation", UsdKind::token, "uniform");
+}
+
 void addCoordinates(UsdPrimSpec& spec, const aiMesh& mesh, const Polygons& polygons,
                     const std::string& what, const SourceLocation& where,
                     Diagnostics& diagnostics) {
@@ -153,8 +177,9 @@ std::string textureCoordinates(unsigned channel) {
     return channel == 0 ? "st" : "st" + std::to_string(channel);
 }
 
-std::optional<UsdPrimSpec> meshPrim(const aiMesh& mesh, const std::string& name, bool doubleSided,
-                                    const SourceLocation& where, Diagnostics& diagnostics) {
+std::optional<UsdPrimSpec> meshPrim(const aiMesh& mesh, const std::string& name,
+                                    const MeshHabits& habits, const SourceLocation& where,
+                                    Diagnostics& diagnostics) {
     const std::string what =
         "mesh '" + cleanText(mesh.mName.length ? mesh.mName.C_Str() : name) + "'";
     const Polygons polygons = polygonsOf(mesh);
@@ -170,8 +195,9 @@ std::optional<UsdPrimSpec> meshPrim(const aiMesh& mesh, const std::string& name,
     addAttribute(spec, "int[]", "faceVertexCounts", polygons.counts);
     addAttribute(spec, "int[]", "faceVertexIndices", polygons.indices);
     addText(spec, "token", "subdivisionScheme", "none").uniform = true;
-    if (doubleSided) addBool(spec, "doubleSided", true).uniform = true;
+    if (habits.doubleSided) addBool(spec, "doubleSided", true).uniform = true;
     addNormals(spec, mesh, polygons, what, where, diagnostics);
+    if (!mesh.mNormals && habits.flat) addFlatNormals(spec, polygons);
     addCoordinates(spec, mesh, polygons, what, where, diagnostics);
     addColours(spec, mesh, polygons, what, where, diagnostics);
     keepDisplayName(spec, mesh.mName.C_Str());

@@ -173,7 +173,9 @@ void ModelNodes::addMeshes(UsdPrimSpec& spec, PrimNames& names, const aiNode& no
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
         const aiMesh& mesh = *file_.scene().mMeshes[node.mMeshes[i]];
         const std::string name = names.take(mesh.mName.C_Str(), "Mesh");
-        auto made = meshPrim(mesh, name, materials_.doubleSided(mesh), where(), diagnostics_);
+        auto made = meshPrim(mesh, name,
+                             {materials_.doubleSided(mesh), file_.format() == ModelFormat::gltf},
+                             where(), diagnostics_);
         if (!made) continue;
         const std::string material = materials_.pathFor(mesh);
         if (!material.empty()) {

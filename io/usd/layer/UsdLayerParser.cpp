@@ -9,6 +9,7 @@
 #include "io/usd/layer/UsdValueParser.h"
 
 #include <charconv>
+#include <iterator>
 
 namespace penumbra {
 
@@ -22,6 +23,26 @@ struct Frame {
     std::string path; // of the prim
     const char* open = nullptr;
     UsdNameIndex childIndex = {}, propertyIndex = {};
+};
+
+// The properties of each open brace, until it closes and their number is known: they then are one
+// allocation of the right size. What was allocated here serves the next brace as deep.
+class OpenProperties {
+public:
+    std::vector<UsdProperty>& at(std::size_t depth) {
+        if (depth >= properties_.size()) properties_.resize(depth + 1);
+        return properties_[depth];
+    }
+    void close(std::size_t depth, std::vector<UsdProperty>& into) {
+        if (depth >= properties_.size()) return;
+        std::vector<UsdProperty>& from = properties_[depth];
+        into.reserve(from.size());
+        std::move(from.begin(), from.end(), std::back_inserter(into));
+        from.clear();
+    }
+
+private:
+    std::vector<std::vector<UsdProperty>> properties_;
 };
 
 class LayerParser {
@@ -103,6 +124,7 @@ private:
         const bool isPrim = stack_.back().body && !stack_.back().isVariant;
         const Frame& frame = stack_.back();
         if (frame.set && frame.set->variants.empty()) in_.fail("a variant set without variants");
+        if (frame.body) properties_.close(stack_.size(), frame.body->properties);
         stack_.pop_back();
         in_.skipBlanks();
         const bool lineEnds = in_.atEnd() || in_.peek() == '\n' || in_.peek() == '\r';
@@ -152,7 +174,7 @@ private:
 
     void property() {
         Frame& frame = stack_.back();
-        parseUsdProperty(in_, {frame.body->properties, frame.propertyIndex}, frame.path,
+        parseUsdProperty(in_, {properties_.at(stack_.size()), frame.propertyIndex}, frame.path,
                          formatMinor_, diagnostics_);
         endStatement();
     }
@@ -233,6 +255,7 @@ private:
     int formatMinor_ = 0;
     std::size_t primCount_ = 0;
     std::vector<Frame> stack_;
+    OpenProperties properties_; // by the size of stack_
     UsdNameIndex rootIndex_;
 };
 

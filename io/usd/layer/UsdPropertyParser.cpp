@@ -22,26 +22,38 @@ struct Declaration {
     UsdPosition where;
 };
 
-// The word at the cursor if it is `word`: taken, with the blank that must follow.
-bool takeKeyword(UsdScanner& in, std::string_view word) {
-    if (in.peekIdentifier() != word) return false;
-    in.identifier();
-    in.expectBlankAfter(word);
-    in.skipBlanks();
-    return true;
-}
+// The words before a declaration's type, each followed by a blank. The word at the cursor is read
+// once: most declarations have none of these.
+class Keywords {
+public:
+    explicit Keywords(UsdScanner& in) : in_(in), word_(in.peekIdentifier()) {}
+    std::string_view word() const { return word_; }
+    bool take(std::string_view keyword) {
+        if (word_ != keyword) return false;
+        in_.identifier();
+        in_.expectBlankAfter(keyword);
+        in_.skipBlanks();
+        word_ = in_.peekIdentifier();
+        return true;
+    }
+
+private:
+    UsdScanner& in_;
+    std::string_view word_; // at the cursor
+};
 
 Declaration parseDeclaration(UsdScanner& in) {
     Declaration d;
     d.where = in.position(in.cursor());
-    if (const auto op = usdListOpNamed(in.peekIdentifier())) {
+    Keywords keywords(in);
+    if (const auto op = usdListOpNamed(keywords.word())) {
         d.op = op;
-        takeKeyword(in, std::string(in.peekIdentifier()));
+        keywords.take(keywords.word());
     }
-    d.custom = takeKeyword(in, "custom");
-    d.varying = takeKeyword(in, "varying");
-    if (!d.varying) d.uniform = takeKeyword(in, "uniform") || takeKeyword(in, "config");
-    d.relationship = takeKeyword(in, "rel");
+    d.custom = keywords.take("custom");
+    d.varying = keywords.take("varying");
+    if (!d.varying) d.uniform = keywords.take("uniform") || keywords.take("config");
+    d.relationship = keywords.take("rel");
     if (d.varying && !d.relationship) in.fail("'varying' is for relationships only");
     if (d.relationship && d.uniform) in.fail("a relationship can't be uniform");
     if (d.relationship) return d;
@@ -68,7 +80,7 @@ public:
     void parse() {
         const Declaration declaration = parseDeclaration(in_);
         const char* where = in_.cursor();
-        const std::string name(in_.propertyName());
+        const std::string_view name = in_.propertyName();
         if (name.empty()) in_.fail("expected the name of a property, found " + in_.found());
         UsdProperty& property = declare(declaration, name, where);
         const auto op = declaration.op.value_or(UsdListOp::explicitly);
@@ -96,7 +108,7 @@ public:
 
 private:
     // The property of that name, new or declared before.
-    UsdProperty& declare(const Declaration& d, const std::string& name, const char* where) {
+    UsdProperty& declare(const Declaration& d, std::string_view name, const char* where) {
         const std::size_t known = table_.index.find(table_.properties, name);
         if (known == UsdNameIndex::kNone) {
             UsdProperty& fresh = table_.properties.emplace_back();
@@ -111,7 +123,8 @@ private:
         const bool same = property.relationship == d.relationship &&
                           property.typeName == d.typeName && property.type == d.type;
         if (!same)
-            in_.failAt(where, "'" + name + "' was declared with another type on line " +
+            in_.failAt(where, std::string("'").append(name) +
+                                  "' was declared with another type on line " +
                                   std::to_string(property.where.line));
         property.custom = property.custom || d.custom;
         property.uniform = property.uniform || d.uniform;

@@ -1,6 +1,7 @@
 #include "io/usd/scene/UsdPolygons.h"
 
 #include "io/usd/scene/UsdNormals.h"
+#include "scenegraph/CreaseNormals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -190,7 +191,10 @@ MeshData toMeshData(const UsdAttributes& mesh, UsdPolygons polygons,
     data.points = std::move(polygons.points);
     for (glm::vec3& p : data.points)
         if (!finite(p)) p = glm::vec3(0); // no kept face uses it
-    if (data.scheme == SubdivisionScheme::none) return data;
+    if (data.scheme == SubdivisionScheme::none) {
+        if (data.normals.empty()) data.normals = creaseNormals(data);
+        return data;
+    }
     for (const std::int32_t hole : mesh.integers("holeIndices"))
         if (hole >= 0 && std::size_t(hole) < newFace.size() && newFace[std::size_t(hole)] >= 0)
             data.holes.push_back(newFace[std::size_t(hole)]);

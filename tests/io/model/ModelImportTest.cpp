@@ -68,6 +68,19 @@ TEST_F(ModelImport, WhatHasNoUnitIsInMetresUnlessOneIsGiven) {
               "Z");
 }
 
+TEST_F(ModelImport, TrianglesOfGltfWithoutNormalsAreFlatAsItsSpecificationAsks) {
+    const auto model = import("a.gltf", gltfText(R"([{"name": "Tile", "mesh": 0}])"));
+    EXPECT_THAT(numbersOf(model.layer, "/a/Tile/Square", "normals"), ElementsAre(0, 1, 0, 0, 1, 0));
+    EXPECT_EQ(interpolationOf(model.layer, "/a/Tile/Square", "normals"), "uniform");
+}
+
+TEST_F(ModelImport, FacetsOfStlLeaveTheSurfaceToTheScene) {
+    const auto model = import("a.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
+                                       "vertex 1 0 0\nvertex 1 1 0\nendloop\nendfacet\nendsolid\n");
+    EXPECT_THAT(numbersOf(model.layer, "/a/a/a", "faceVertexCounts"), ElementsAre(3));
+    EXPECT_TRUE(numbersOf(model.layer, "/a/a/a", "normals").empty());
+}
+
 TEST_F(ModelImport, PolygonsStayPolygonsAndTheirCornersShareAPoint) {
     const auto model = import("a.obj", "o Roof\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\n"
                                        "v 3 0.5 0\nv 2 1 0\nvn 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\n"

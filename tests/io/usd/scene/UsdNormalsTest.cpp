@@ -74,6 +74,23 @@ TEST(UsdNormals, WhatDoesNotFitIsIgnoredWithOneWarning) {
     EXPECT_EQ(countOf(indexed, "normals that do not fit their mesh ignored"), 1u);
 }
 
+TEST(UsdNormals, WhereThereAreNoneAreThoseOfASmoothSurfaceUpToACrease) {
+    const auto roof = [](const char* ridge, const std::string& more) {
+        return normalsOf(loadText(
+            std::string("def Mesh \"m\"\n{\n point3f[] points = [(-1, 0, 0), (1, 0, 0), (1, 1, ") +
+            ridge + "), (-1, 1, " + ridge +
+            "), (1, 2, 0), (-1, 2, 0)]\n int[] faceVertexCounts = " +
+            "[4, 4]\n int[] faceVertexIndices = [0, 1, 2, 3, 3, 2, 4, 5]\n" + kPlain + more +
+            "}\n"));
+    };
+    EXPECT_TRUE(roof("0.5", "").empty());
+    const Normals none{kX * 0.f, kX * 0.f, kZ, kZ, kZ, kZ, kX * 0.f, kX * 0.f};
+    EXPECT_EQ(roof("0.125", ""), none);
+    EXPECT_EQ(roof("0.125", " uniform token orientation = \"leftHanded\"\n"),
+              (Normals{kX * 0.f, -kZ, -kZ, kX * 0.f, -kZ, kX * 0.f, kX * 0.f, -kZ}));
+    EXPECT_EQ(roof("0.125", normals("normals", "[(1, 0, 0)]", "constant")), Normals(8, kX));
+}
+
 TEST(UsdNormals, OfSubdividedMeshesAreIgnoredAsUsdSays) {
     const LoadedScene loaded = loadText(sheet(normals("normals", "[(1, 0, 0)]", "constant")));
     EXPECT_TRUE(normalsOf(loaded).empty());
