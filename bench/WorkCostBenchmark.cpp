@@ -26,6 +26,7 @@ struct Room {
     RayScene rays;
     std::vector<EmitterSender> emitters;
     std::vector<Receiver> vertices;
+    std::vector<std::uint32_t> nodeKeys;
     IndirectSenders patches;
     std::vector<MovedObject> moved; ///< a thing that may be moved, where it is
 
@@ -34,6 +35,8 @@ struct Room {
           patches(set, 0) {
         for (const Emitter& emitter : set.emitters) emitters.emplace_back(emitter, 16, 64);
         for (const Vertex& vertex : set.vertices) vertices.push_back(vertex.receiver);
+        for (std::uint32_t n = 0; n < set.nodes.size(); ++n)
+            nodeKeys.push_back(addressOfNode(set, n));
         for (std::uint32_t o = 0; o < set.objects.size() && moved.empty(); ++o) {
             if (!set.objects[o].movable) continue;
             moved.push_back({o, true, boundsOf(set.rayMeshes[o])});
@@ -47,11 +50,11 @@ struct Room {
         return bounds;
     }
     ReceiverBlock vertexBlock(std::size_t block) const {
-        return {std::span(vertices).subspan(block * PatchSet::kBlock, PatchSet::kBlock), kAll, 0};
+        return {std::span(vertices).subspan(block * PatchSet::kBlock, PatchSet::kBlock), kAll};
     }
     ReceiverBlock nodeBlock(std::size_t block) const {
         return {std::span(set.nodes).subspan(block * PatchSet::kBlock, PatchSet::kBlock), kAll,
-                std::uint32_t(block * PatchSet::kBlock)};
+                std::span(nodeKeys).subspan(block * PatchSet::kBlock, PatchSet::kBlock)};
     }
 };
 

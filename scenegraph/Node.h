@@ -12,7 +12,10 @@ class Visitor;
 
 /// One entry of the scene graph. The graph is a DAG: a node may have several parents (that is how
 /// objects are instanced) and so holds no pointer up. A place in the scene is a path from the root.
-class Node {
+///
+/// Who keeps pointers to nodes of a graph that is edited keeps them alive by shared_from_this():
+/// else another node may come to lie where one was.
+class Node : public std::enable_shared_from_this<Node> {
 public:
     explicit Node(std::string name) : name_(std::move(name)) {}
     virtual ~Node() = default;

@@ -4,6 +4,7 @@
 #include "radiosity/rays/Margins.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace penumbra {
 
@@ -128,6 +129,30 @@ void placeObject(PatchSet& set, ObjectId object, const Pose& pose) {
     for (std::size_t i = 0; i < rays.vertices.size(); ++i)
         rays.vertices[i] = pose.point(shape.rayVertices[i]);
     set.farthest = std::max(set.farthest, magnitude(boundsOf(set, object)));
+}
+
+std::uint32_t addressOf(const ObjectPart& part, const Receiver& inFrame) {
+    std::uint64_t hash = part.key;
+    for (const glm::vec3 v : {inFrame.position, inFrame.normal})
+        for (const float component : {v.x, v.y, v.z}) {
+            hash = (hash ^ std::bit_cast<std::uint32_t>(component + 0.0f)) * 0x9e3779b97f4a7c15u;
+            hash ^= hash >> 32; // -0 is 0
+        }
+    return std::uint32_t(hash);
+}
+
+std::uint32_t addressOfNode(const PatchSet& set, std::uint32_t node) {
+    const ObjectPart& part = set.objects[set.nodeBlockObject[node / PatchSet::kBlock].value];
+    if (!part.nodes.contains(node)) return 0; // padding
+    return addressOf(part, part.movable ? part.shape.nodes[node - part.nodes.first]
+                                        : set.uncoveredNodes[node]);
+}
+
+std::uint32_t addressOfPatch(const PatchSet& set, std::uint32_t patch) {
+    const Patch& it = set.patches[patch];
+    const ObjectPart& part = set.objects[it.object.value];
+    return addressOf(part, part.movable ? part.shape.patches[patch - part.patches.first]
+                                        : Receiver{it.centre, it.normal});
 }
 
 Bounds boundsOf(const PatchSet& set, ObjectId object) {

@@ -121,12 +121,6 @@ struct ObjectPart {
     ObjectShape shape; ///< empty for the fixed part
 };
 
-/// Names a piece of an object in every scene that has it: 32 bits of the object's key and the
-/// piece's index.
-inline std::uint32_t pieceKey(const ObjectPart& part, std::uint32_t index) {
-    return std::uint32_t(part.key ^ part.key >> 32) + index;
-}
-
 /// A large convex face of the fixed part, see Walls.h.
 struct Wall {
     ObjectId object;
@@ -189,6 +183,13 @@ struct PatchSet {
                objects[elementObject[element].value].present;
     }
 };
+
+/// Addresses name what an object is made of in every scene that has the object: a hash of its key
+/// and of where the thing lies in the object's own frame, whatever else is there. Things that can't
+/// be told apart have the same.
+std::uint32_t addressOf(const ObjectPart& part, const Receiver& inFrame);
+std::uint32_t addressOfNode(const PatchSet& set, std::uint32_t node);
+std::uint32_t addressOfPatch(const PatchSet& set, std::uint32_t patch);
 
 /// A receiver of an object's own frame, as seen from a pose, where it may have to hover higher.
 /// \param skin of the set [m]

@@ -13,6 +13,11 @@ RayScene raysThrough(const PatchSet& set) {
 PosedPatches::PosedPatches(PatchSet& set)
     : set_(set), rays_(raysThrough(set)), coverage_(set, rays_) {}
 
+void PosedPatches::setAlone(std::span<const ObjectId> objects) {
+    for (const ObjectId object : objects) rays_.setAlone(object);
+    rays_.commit();
+}
+
 PosedPatches::Change PosedPatches::pose(std::span<const ObjectPose> wanted) {
     Change change;
     std::vector<Bounds> before;

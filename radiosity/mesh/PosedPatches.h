@@ -37,6 +37,9 @@ public:
     /// Puts objects elsewhere, hides or shows them; costs what changes.
     Change pose(std::span<const ObjectPose> wanted);
 
+    /// Rays can be traced against each of these alone.
+    void setAlone(std::span<const ObjectId> objects);
+
     const RayScene& rays() const { return rays_; }
 
 private:

@@ -182,8 +182,12 @@ Rgb PointGather::indirectByForm(const Receiver& receiver) const {
             const auto outline =
                 std::span(patches_.corners).subspan(patch.firstCorner, patch.cornerCount);
             const float factor = polygonFormFactor(receiver.position, receiver.normal, outline);
-            if (factor > 0) sum += factor * patchVisibility(p, receiver) * patchRadiosity_[p];
-            continue;
+            const float visible = factor > 0 ? patchVisibility(p, receiver) : 0;
+            // What is in half shadow itself often has another light where it is seen than
+            // elsewhere.
+            const bool partly = visible > 0 && visible < 1;
+            if (!partly) sum += factor * visible * patchRadiosity_[p];
+            if (!partly) continue;
         }
         for (std::uint32_t i = 0; i < patch.elementCount; ++i) {
             const std::uint32_t e = patches_.patchElements[patch.firstElement + i];

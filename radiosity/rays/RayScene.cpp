@@ -269,11 +269,7 @@ void RayScene::move(ObjectId object, std::span<const glm::vec3> vertices) {
     rtcUpdateGeometryBuffer(member.geometry, RTC_BUFFER_TYPE_VERTEX, 0);
     if (member.triangles.sift()) rtcUpdateGeometryBuffer(member.geometry, RTC_BUFFER_TYPE_INDEX, 0);
     rtcCommitGeometry(member.geometry);
-    if (!member.alone) {
-        member.alone = impl_->newScene();
-        rtcAttachGeometryByID(member.alone, member.geometry, object.value);
-    }
-    member.moved = true;
+    setAlone(object);
 }
 
 void RayScene::show(ObjectId object, bool visible) {
@@ -284,6 +280,12 @@ void RayScene::show(ObjectId object, bool visible) {
     else
         rtcDisableGeometry(member.geometry);
     rtcCommitGeometry(member.geometry);
+    setAlone(object);
+}
+
+void RayScene::setAlone(ObjectId object) {
+    Impl::Member& member = impl_->members[object.value];
+    if (!member.geometry) return;
     if (!member.alone) {
         member.alone = impl_->newScene();
         rtcAttachGeometryByID(member.alone, member.geometry, object.value);

@@ -61,6 +61,8 @@ public:
     /// commit().
     void move(ObjectId object, std::span<const glm::vec3> vertices);
     void show(ObjectId object, bool visible);
+    /// Can be traced alone from the next commit() on, as what was moved or shown can.
+    void setAlone(ObjectId object);
     void commit();
 
     /// Finds for each segment an object that blocks it, if any.

@@ -119,7 +119,7 @@ void PatchRowBuilder::listSamples(const PatchSender& sender, const ReceiverBlock
                                   std::size_t r) {
     const Receiver& receiver = receivers.receivers[r];
     const float factor = drafts_[r].formFactor;
-    const std::uint32_t hash = pairHash(sender.key, receivers.key + std::uint32_t(r));
+    const std::uint32_t hash = pairHash(sender.key, receivers.keys[r]);
     const std::size_t begin = samples_.size();
     float total = 0;
     const auto add = [&](std::uint32_t sample, float weight) {

@@ -30,7 +30,7 @@ struct PatchSender {
     const glm::vec3* samples =
         nullptr;                 ///< points on the surface [m, world]; kPatchSamples of a patch
     const Bounds* box = nullptr; ///< around all of that [m, world]
-    std::uint32_t key = 0;       ///< names the sender in every scene that has it
+    std::uint32_t key = 0;       ///< its address, see PatchSet.h
 };
 
 /// Builds and updates one block of a patch's or cluster's row at a time; one builder a thread, for

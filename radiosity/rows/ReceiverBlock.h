@@ -12,7 +12,7 @@ namespace penumbra {
 struct ReceiverBlock {
     std::span<const Receiver> receivers;
     std::uint64_t wanted = ~std::uint64_t(0); ///< bits: receivers that need an entry
-    std::uint32_t key = 0;                    ///< of the first; names it in every scene that has it
+    std::span<const std::uint32_t> keys = {}; ///< addresses, see PatchSet.h; not of vertices
     std::uint64_t some = ~std::uint64_t(0);   ///< bits: of which entries are brought up to date
 };
 

@@ -294,6 +294,35 @@ float RowBlock::largestFormFactor() const {
     return largest;
 }
 
+RowBlock RowBlock::copy() const {
+    RowBlock same;
+    if (!bytes_) return same;
+    same.bytes_ = std::make_unique_for_overwrite<std::byte[]>(size());
+    std::copy_n(bytes_.get(), size(), same.bytes_.get());
+    return same;
+}
+
+void RowBlock::rename(std::span<const std::uint32_t> names) {
+    bool fits = true;
+    forEachBlocker([&](std::uint32_t object) {
+        fits = fits && (names[object] >> 16 != 0) == (objectSize() == 4);
+    });
+    if (!fits) { // names of another length
+        std::vector<Draft> drafts(kSize);
+        decode(drafts);
+        for (Draft& draft : drafts)
+            for (int b = 0; b < draft.blockerCount; ++b)
+                draft.blockers[std::size_t(b)].object =
+                    names[draft.blockers[std::size_t(b)].object];
+        assign(drafts);
+        return;
+    }
+    for (std::size_t i = 0; i < objectCount(); ++i) {
+        const std::uint32_t name = names[object(i)];
+        std::memcpy(bytes_.get() + objects() + objectSize() * i, &name, objectSize());
+    }
+}
+
 bool RowBlock::sameMasks(const RowBlock& other) const {
     if (present() != other.present() || visible() != other.visible()) return false;
     for (Reader a(*this), b(other); a.next() && b.next();)

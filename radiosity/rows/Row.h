@@ -154,6 +154,10 @@ public:
     /// Bytes it takes, what the allocator adds left out.
     std::size_t bytes() const { return sizeof *this + size(); }
 
+    RowBlock copy() const;
+    /// Gives the objects other names. \param names by the names that they have
+    void rename(std::span<const std::uint32_t> names);
+
     /// The same entries, visible at the same samples; who blocks the others may differ.
     bool sameMasks(const RowBlock& other) const;
     /// The same to the last byte.

@@ -183,6 +183,17 @@ void RowUpdates::find(std::size_t effort, const Facts& facts) {
     if (found()) allFound();
 }
 
+void RowUpdates::mark(std::uint32_t row, const Facts& facts, std::span<const BlockMask> masks) {
+    if (masks.empty()) return;
+    const RowFacts known = facts(row);
+    std::vector<DirtyBlock> blocks;
+    for (const BlockMask& mask : masks) {
+        blocks.push_back({row, mask.block, mask.receivers, table_.edits(row), 0});
+        blocks.back().factor = factorBound(blocks.back(), known);
+    }
+    dirty_.mark(row, blocks);
+}
+
 void RowUpdates::allFound() {
     unreported_.clear();
     changes_.clear();

@@ -69,6 +69,13 @@ public:
     /// Most items that work() returns for an effort.
     std::size_t mostItems(std::size_t effort) const { return effort / costs_.visit + 1; }
 
+    /// Finds all that edits concern.
+    void findAll(const Facts& facts) {
+        while (!found()) find(kAll, facts);
+    }
+    /// Entries of a row that are to be evaluated anew, whatever edits concern.
+    void mark(std::uint32_t row, const Facts& facts, std::span<const BlockMask> masks);
+
     /// Whether all that edits concern is known, and so in the dirty set.
     bool found() const { return row_ == table_.size(); }
     /// Whether there is nothing to do but what may stay dirty.
@@ -83,6 +90,7 @@ public:
     std::uint64_t entriesChanged() const { return entriesChanged_; }
 
 private:
+    static constexpr std::size_t kAll = std::size_t(1) << 40; ///< [rays]
     struct Edit {
         std::vector<ObjectId> objects;
         std::vector<BlockMask> receivers;

@@ -1,6 +1,7 @@
 #include "radiosity/transport/DirectLight.h"
 
 #include "radiosity/schedule/WorkCosts.h"
+#include "radiosity/transport/RowCarrying.h"
 
 #include "base/Bits.h"
 #include "base/Parallel.h"
@@ -112,6 +113,69 @@ std::vector<double> DirectLight::dirtyLight() const {
     return light;
 }
 
+void DirectLight::takeOver(DirectLight& before, const PatchMatch& match) {
+    if (!before.described_) before.describeReceivers();
+    describeReceivers();
+    before.updates_.findAll([&](std::uint32_t row) { return before.factsOf(row); });
+    const RowCarrying carrying(before.set_, set_, match, match.vertices);
+    const std::vector<std::uint8_t> walls = carrying.oldWalls();
+    std::vector<std::vector<BlockMask>> anew(table_.size());
+    parallelFor(table_.size(), 1, [&](std::size_t e, std::size_t) {
+        const std::uint32_t was = match.emitters[e];
+        if (was == PatchMatch::kNew) return;
+        EntryCarrier carrier = carrying.carrier();
+        const auto invalid = [&](std::uint32_t block, std::span<const std::uint32_t> from) {
+            if (walls.empty() && carrying.isWhole(block)) return std::uint64_t(0);
+            return hiddenOtherwise({std::uint32_t(e), block}, from, before, was, walls);
+        };
+        anew[e] = carrying.carry({std::uint32_t(e), was}, before.table_, before.updates_.dirty(),
+                                 invalid, carrier, table_);
+    });
+    for (std::uint32_t e = 0; e < table_.size(); ++e) {
+        if (match.emitters[e] == PatchMatch::kNew) continue;
+        updates_.setCurrent(e);
+        updates_.mark(
+            e, [&](std::uint32_t row) { return factsOf(row); }, anew[e]);
+    }
+    updates_.add(match.changed, carrying.unknown(), carrying.newWalls());
+    for (std::uint32_t b = 0; b < table_.blocks().size(); ++b) touchBlock(b);
+}
+
+/// Tells which wall hides vertices from an emitter, asked block by block.
+class DirectLight::Hiding {
+public:
+    Hiding(const DirectLight& light, std::uint32_t emitter) : light_(light), emitter_(emitter) {}
+    ObjectId wallBefore(std::uint32_t vertex) {
+        if (vertex >= light_.set_.firstPrivate || vertex / kBlock != block_)
+            wall_ = light_.wallBefore(emitter_, vertex);
+        block_ = vertex / kBlock;
+        return wall_;
+    }
+
+private:
+    const DirectLight& light_;
+    std::uint32_t emitter_, block_ = PatchMatch::kNew; ///< of shared vertices, hidden as one
+    ObjectId wall_;
+};
+
+/// Of the vertices of a block (bits) those that a wall hid and hides no more, or the other way
+/// round: because they are in the company of others, or because the wall is another.
+/// \param changed one an object before: 1 if it is a wall that may be another; empty: there is none
+std::uint64_t DirectLight::hiddenOtherwise(RowBlockPlace place, std::span<const std::uint32_t> from,
+                                           const DirectLight& before, std::uint32_t was,
+                                           const std::vector<std::uint8_t>& changed) const {
+    Hiding hid(before, was), hides(*this, place.row);
+    std::uint64_t otherwise = 0;
+    for (std::uint32_t r = 0; r < kBlock; ++r) {
+        if (from[r] == PatchMatch::kNew || isPadding(before.receivers_[from[r]])) continue;
+        const ObjectId wall = hid.wallBefore(from[r]);
+        const bool holds = wall.valid() == hides.wallBefore(place.block * kBlock + r).valid() &&
+                           !(wall.valid() && !changed.empty() && changed[wall.value]);
+        if (!holds) otherwise |= std::uint64_t(1) << r;
+    }
+    return otherwise;
+}
+
 void DirectLight::apply(const SceneChange& change) {
     if (change.colours || !change.emitters.empty()) described_ = false;
     std::vector<BlockMask> masks;
@@ -163,22 +227,24 @@ void DirectLight::narrow(const std::function<std::uint64_t(std::uint32_t, std::u
             updates_.dirty().narrow(e, b, which(e, b));
 }
 
+RowUpdates::RowFacts DirectLight::factsOf(std::uint32_t row) const {
+    const Emitter& emitter = set_.emitters[row];
+    RowUpdates::RowFacts known{true, emitters_[row].box(), emitter.object, {}, {}, {}};
+    known.area = float(emitter.area);
+    known.hidden = [this, row](const Bounds& box) {
+        return walls_.between(emitters_[row].box(), box).valid();
+    };
+    return known;
+}
+
 bool DirectLight::update(std::size_t effort, double enough) {
     if (!described_) describeReceivers();
     if (updates_.done(enough)) return false;
-    const auto facts = [&](std::uint32_t row) {
-        const Emitter& emitter = set_.emitters[row];
-        RowUpdates::RowFacts known{true, emitters_[row].box(), emitter.object, {}, {}, {}};
-        known.area = float(emitter.area);
-        known.hidden = [this, row](const Bounds& box) {
-            return walls_.between(emitters_[row].box(), box).valid();
-        };
-        return known;
-    };
+    const auto facts = [&](std::uint32_t row) { return factsOf(row); };
     const auto receiversFor = [&](const DirtyBlock& item) {
         const bool present = set_.objects[set_.emitters[item.row].object.value].present &&
                              set_.objects[set_.vertexBlockObject[item.block].value].present;
-        ReceiverBlock receivers{receiversOf(item.block), 0, 0, item.receivers};
+        ReceiverBlock receivers{receiversOf(item.block), 0, {}, item.receivers};
         if (present && item.anew != 0) receivers.wanted = ~hidden(item.row, item.block, item.anew);
         return receivers;
     };

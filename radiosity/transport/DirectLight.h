@@ -8,6 +8,7 @@
 #include "radiosity/rows/RowTable.h"
 #include "radiosity/rows/Walls.h"
 #include "radiosity/schedule/RowUpdates.h"
+#include "radiosity/transport/PatchMatch.h"
 #include "radiosity/transport/SceneChange.h"
 
 #include <glm/glm.hpp>
@@ -25,6 +26,11 @@ class DirectLight {
 public:
     /// Everything is dirty at first. \param samples see SolverOptions. All must outlive this.
     DirectLight(const PatchSet& set, const RayScene& rays, int samples);
+
+    /// Takes what still holds from the rows of another meshing, which are used up. What that one
+    /// had not yet worked off, what is new and what may have changed is left dirty.
+    /// \pre nothing was done here as yet
+    void takeOver(DirectLight& before, const PatchMatch& match);
 
     void apply(const SceneChange& change);
     void invalidate(const Bounds& region); ///< see LitScene
@@ -77,6 +83,14 @@ public:
     double brightest() const; ///< largest exitance [lm/m^2]
 
 private:
+    RowUpdates::RowFacts factsOf(std::uint32_t row) const;
+    class Hiding;
+    struct RowBlockPlace {
+        std::uint32_t row, block;
+    };
+    std::uint64_t hiddenOtherwise(RowBlockPlace place, std::span<const std::uint32_t> from,
+                                  const DirectLight& before, std::uint32_t was,
+                                  const std::vector<std::uint8_t>& changed) const;
     std::span<const Receiver> receiversOf(std::size_t block) const;
     void placeReceivers(std::vector<BlockMask>& masks);
     void touchBlock(std::uint32_t block);

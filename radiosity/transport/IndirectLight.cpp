@@ -6,9 +6,11 @@
 #include "radiosity/rows/SenderSamples.h"
 #include "radiosity/schedule/WorkCosts.h"
 #include "radiosity/transport/DirectLight.h"
+#include "radiosity/transport/RowCarrying.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace penumbra {
 
@@ -26,6 +28,7 @@ IndirectLight::IndirectLight(const PatchSet& set, const RayScene& rays, const Di
       reach_(set), reached_(set.nodes.size() / kBlock), nodes_(set.nodes.size()),
       rowSums_(set.nodes.size()), sent_(senders_.count()), residuals_(senders_.count()),
       colours_(senders_.count()), known_(senders_.count()), kept_(senders_.count()) {
+    for (std::uint32_t n = 0; n < set.nodes.size(); ++n) nodeKeys_.push_back(addressOfNode(set, n));
     for (std::uint32_t p = 0; p < senders_.patchCount(); ++p) {
         const Patch& patch = set.patches[p];
         const auto points = std::span(senders_.sender(p).samples, kPatchSamples);
@@ -46,7 +49,7 @@ ReceiverBlock IndirectLight::receiversOf(std::uint32_t sender, std::uint32_t blo
     const bool lit =
         part.present && senders_.present(sender) && senders_.linked(sender, linkBoxes_[block]);
     return {std::span(set_.nodes).subspan(block * kBlock, kBlock), lit ? reached_[block] : 0,
-            pieceKey(part, block * kBlock - part.nodes.first)};
+            std::span(nodeKeys_).subspan(block * kBlock, kBlock)};
 }
 
 void IndirectLight::placeNodes(std::span<const BlockMask> masks) {
@@ -78,6 +81,79 @@ void IndirectLight::link(ObjectId object) {
     for (std::uint32_t b = part.nodes.first / kBlock; b * kBlock < part.nodes.end(); ++b)
         if (!linkBoxes_[b].empty())
             senders_.forEachLinked(linkBoxes_[b], [&](std::uint32_t s) { open(s, b); });
+}
+
+void IndirectLight::takeOver(IndirectLight& before, const PatchMatch& match) {
+    if (before.relaxing() || before.rowsMissing_) before.restart();
+    if (!before.described_) before.describeReceivers();
+    describeReceivers();
+    before.updates_.findAll([&](std::uint32_t s) { return before.factsOf(s); });
+    takeReached(before, match);
+    const RowCarrying carrying(before.set_, set_, match, match.nodes);
+    const std::vector<std::uint32_t> was = before.keptFor(senders_, match);
+    std::vector<std::vector<BlockMask>> anew(senders_.count());
+    std::vector<std::size_t> bytes(senders_.count());
+    parallelFor(senders_.count(), 64, [&](std::size_t first, std::size_t last) {
+        EntryCarrier carrier = carrying.carrier();
+        for (auto s = std::uint32_t(first); s < last; ++s) {
+            if (was[s] == ObjectId::kNone) continue;
+            table_[s].open(senders_.linkedBlocks(s, linkBoxes_));
+            anew[s] = carrying.carry({s, was[s]}, before.table_, before.updates_.dirty(), {},
+                                     carrier, table_);
+            for (const RowBlock& block : table_[s]) bytes[s] += block.bytes();
+        }
+    });
+    for (std::uint32_t s = 0; s < senders_.count(); ++s) {
+        if (was[s] == ObjectId::kNone) continue;
+        kept_[s] = 1;
+        known_[s] = before.known_[was[s]];
+        sent_[s] = before.sent_[was[s]];
+        rowBytes_ += bytes[s];
+        updates_.setCurrent(s);
+        updates_.mark(
+            s, [&](std::uint32_t row) { return factsOf(row); }, anew[s]);
+        updates_.dirty().setPower(s, largest(sent_[s]));
+    }
+    receiveAgain();
+    described_ = false; // the receivers have light now
+    updates_.add(match.changed, carrying.unknown());
+}
+
+/// Of each of some senders the one here that sends just alike and has a row, ObjectId::kNone if
+/// there is none.
+std::vector<std::uint32_t> IndirectLight::keptFor(const IndirectSenders& senders,
+                                                  const PatchMatch& match) const {
+    std::vector<std::uint32_t> was = senders.matched(senders_);
+    std::vector<std::uint8_t> left = kept_; // two that are alike don't have one row
+    for (std::uint32_t s = 0; s < senders.count(); ++s) {
+        if (was[s] == ObjectId::kNone) continue;
+        if (match.isChanged(senders.object(s)) || !std::exchange(left[was[s]], 0))
+            was[s] = ObjectId::kNone;
+    }
+    return was;
+}
+
+/// Nodes that light reached before may still have entries, others have none.
+void IndirectLight::takeReached(const IndirectLight& before, const PatchMatch& match) {
+    for (std::uint32_t n = 0; n < match.nodes.size(); ++n) {
+        const std::uint32_t was = match.nodes[n];
+        if (was != PatchMatch::kNew && (before.reached_[was / 64] >> was % 64 & 1) != 0)
+            reached_[n / 64] |= std::uint64_t(1) << n % 64;
+    }
+    updateSendersReached();
+}
+
+/// What nodes have received through the rows as they are.
+void IndirectLight::receiveAgain() {
+    parallelFor(blockCount(), 4, [&](std::size_t first, std::size_t last) {
+        for (std::uint32_t s = 0; s < senders_.count(); ++s)
+            for (auto b = std::uint32_t(first); known_[s] && b < last; ++b)
+                if (const RowBlock* const block = table_[s].find(b))
+                    forEachReceived(*block, sent_[s], [&](int r, float factor, glm::dvec3 light) {
+                        nodes_[b * kBlock + std::size_t(r)] += light;
+                        rowSums_[b * kBlock + std::size_t(r)] += factor;
+                    });
+    });
 }
 
 void IndirectLight::apply(const SceneChange& change) {
@@ -123,6 +199,7 @@ void IndirectLight::restart() {
         updates_.drop(s);
     }
     shot_.reset();
+    listing_.reset();
     std::fill(nodes_.begin(), nodes_.end(), glm::dvec3(0));
     std::fill(rowSums_.begin(), rowSums_.end(), 0.0);
     std::fill(sent_.begin(), sent_.end(), SenderLight{});

@@ -8,6 +8,7 @@
 #include "radiosity/rows/RowTable.h"
 #include "radiosity/schedule/RowUpdates.h"
 #include "radiosity/transport/IndirectSenders.h"
+#include "radiosity/transport/PatchMatch.h"
 #include "radiosity/transport/Reach.h"
 #include "radiosity/transport/SceneChange.h"
 
@@ -31,6 +32,10 @@ public:
     /// \param flatPatches see IndirectSenders
     IndirectLight(const PatchSet& set, const RayScene& rays, const DirectLight& direct,
                   std::size_t rowMemory, std::size_t flatPatches);
+
+    /// Takes what still holds from the rows of another meshing, which are used up, and what has
+    /// been sent through them. \pre nothing was done here as yet
+    void takeOver(IndirectLight& before, const PatchMatch& match);
 
     void apply(const SceneChange& change);
     void invalidate(const Bounds& region); ///< see LitScene
@@ -118,6 +123,10 @@ private:
     void placeNodes(std::span<const BlockMask> masks);
     void link(ObjectId object);
     ReceiverBlock receiversOf(std::uint32_t sender, std::uint32_t block) const;
+    std::vector<std::uint32_t> keptFor(const IndirectSenders& senders,
+                                       const PatchMatch& match) const;
+    void takeReached(const IndirectLight& before, const PatchMatch& match);
+    void receiveAgain();
     void updateReach();
     void updateSendersReached();
     void restart();
@@ -151,6 +160,7 @@ private:
     RowTable table_;
     RowUpdates updates_;
     Reach reach_;
+    std::vector<std::uint32_t> nodeKeys_;      ///< addresses
     std::vector<std::uint64_t> reached_;       ///< bits, a node each
     std::vector<std::uint8_t> sendersReached_; ///< 1: light gets to any of a sender
     bool reachStale_ = true, residualsStale_ = true;

@@ -31,7 +31,7 @@ IndirectSenders::IndirectSenders(const PatchSet& set, std::size_t flatPatches)
     keys_.resize(patches), objects_.resize(patches), samples_.resize(patches * kPatchSamples);
     for (const ObjectPart& part : set.objects)
         for (std::uint32_t p = part.patches.first; p < part.patches.end(); ++p) {
-            keys_[p] = pieceKey(part, p - part.patches.first);
+            keys_[p] = addressOfPatch(set, p);
             areas_[p] = set.patches[p].area;
             objects_[p] = set.patches[p].object;
         }
@@ -43,7 +43,7 @@ IndirectSenders::IndirectSenders(const PatchSet& set, std::size_t flatPatches)
             fixed.push_back({p, set.patches[p].centre, set.patches[p].normal, areas_[p]});
     const bool clustered = patches > flatPatches;
     if (!clustered) fixed.clear();
-    addFamily(fixed, 0x9e3779b9u);
+    addFamily(fixed);
     fixedClusters_ = {std::uint32_t(patches), count() - std::uint32_t(patches)};
     for (std::size_t o = 0; o < set.objects.size(); ++o) {
         const ObjectPart& part = set.objects[o];
@@ -54,7 +54,7 @@ IndirectSenders::IndirectSenders(const PatchSet& set, std::size_t flatPatches)
                            part.shape.patches[i].normal, areas_[part.patches.first + i]});
         familyOf_[o] = std::uint32_t(families_.size());
         clusterRanges_[o].first = count();
-        addFamily(own, pieceKey(part, part.patches.count));
+        addFamily(own);
         clusterRanges_[o].count = count() - clusterRanges_[o].first;
     }
     for (std::uint32_t s = 0; s < count(); ++s)
@@ -69,20 +69,21 @@ IndirectSenders::IndirectSenders(const PatchSet& set, std::size_t flatPatches)
         if (parents_[s] != Clusters::kNone) children_[next[parents_[s] - patches]++] = s;
 }
 
-void IndirectSenders::addFamily(std::span<const ClusterPatch> patches, std::uint32_t key) {
+void IndirectSenders::addFamily(std::span<const ClusterPatch> patches) {
     families_.push_back({Clusters(patches), count()});
     const Family& family = families_.back();
     const auto& clusters = family.clusters.clusters();
     const auto& order = family.clusters.patches();
-    for (std::uint32_t c = 0; c < clusters.size(); ++c) {
-        const Clusters::Cluster& cluster = clusters[c];
+    for (const Clusters::Cluster& cluster : clusters) {
         double area = 0;
         for (std::uint32_t i = 0; i < cluster.count; ++i)
             area += double(areas_[order[cluster.first + i]]);
         parents_.push_back(cluster.parent == Clusters::kNone ? Clusters::kNone
                                                              : family.first + cluster.parent);
         areas_.push_back(float(area));
-        keys_.push_back(key + c);
+        keys_.push_back(pairHash(
+            pairHash(keys_[order[cluster.first]], keys_[order[cluster.first + cluster.count - 1]]),
+            cluster.count));
         objects_.push_back(objects_[order[cluster.first]]);
     }
     for (std::size_t i = 0; i < order.size(); ++i)
@@ -218,6 +219,36 @@ PatchSender IndirectSenders::sender(std::uint32_t index) const {
     const std::size_t count = family.clusters.clusters()[index - family.first].partCount;
     sender.parts = std::span(parts_).subspan((index - patchCount()) * kPatchSamples, count);
     return sender;
+}
+
+bool IndirectSenders::sendsLike(std::uint32_t index, const IndirectSenders& others,
+                                std::uint32_t other) const {
+    const PatchSender a = sender(index), b = others.sender(other);
+    const auto samePart = [](const SenderPart& x, const SenderPart& y) {
+        return x.centre == y.centre && x.normal == y.normal && x.area == y.area;
+    };
+    const bool samePatch =
+        !a.patch == !b.patch &&
+        (!a.patch || (a.patch->centre == b.patch->centre && a.patch->normal == b.patch->normal &&
+                      a.patch->area == b.patch->area));
+    return samePatch && std::ranges::equal(a.outline, b.outline) &&
+           std::ranges::equal(a.parts, b.parts, samePart) &&
+           std::equal(a.samples, a.samples + kPatchSamples, b.samples);
+}
+
+std::vector<std::uint32_t> IndirectSenders::matched(const IndirectSenders& others) const {
+    std::unordered_multimap<std::uint32_t, std::uint32_t> named;
+    for (std::uint32_t s = 0; s < others.count(); ++s) named.emplace(others.keys_[s], s);
+    std::vector<std::uint32_t> match(count(), ObjectId::kNone);
+    parallelFor(count(), 256, [&](std::size_t first, std::size_t last) {
+        for (auto s = std::uint32_t(first); s < last; ++s) {
+            const auto [from, to] = named.equal_range(keys_[s]);
+            const auto found = std::find_if(
+                from, to, [&](const auto& o) { return sendsLike(s, others, o.second); });
+            if (found != to) match[s] = found->second;
+        }
+    });
+    return match;
 }
 
 bool IndirectSenders::isFar(std::uint32_t index, const Bounds& receivers) const {

@@ -38,6 +38,9 @@ public:
     void place(ObjectId object);
 
     PatchSender sender(std::uint32_t index) const;
+    /// Of every sender the one among others that sends just alike to whatever receives,
+    /// ObjectId::kNone if there is none.
+    std::vector<std::uint32_t> matched(const IndirectSenders& others) const;
     /// Around outline and samples [m, world].
     const Bounds& box(std::uint32_t index) const { return boxes_[index]; }
     /// Whose it is; of a cluster of the fixed part any object of that.
@@ -66,8 +69,9 @@ private:
         Clusters clusters;
         std::uint32_t first = 0; ///< sender index of its first cluster
     };
-    void addFamily(std::span<const ClusterPatch> patches, std::uint32_t key);
+    void addFamily(std::span<const ClusterPatch> patches);
     void listQuarters(const Family& family);
+    bool sendsLike(std::uint32_t index, const IndirectSenders& others, std::uint32_t other) const;
     void placePatches(Range patches);
     void placeClusters(const Family& family);
     bool isFar(std::uint32_t index, const Bounds& receivers) const;

@@ -13,19 +13,22 @@ namespace penumbra {
 
 LitScene::LitScene(const PlacedScene& scene, const MeshingOptions& meshing,
                    const SolverOptions& solving)
-    : solving_(solving) {
-    build(scene, meshing);
-}
+    : solving_(solving), meshed_(std::make_unique<Meshed>(buildPatches(scene, meshing), solving)),
+      pieces_(piecesOf(scene)) {}
 
 LitScene::~LitScene() = default;
 
-void LitScene::build(const PlacedScene& scene, const MeshingOptions& meshing) {
-    solver_.reset(); // from the last to the first: each refers to those before it
-    posed_.reset();
-    built_ = buildPatches(scene, meshing);
-    PatchSet& set = built_.patches;
-    posed_ = std::make_unique<PosedPatches>(set);
-    solver_ = std::make_unique<Solver>(set, rays(), solving_);
+/// Meshes the scene anew, and takes over all that still holds.
+void LitScene::rebuild(const PlacedScene& scene) {
+    Meshed& before = *meshed_;
+    BuiltPatches built = buildPatches(scene, sizesOf(patches()));
+    const bool settled = before.solver.state() == SolutionState::exact;
+    keepGone(before.built.patches, built.patches, !settled);
+    auto now = std::make_unique<Meshed>(std::move(built), solving_);
+    const PatchMatch match = matchPatches(before.built.patches, now->built.patches);
+    now->posed.setAlone(match.changed);
+    now->solver.takeOver(before.solver, match);
+    meshed_ = std::move(now);
     pieces_ = piecesOf(scene);
 }
 
@@ -43,7 +46,8 @@ LitScene::Pieces LitScene::piecesOf(const PlacedScene& scene) {
     Pieces pieces;
     const auto add = [&](const auto& placed) {
         pieces[scene.objects[placed.object.value].path].push_back(
-            {placed.node, placed.path, frameOf(placed, scene)});
+            {placed.node, placed.node->weak_from_this().lock(), placed.path,
+             frameOf(placed, scene)});
     };
     for (const auto& mesh : scene.meshes) add(mesh);
     for (const auto& light : scene.lights) add(light);
@@ -78,7 +82,7 @@ bool LitScene::samePieces(const PlacedScene& now) const {
 /// Whether the scene is made of the same pieces; movable objects may be missing.
 bool LitScene::sameStructure(const PlacedScene& now, const ObjectsByPath& objects) const {
     if (!samePieces(now)) return false;
-    for (const ObjectPart& part : built_.patches.objects) {
+    for (const ObjectPart& part : built().patches.objects) {
         const auto found = objects.find(part.path);
         if (found == objects.end()) {
             if (!part.movable) return false;
@@ -93,33 +97,33 @@ bool LitScene::sameStructure(const PlacedScene& now, const ObjectsByPath& object
 
 /// Whether colours and luminances can be taken in: what never emitted has no rows to emit through.
 bool LitScene::followColours(SceneChange& change) {
-    PatchSet& set = built_.patches;
+    PatchSet& set = meshed_->built.patches;
     const auto lightOf = [](const LightSource& source) {
         return source.light ? source.light->luminance() : source.material->emission();
     };
     for (std::size_t m = 0; m < set.materials.size(); ++m) {
-        const LightSource& source = built_.materialSources[m];
+        const LightSource& source = built().materialSources[m];
         if (!source.material || !source.material->emissive()) continue;
         // What is dark in a texture has no emitters, however brightly it would shine.
         if (source.material->textures().emission && maxChannel(set.materials[m].emission) > 0)
             continue;
         const bool emits = std::any_of(
-            built_.emitterSources.begin(), built_.emitterSources.end(),
+            built().emitterSources.begin(), built().emitterSources.end(),
             [&](const LightSource& emitter) { return emitter.material == source.material; });
         if (!emits) return false;
     }
     for (std::size_t m = 0; m < set.materials.size(); ++m) {
-        const LightSource& source = built_.materialSources[m];
+        const LightSource& source = built().materialSources[m];
         LitMaterial now = set.materials[m];
         if (source.material) now.reflectance = source.material->reflectance();
-        if (built_.materialEmits[m]) now.emission = lightOf(source);
+        if (built().materialEmits[m]) now.emission = lightOf(source);
         if (now == set.materials[m]) continue;
         set.materials[m] = now;
         change.colours = true;
     }
     for (std::uint32_t e = 0; e < set.emitters.size(); ++e) {
         const Rgb exitance =
-            lambertianExitance(lightOf(built_.emitterSources[e])) * set.emitters[e].texture;
+            lambertianExitance(lightOf(built().emitterSources[e])) * set.emitters[e].texture;
         if (exitance == set.emitters[e].exitance) continue;
         set.emitters[e].exitance = exitance;
         change.emitters.push_back(e);
@@ -129,7 +133,7 @@ bool LitScene::followColours(SceneChange& change) {
 
 /// \return objects that were moved or removed: lights may be in other closed things than before
 std::vector<ObjectId> LitScene::followObjects(const ObjectsByPath& objects, SceneChange& change) {
-    PatchSet& set = built_.patches;
+    PatchSet& set = meshed_->built.patches;
     std::vector<PosedPatches::ObjectPose> wanted;
     std::vector<ObjectId> replaced;
     for (std::uint32_t o = 0; o < set.objects.size(); ++o) {
@@ -143,7 +147,7 @@ std::vector<ObjectId> LitScene::followObjects(const ObjectsByPath& objects, Scen
         if (wasRemoved != part.removed || pose != part.pose) replaced.push_back({o});
         wanted.push_back({{o}, pose, present});
     }
-    PosedPatches::Change moved = posed_->pose(wanted);
+    PosedPatches::Change moved = meshed_->posed.pose(wanted);
     change.objects = std::move(moved.objects);
     change.vertices = std::move(moved.covered.vertices);
     change.nodes = std::move(moved.covered.nodes);
@@ -156,24 +160,23 @@ LitScene::Followed LitScene::follow(const PlacedScene& now) {
     ObjectsByPath objects;
     for (const Object& object : now.objects) objects[object.path] = &object;
     if (!sameStructure(now, objects) || !followColours(followed.change)) {
-        build(now, sizesOf(built_.patches));
+        rebuild(now);
         followed = {true, {}};
         return followed;
     }
     const std::vector<ObjectId> replaced = followObjects(objects, followed.change);
-    if (built_.enclosures.changed(built_.patches, replaced, built_.enclosuresLit)) {
-        build(now, sizesOf(built_.patches));
+    solver().apply(followed.change);
+    if (built().enclosures.changed(built().patches, replaced, built().enclosuresLit)) {
+        rebuild(now);
         followed = {true, {}};
-        return followed;
     }
-    solver_->apply(followed.change);
     return followed;
 }
 
 void LitScene::invalidate(const Bounds& box) {
     if (box.empty()) return;
     const float hover = hoverAt(patches().skin, magnitude(box));
-    solver_->invalidate(grown(box, 2 * hover)); // receivers hover over what is lit
+    solver().invalidate(grown(box, 2 * hover)); // receivers hover over what is lit
 }
 
 } // namespace penumbra

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace penumbra {
@@ -23,7 +24,8 @@ namespace penumbra {
 /// out of something closed mesh the scene anew.
 class LitScene {
 public:
-    /// Meshes; solves nothing yet. The scene's nodes must outlive this. \throws Error
+    /// Meshes; solves nothing yet. Keeps meshes and lights alive until the next follow(), if they
+    /// are held by shared pointers. \throws Error
     LitScene(const PlacedScene& scene, const MeshingOptions& meshing, const SolverOptions& solving);
     ~LitScene();
     LitScene(const LitScene&) = delete;
@@ -47,24 +49,34 @@ public:
     ///            one changes nothing
     void invalidate(const Bounds& box);
 
-    const PatchSet& patches() const { return built_.patches; }
-    const BuiltPatches& built() const { return built_; }
-    const RayScene& rays() const { return posed_->rays(); }
-    Solver& solver() { return *solver_; }
-    const Solver& solver() const { return *solver_; }
-    const std::vector<std::string>& warnings() const { return built_.warnings; }
+    const PatchSet& patches() const { return meshed_->built.patches; }
+    const BuiltPatches& built() const { return meshed_->built; }
+    const RayScene& rays() const { return meshed_->posed.rays(); }
+    Solver& solver() { return meshed_->solver; }
+    const Solver& solver() const { return meshed_->solver; }
+    const std::vector<std::string>& warnings() const { return meshed_->built.warnings; }
 
 private:
     /// One mesh or light of an object: what may not change.
     struct Piece {
         const void* node = nullptr;
+        std::shared_ptr<const Node> kept; ///< it, with its materials, though the scene may drop it
         std::string path;
         glm::dmat4 frame{1.0}; ///< in its object's frame; in the world's for the fixed part
     };
     using Pieces = std::unordered_map<std::string, std::vector<Piece>>; ///< by object
     using ObjectsByPath = std::unordered_map<std::string_view, const Object*>;
 
-    void build(const PlacedScene& scene, const MeshingOptions& meshing);
+    /// What is made anew when the scene is meshed. Each refers to those before it.
+    struct Meshed {
+        BuiltPatches built;
+        PosedPatches posed;
+        Solver solver;
+        Meshed(BuiltPatches patches, const SolverOptions& solving)
+            : built(std::move(patches)), posed(built.patches),
+              solver(built.patches, posed.rays(), solving) {}
+    };
+    void rebuild(const PlacedScene& scene);
     static Pieces piecesOf(const PlacedScene& scene);
     bool samePieces(const PlacedScene& now) const;
     bool sameStructure(const PlacedScene& now, const ObjectsByPath& objects) const;
@@ -72,9 +84,7 @@ private:
     std::vector<ObjectId> followObjects(const ObjectsByPath& objects, SceneChange& change);
 
     SolverOptions solving_;
-    BuiltPatches built_;
-    std::unique_ptr<PosedPatches> posed_;
-    std::unique_ptr<Solver> solver_;
+    std::unique_ptr<Meshed> meshed_;
     Pieces pieces_;
 };
 

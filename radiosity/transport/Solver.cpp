@@ -71,6 +71,13 @@ void Solver::setDirectPolicy(std::shared_ptr<SchedulingPolicy> policy) {
     inViewOrder_ = false;
 }
 
+void Solver::takeOver(Solver& before, const PatchMatch& match) {
+    if (indirect_ && before.indirect_) indirect_->takeOver(*before.indirect_, match);
+    direct_.takeOver(before.direct_, match);
+    pace_ = before.pace_;
+    begin();
+}
+
 void Solver::apply(const SceneChange& change) {
     if (change.empty()) return;
     direct_.apply(change);

@@ -105,6 +105,12 @@ public:
     Solver(const PatchSet& patches, const RayScene& rays, const SolverOptions& options);
     ~Solver();
 
+    /// Takes over what another solver found out about a scene that has parts in common with this
+    /// one, and leaves it without. What differs is worked on like an edit. Fine shadows are found
+    /// from the start. \pre nothing was done here as yet; the ray scene can trace what changed
+    /// alone
+    void takeOver(Solver& before, const PatchMatch& match);
+
     /// Takes note of an edit that has been made to the patch set and the ray scene. Traces nothing.
     void apply(const SceneChange& change);
     /// Takes note that light which ends in a box or crosses it [m, world] is to be evaluated anew.

@@ -2,6 +2,7 @@
 // to be. `scripts/nightly` tries many more sequences.
 #include "tests/support/EditedScenes.h"
 #include "tests/support/LitDifference.h"
+#include "tests/support/Refurnishing.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -25,12 +26,19 @@ struct FollowedRoom {
     EditableRoom room;
     SolverOptions solving;
     LitScene lit{placeScene(room.scene()), EditableRoom::meshing(), solving};
+    Refurnishing furniture;
     std::string said;
 
-    explicit FollowedRoom(std::uint32_t seed) : room(seed), solving(tight(seed)) {}
+    explicit FollowedRoom(std::uint32_t seed)
+        : room(seed), solving(tight(seed)), furniture(room.scene(), seed) {}
+    void follow() { lit.follow(placeScene(room.scene())); }
     void edit() {
         said += room.edit();
-        lit.follow(placeScene(room.scene()));
+        follow();
+    }
+    void refurnish() {
+        said += furniture.edit();
+        follow();
     }
     /// Settles, here and from scratch. \return what differs
     std::string differs() {
@@ -80,6 +88,27 @@ RC_GTEST_PROP(Incremental, EqualsFromScratchAfterEditsThatOverlap, ()) {
     const std::string differs =
         differsAfterOverlappingEdits(followed, seed, *rc::gen::inRange(1, 31));
     if (!differs.empty()) RC_FAIL("after " + followed.said + "\n" + differs);
+}
+
+/// Things are brought in, resized and taken out, besides moves, settled or not. \return what
+/// differs
+std::string differsAfterRefurnishing(FollowedRoom& followed, std::uint32_t seed, int edits) {
+    std::mt19937 random(seed);
+    for (; edits > 0; --edits) {
+        random() % 3 == 0 ? followed.edit() : followed.refurnish();
+        if (random() % 3 == 0) followed.lit.solver().settle();
+        for (std::uint32_t pieces = random() % 3 * (random() % 100); pieces > 0; --pieces)
+            followed.lit.solver().step(1e-9);
+    }
+    return followed.differs();
+}
+
+RC_GTEST_PROP(Incremental, EqualsFromScratchAfterThingsAreBroughtInResizedAndTakenOut, ()) {
+    const std::uint32_t seed = anySeed();
+    FollowedRoom followed(seed);
+    const std::string differs = differsAfterRefurnishing(followed, seed, *rc::gen::inRange(1, 9));
+    if (!differs.empty())
+        RC_FAIL("seed " + std::to_string(seed) + " after " + followed.said + "\n" + differs);
 }
 
 TEST(Incremental, EqualsFromScratchWhereAReceiverLiesInThePlaneOfASender) {

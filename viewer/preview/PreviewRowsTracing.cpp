@@ -49,7 +49,7 @@ void PreviewRows::run(const Task& task, EmitterRowBuilder& builder) const {
     for (const EmitterSender& sender : task.slot->senders[task.source]) {
         if (wanted == 0) break;
         RowBlock block;
-        builder.update(sender, {receivers, wanted, 0}, wanted, {}, block);
+        builder.update(sender, {receivers, wanted}, wanted, {}, block);
         block.forEach([&](int i, float factor) {
             Known& known = clear >> i & 1 ? *task.clear : *task.known;
             known.factors[std::size_t(i)] += factor;
@@ -134,8 +134,8 @@ void PreviewRows::traceTouched() {
             const std::uint64_t all = ~std::uint64_t(0) >> (kBlock - count);
             for (const EmitterSender& sender : now.senders[source]) {
                 RowBlock block;
-                builder.update(sender, {std::span(receivers).subspan(begin, count), all, 0}, all,
-                               {}, block);
+                builder.update(sender, {std::span(receivers).subspan(begin, count), all}, all, {},
+                               block);
                 block.forEach([&](int i, float factor) {
                     touched_[begin + std::size_t(i)].factors[source] += factor;
                 });

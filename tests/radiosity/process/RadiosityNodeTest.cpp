@@ -37,9 +37,16 @@ TEST(RadiosityNode, FollowsWhateverIsEditedBelowIt) {
     ASSERT_TRUE(updateUntilSettled(*room.node));
     EXPECT_EQ(room.difference(), "") << "removed";
     room.node->add(room.box);
-    room.node->add(object("shelf", boxData({1, 1, 1}, {1.5f, 1.5f, 1.1f}, false)));
+    const NodePtr shelf = object("shelf", boxData({1, 1, 1}, {1.5f, 1.5f, 1.1f}, false));
+    room.node->add(shelf);
     ASSERT_TRUE(updateUntilSettled(*room.node));
     EXPECT_EQ(room.difference(), "") << "given back, and a new thing";
+    room.node->remove(shelf);
+    ASSERT_TRUE(updateUntilSettled(*room.node));
+    EXPECT_EQ(room.difference(), "") << "the new thing taken out again";
+    room.box->setMatrix(moved(0.2, 0.3, 0));
+    ASSERT_TRUE(updateUntilSettled(*room.node));
+    EXPECT_EQ(room.difference(), "") << "moved where something is no more";
 }
 
 TEST(RadiosityNode, DrawsAMovedObjectAtItsPlaceAtOnceWithTheLightThatItHad) {

@@ -86,7 +86,7 @@ std::vector<Outcome> outcomes(Stage& stage, const glm::dmat4& to) {
             receivers.push_back(set.vertices[v].receiver);
         const bool own = set.vertexBlockObject[b].value == moved[0].object;
         const RowBlock& row = lit.solver().emitterRows()[0][b];
-        const ExpectedFactors expected = probe.at(sender, {receivers, ~std::uint64_t(0), 0},
+        const ExpectedFactors expected = probe.at(sender, {receivers, ~std::uint64_t(0)},
                                                   own ? ~std::uint64_t(0) : 0, moved, row);
         result.push_back({set.objects[set.vertexBlockObject[b].value].path,
                           meanOf(expected, receivers), 0, 0, shareOf(expected, row), 0, 0});
