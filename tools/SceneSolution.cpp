@@ -89,7 +89,7 @@ void addReportOptions(CLI::App& command, SolveSettings& settings) {
     command.add_flag("--verbose", settings.verbose, "Say everything that was skipped in the file");
     command.add_flag("--progress", settings.progress,
                      "Show progress even when standard error is no terminal");
-    command.add_flag("--quiet", settings.quiet, "Show neither progress nor a summary");
+    command.add_flag("--quiet", settings.quiet, "Show neither progress, warnings nor a summary");
 }
 
 } // namespace

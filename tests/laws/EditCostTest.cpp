@@ -161,6 +161,42 @@ TEST(EditCostOfRooms, AMoveCostsWhatItCostsInItsOwnRoomAndRowsGrowWithTheRoomsAl
     EXPECT_EQ(four.moveBlocks, one.moveBlocks) << "no row of the other rooms' lights is read";
 }
 
+TEST(EditCostOfRooms, WhatIsBroughtInResizedOrTakenOutCostsTheRaysOfAMove) {
+    std::vector<std::shared_ptr<Transform>> boxes;
+    const Scene scene = roomsInARow(3, boxes);
+    for (const bool directOnly : {true, false}) {
+        LitScene lit(placeScene(scene), {.patchSize = 0.5f, .elementSize = 0.125f},
+                     {.directOnly = directOnly, .detail = false});
+        lit.solver().settle();
+        const auto raysOf = [&](bool rebuilds) {
+            const std::uint64_t before = lit.solver().done().rays;
+            EXPECT_EQ(lit.follow(placeScene(scene)).rebuilt, rebuilds);
+            lit.solver().settle();
+            return double(lit.solver().done().rays - (rebuilds ? 0 : before));
+        };
+        boxes.front()->setMatrix(moved(0.2, 0.1, 0));
+        const double move = raysOf(false);
+        for (const bool isMovable : {true, false}) {
+            const auto another = std::make_shared<Transform>(isMovable ? "another" : "fixed");
+            for (const NodePtr& child : boxes.front()->children()) another->add(child);
+            another->setMovable(isMovable);
+            another->setBeginsObject(true);
+            another->setMatrix(moved(-0.3, 0.1, 0));
+            scene.root->add(another);
+            // Reach is found again, 16 rays a node: here that is as much as all else.
+            const double reach = directOnly ? 0 : 16.0 * double(lit.patches().nodes.size());
+            const double most = (isMovable ? 1.2 : 1.5) * move + 1.2 * reach; // it cuts the floor
+            EXPECT_LT(raysOf(true), most) << isMovable;
+            another->setMatrix(another->matrix() * scaled(1.1));
+            EXPECT_LT(raysOf(true), most) << isMovable;
+            scene.root->remove(another);
+            EXPECT_LT(raysOf(!isMovable), 0.7 * move + 1.2 * reach) << isMovable;
+        }
+        boxes.front()->setMatrix(moved(0, 0, 0));
+        raysOf(false);
+    }
+}
+
 } // namespace
 
 } // namespace penumbra
