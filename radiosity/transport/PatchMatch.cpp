@@ -5,6 +5,7 @@
 #include <bit>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace penumbra {
 
@@ -19,6 +20,14 @@ ObjectsByPath objectsByPath(const PatchSet& set) {
     ObjectsByPath objects;
     for (std::uint32_t o = 0; o < set.objects.size(); ++o) objects[set.objects[o].path] = o;
     return objects;
+}
+
+/// Paths that several objects have: which is which can't be told.
+std::unordered_set<std::string_view> sharedPaths(const PatchSet& set) {
+    std::unordered_set<std::string_view> seen, shared;
+    for (const ObjectPart& part : set.objects)
+        if (!seen.insert(part.path).second) shared.insert(part.path);
+    return shared;
 }
 
 /// Bits, so that what is no number equals itself.
@@ -154,11 +163,14 @@ bool PatchMatch::isChanged(ObjectId object) const {
 PatchMatch matchPatches(const PatchSet& before, const PatchSet& now) {
     PatchMatch match;
     const ObjectsByPath named = objectsByPath(now);
+    const auto sharedBefore = sharedPaths(before), sharedNow = sharedPaths(now);
     std::vector<std::uint32_t> was(now.objects.size(), kNew);
     for (std::uint32_t o = 0; o < before.objects.size(); ++o) {
-        const auto found = named.find(before.objects[o].path);
+        const std::string_view path = before.objects[o].path;
+        const auto found = named.find(path);
         match.objects.push_back(found != named.end() ? found->second : kNew);
-        if (found != named.end() && sameObject(before, o, now, found->second))
+        const bool shared = sharedBefore.contains(path) || sharedNow.contains(path);
+        if (found != named.end() && !shared && sameObject(before, o, now, found->second))
             was[found->second] = o;
     }
     for (std::uint32_t o = 0; o < was.size(); ++o)

@@ -48,13 +48,13 @@ public:
     std::vector<std::uint8_t> oldWalls() const;
 
 private:
+    std::uint64_t take(std::uint32_t block, Row& before, EntryCarrier& carrier,
+                       RowBlock& now) const;
+
     const PatchSet& before_;
     const PatchSet& now_;
     const PatchMatch& match_;
     std::span<const std::uint32_t> receivers_;
-    std::uint64_t take(std::uint32_t block, Row& before, EntryCarrier& carrier,
-                       RowBlock& now) const;
-
     std::vector<std::uint8_t> noted_;   ///< one an object: as a blocker it is looked for
     std::vector<std::uint8_t> changed_; ///< likewise: it is not what it was
     std::vector<std::uint32_t> whole_;  ///< one a block: that which it was, or kNew
