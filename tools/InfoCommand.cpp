@@ -130,6 +130,16 @@ void printFrames(const LoadedScene& loaded) {
         fmt::print("  animation; the file does not say from which frame to which\n");
 }
 
+/// The sizes that the scene is meshed with unless others are asked for.
+void printSizes(const SolveSettings& command, const LoadedScene& loaded,
+                const PlacedScene& placed) {
+    if (placed.meshes.empty() && placed.lights.empty()) return;
+    const MeshingOptions sizes = resolvedOptions(command, loaded, command.frame).meshing;
+    const float element = sizes.elementSize > 0 ? sizes.elementSize : sizes.patchSize / 8;
+    fmt::print("  patches of {:.4g} m, elements of {:.4g} m ({})\n", sizes.patchSize, element,
+               loaded.asked.patchSize ? "as the file asks" : "they follow the scene, at its start");
+}
+
 void describeScene(const SolveSettings& command) {
     LoadOptions options;
     options.allowOutside = command.allowOutside;
@@ -145,6 +155,7 @@ void describeScene(const SolveSettings& command) {
     printMeshes(placed);
     printTextures(placed);
     printMovables(placed);
+    printSizes(command, loaded, placed);
     fmt::print("  {} lights\n", placed.lights.size());
     printLights(placed);
     fmt::print("  {} cameras\n", placed.cameras.size());
