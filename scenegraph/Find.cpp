@@ -16,21 +16,43 @@ bool takeName(std::string_view& path, const std::string& name) {
     return true;
 }
 
-void collect(const Group& group, std::string_view path, std::vector<NodePtr>& found) {
-    for (const NodePtr& child : group.children()) {
+/// Calls visit(parent, index of the child) for every node at a path.
+template <class Visit>
+void forEachAt(const Group& group, std::string_view path, const Visit& visit) {
+    for (std::size_t i = 0; i < group.children().size(); ++i) {
+        const NodePtr& child = group.children()[i];
         std::string_view rest = path;
         if (!takeName(rest, child->name())) continue;
-        if (rest.empty()) found.push_back(child);
+        if (rest.empty()) visit(group, i);
         if (const auto* const below = dynamic_cast<const Group*>(child.get()))
-            collect(*below, rest, found);
+            forEachAt(*below, rest, visit);
     }
+}
+
+bool leadsBelow(std::string_view path) {
+    return path.size() > 1 && path.front() == '/';
 }
 
 } // namespace
 
 std::vector<NodePtr> nodesAt(const Group& root, std::string_view path) {
     std::vector<NodePtr> found;
-    if (path.size() > 1 && path.front() == '/') collect(root, path, found);
+    if (leadsBelow(path))
+        forEachAt(root, path, [&](const Group& parent, std::size_t index) {
+            found.push_back(parent.children()[index]);
+        });
+    return found;
+}
+
+std::optional<ChildPlace> placeOf(const std::shared_ptr<Group>& root, std::string_view path,
+                                  const Node& node) {
+    std::optional<ChildPlace> found;
+    if (!leadsBelow(path)) return found;
+    forEachAt(*root, path, [&](const Group& parent, std::size_t index) {
+        if (found || parent.children()[index].get() != &node) return;
+        const auto shared = std::const_pointer_cast<Node>(parent.shared_from_this());
+        found = {std::static_pointer_cast<Group>(shared), index};
+    });
     return found;
 }
 

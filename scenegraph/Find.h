@@ -3,6 +3,9 @@
 
 #include "scenegraph/Group.h"
 
+#include <cstddef>
+#include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -20,5 +23,16 @@ std::shared_ptr<T> findAt(const Group& root, std::string_view path) {
         if (auto found = std::dynamic_pointer_cast<T>(node)) return found;
     return nullptr;
 }
+
+/// Where a node is among the children of another one.
+struct ChildPlace {
+    std::shared_ptr<Group> parent;
+    std::size_t index = 0;
+};
+
+/// Where `node` is, if it is one of nodesAt() this path. A node may have several parents: the
+/// first that this path leads through.
+std::optional<ChildPlace> placeOf(const std::shared_ptr<Group>& root, std::string_view path,
+                                  const Node& node);
 
 } // namespace penumbra

@@ -17,6 +17,13 @@ void Group::add(NodePtr child) {
     touch();
 }
 
+void Group::insert(std::size_t place, NodePtr child) {
+    assert(child && child.get() != this);
+    place = std::min(place, children_.size());
+    children_.insert(children_.begin() + std::ptrdiff_t(place), std::move(child));
+    touch();
+}
+
 bool Group::remove(const NodePtr& child) {
     const auto found = std::find(children_.begin(), children_.end(), child);
     if (found == children_.end()) return false;

@@ -3,6 +3,7 @@
 
 #include "scenegraph/Node.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace penumbra {
@@ -15,6 +16,8 @@ public:
 
     const std::vector<NodePtr>& children() const { return children_; }
     void add(NodePtr child);
+    /// Before the child that has this place now; at the end if there is none.
+    void insert(std::size_t place, NodePtr child);
     /// Removes the first occurrence of `child`; returns whether it was there.
     bool remove(const NodePtr& child);
 

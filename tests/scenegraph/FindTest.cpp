@@ -38,6 +38,24 @@ TEST(Find, ANodeWithoutANameSharesThePathOfTheOneAbove) {
     EXPECT_EQ(findAt<Transform>(top, "/Fixture/Lens"), nullptr);
 }
 
+TEST(Find, ThePlaceOfANodeIsAmongTheChildrenOfItsParent) {
+    const auto bulb = light("Bulb");
+    const auto left = make("Left", {square("Rod"), bulb}), right = make("Right", {bulb});
+    const auto top = make("", {left, right});
+    const auto place = placeOf(top, "/Right/Bulb", *bulb);
+    ASSERT_TRUE(place);
+    EXPECT_EQ(place->parent, right) << "of its two parents";
+    EXPECT_EQ(place->index, 0u);
+    EXPECT_EQ(placeOf(top, "/Left/Bulb", *bulb)->index, 1u);
+    EXPECT_EQ(placeOf(top, "/Left", *left)->parent, top);
+    EXPECT_FALSE(placeOf(top, "/Left", *right));
+    EXPECT_FALSE(placeOf(top, "/", *left));
+    top->remove(left);
+    top->insert(1, left);
+    top->insert(9, bulb);
+    EXPECT_EQ(top->children(), (std::vector<NodePtr>{right, left, bulb}));
+}
+
 } // namespace
 
 } // namespace penumbra

@@ -348,6 +348,44 @@ def office_session(display):
     return take, again
 
 
+def furnishing(display):
+    """The seat is duplicated, hidden and removed, and all of it is taken back."""
+    view = View(display, SCENES / "office.usda", "--patch-size", "1", "--element-size", "0.5",
+                "--quiet")
+    view.lit()
+    start = view.rest()
+    still = view.exr()
+    pixels = len(orange_places(start))
+    display.hands("mousemove", *orange(start))
+    display.hands("click", 1)
+
+    def after(key, name):
+        display.hands("key", key)
+        view.lit()
+        rows = view.rest()
+        view.shot(name)
+        return len(orange_places(rows)) / pixels
+
+    share = after("ctrl+d", "office-another-seat")
+    check(share > 1.3, f"Ctrl+D: another seat, {share:.2f} times the orange")
+    share = after("h", "office-seat-hidden")
+    check(share < 1.2, f"H hides it: {share:.2f}")
+    share = after("shift+h", "office-seat-shown")
+    check(share > 1.3, f"Shift+H shows it: {share:.2f}")
+    for _ in range(3):
+        display.hands("key", "ctrl+z")
+    view.lit()
+    check(differing(still, view.exr(), 0.01) < 0.001, "undone, the light is as it was")
+    display.hands("click", 1)
+    share = after("Delete", "office-seat-removed")
+    check(share < 0.5, f"Del removes the seat: {share:.2f}")
+    display.hands("key", "ctrl+z")
+    view.lit()
+    check(differing(still, view.exr(), 0.01) < 0.001, "undone, it stands in its light again")
+    check(view.program.end() == 0, "SIGTERM: exit code 0")
+    check(view.program.said() == "", "and without a word: " + view.program.said())
+
+
 def replayed(take, last):
     """The recording, played by another command: it ends with the picture that was seen last."""
     places = seat_samples(take)
@@ -384,6 +422,7 @@ def main():
         overlays(display)
         take, last = office_session(display)
         replayed(take, last)
+        furnishing(display)
         replay_in_the_window(display, take)
         the_picture_is_the_window_s(display)
 

@@ -11,7 +11,9 @@ std::vector<std::string> saveEdits(const LoadedScene& scene, const std::filesyst
     }
     UsdRecording recording(scene, file);
     while (history.undoable() < made) history.redo();
-    recording.takeEdits();
+    std::vector<const Node*> hidden;
+    for (const PresenceEdit& edit : history.hidden()) hidden.push_back(edit.node.get());
+    recording.takeEdits(hidden);
     recording.write(layer);
     return recording.missed();
 }

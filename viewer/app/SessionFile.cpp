@@ -28,6 +28,7 @@ SessionFile::~SessionFile() {
 }
 
 void SessionFile::sample(const Walkthrough& walk) {
+    recording_.follow(walk.loaded().addresses);
     recording_.sample(walk.time() - start_, walk.rig().toWorld(), walk.rig().lens());
     unsaved_ = true;
 }

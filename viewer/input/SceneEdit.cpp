@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <type_traits>
+#include <unordered_set>
 
 namespace penumbra {
 
@@ -22,6 +23,18 @@ void put(const PaintEdit& edit, const PaintEdit::Paint& paint) {
     if (material.emission() != paint.emission) material.setEmission(paint.emission);
 }
 
+bool isThere(const PresenceEdit& edit) {
+    const auto& children = edit.parent->children();
+    return std::find(children.begin(), children.end(), edit.node) != children.end();
+}
+void put(const PresenceEdit& edit, bool present) {
+    if (present == isThere(edit)) return;
+    if (present)
+        edit.parent->insert(edit.place, edit.node);
+    else
+        edit.parent->remove(edit.node);
+}
+
 const void* target(const MoveEdit& edit) {
     return edit.node.get();
 }
@@ -33,6 +46,9 @@ const void* target(const LightEdit& edit) {
 }
 const void* target(const PaintEdit& edit) {
     return edit.material.get();
+}
+const void* target(const PresenceEdit& edit) {
+    return edit.node.get();
 }
 
 /// Whether both do the same kind of thing to the same thing.
@@ -101,6 +117,18 @@ bool EditHistory::edited() const {
     return std::any_of(
         steps_.begin(), steps_.begin() + std::ptrdiff_t(made_),
         [&](const Step& step) { return std::any_of(step.begin(), step.end(), tells); });
+}
+
+std::vector<PresenceEdit> EditHistory::hidden() const {
+    std::vector<PresenceEdit> hidden;
+    std::unordered_set<const Node*> known; // what came or went later
+    for (std::size_t s = made_; s-- > 0;)
+        for (std::size_t e = steps_[s].size(); e-- > 0;) {
+            const auto* edit = std::get_if<PresenceEdit>(&steps_[s][e]);
+            if (!edit || !known.insert(edit->node.get()).second) continue;
+            if (edit->hides && !edit->after) hidden.push_back(*edit);
+        }
+    return hidden;
 }
 
 bool EditHistory::undo() {

@@ -38,7 +38,15 @@ struct PaintEdit {
         friend bool operator==(const Paint&, const Paint&) = default;
     } before, after;
 };
-using SceneEdit = std::variant<MoveEdit, LoosenEdit, LightEdit, PaintEdit>;
+/// A thing comes or goes: it is a child of its parent, or not.
+struct PresenceEdit {
+    std::shared_ptr<Group> parent;
+    NodePtr node;
+    std::size_t place = 0; ///< among the parent's children, where it is or was
+    bool before = false, after = false;
+    bool hides = false; ///< it goes to be shown again: a layer says that it is invisible
+};
+using SceneEdit = std::variant<MoveEdit, LoosenEdit, LightEdit, PaintEdit, PresenceEdit>;
 
 /// Brings the scene to the state after the edit, or back to that before.
 void apply(const SceneEdit& edit);
@@ -65,6 +73,8 @@ public:
     std::size_t undoable() const { return made_; }
     /// Whether the scene is another one by these edits: more than what may be moved.
     bool edited() const;
+    /// How things went that are hidden now, the last one first.
+    std::vector<PresenceEdit> hidden() const;
     std::size_t redoable() const { return steps_.size() - made_; }
 
     static constexpr double kMergeSeconds = 0.7;

@@ -20,11 +20,17 @@ Selection selectionOf(const Scene& scene, const PlacedScene& placed, const Touch
             selection.lights.push_back(light);
         return selection;
     }
-    for (const auto& light : placed.lights)
-        if (light.object == touch.object)
-            if (const auto node = findAt<Light>(*scene.root, light.path))
-                selection.lights.push_back(node);
+    selection.lights = lightsOf(scene, placed, touch.object);
     return selection;
+}
+
+std::vector<std::shared_ptr<Light>> lightsOf(const Scene& scene, const PlacedScene& placed,
+                                             ObjectId object) {
+    std::vector<std::shared_ptr<Light>> lights;
+    for (const auto& light : placed.lights)
+        if (light.object == object)
+            if (const auto node = findAt<Light>(*scene.root, light.path)) lights.push_back(node);
+    return lights;
 }
 
 std::vector<std::shared_ptr<Light>> allLights(const Scene& scene, const PlacedScene& placed) {

@@ -31,6 +31,10 @@ struct Selection {
 /// The selection of what a ray touched.
 Selection selectionOf(const Scene& scene, const PlacedScene& placed, const Touch& touch);
 
+/// The lights of an object.
+std::vector<std::shared_ptr<Light>> lightsOf(const Scene& scene, const PlacedScene& placed,
+                                             ObjectId object);
+
 /// Every light of the scene, each once.
 std::vector<std::shared_ptr<Light>> allLights(const Scene& scene, const PlacedScene& placed);
 

@@ -27,6 +27,9 @@ constexpr std::array kHelp = std::to_array<HelpLine>({
     {"Edit", "R  Shift+R", "turn it by 15 degrees"},
     {"Edit", "-  +", "dim or brighten the selected light, or all lights, by a quarter"},
     {"Edit", "L", "the light off and on"},
+    {"Edit", "Del", "remove what is selected"},
+    {"Edit", "H  Shift+H", "hide it; show all that is hidden"},
+    {"Edit", "Ctrl+D", "another one of it, beside it"},
     {"Edit", "Ctrl+Z  Ctrl+Shift+Z", "undo, redo"},
     {"Edit", "Esc", "put back what is being dragged; select nothing"},
     {"View", "[  ]", "darker, brighter (exposure)"},
@@ -69,6 +72,8 @@ std::optional<Command> ofLetter(char letter, Modifiers modifiers) {
     const bool shift = modifiers.shift;
     if (modifiers.control) {
         switch (letter) {
+        case 'D':
+            return Command{Action::duplicate};
         case 'O':
             return Command{Action::open};
         case 'Q':
@@ -88,6 +93,8 @@ std::optional<Command> ofLetter(char letter, Modifiers modifiers) {
         return Command{Action::collision};
     case 'F':
         return Command{Action::frame};
+    case 'H':
+        return Command{shift ? Action::showHidden : Action::hide};
     case 'T':
         return Command{Action::nextTone};
     case 'R':
@@ -134,6 +141,8 @@ std::optional<Command> ofKey(Key pressed) {
     switch (pressed) {
     case Key::escape:
         return Command{Action::cancel};
+    case Key::remove:
+        return Command{Action::remove};
     case Key::tab:
         return Command{Action::nextMode};
     case Key::home:

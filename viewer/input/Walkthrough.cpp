@@ -1,5 +1,9 @@
 #include "viewer/input/Walkthrough.h"
 
+#include "viewer/input/Furnishing.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -115,10 +119,7 @@ void Walkthrough::dragTo(const MoveEvent& move, glm::ivec2 picture) {
 void Walkthrough::loosenHeld() {
     held_->node->setMovable(true);
     changed();
-    const std::string& path = selection_->objectPath;
-    for (std::size_t o = 0; o < placed_.objects.size(); ++o)
-        if (placed_.objects[o].path == path) held_->object.value = std::uint32_t(o);
-    selection_->object = held_->object;
+    held_->object = selection_->object;
 }
 
 /// \param keep false: it goes back to where it was
@@ -163,6 +164,21 @@ void Walkthrough::changed() {
     ++revision_;
     placed_ = placeScene(*loaded_.scene);
     rays_->follow(placed_);
+    followSelection();
+}
+
+/// What is selected may have another number now, or be gone.
+void Walkthrough::followSelection() {
+    if (!selection_) return;
+    const auto& objects = placed_.objects;
+    const auto is = [&](const Object& object) { return object.path == selection_->objectPath; };
+    ObjectId& object = selection_->object;
+    if (object.value < objects.size() && is(objects[object.value])) return;
+    const auto found = std::find_if(objects.begin(), objects.end(), is);
+    if (found == objects.end())
+        selection_.reset();
+    else
+        object.value = std::uint32_t(found - objects.begin());
 }
 
 void Walkthrough::followScene() {
@@ -183,15 +199,20 @@ void Walkthrough::place(const Selection& selection, const glm::dmat4& toWorld) {
                   matrixFor(*selection.node, now, toWorld)));
 }
 
+/// The axis of the scene that comes nearest to what the camera calls right.
+glm::dvec3 Walkthrough::besideCamera() const {
+    const Compass& compass = rig_.compass();
+    const glm::dvec3 right = rig_.pose().right(compass);
+    const bool eastward = std::abs(glm::dot(right, compass.east)) > std::sqrt(0.5);
+    const glm::dvec3 along = eastward ? compass.east : compass.north;
+    return along * std::copysign(1.0, glm::dot(right, along));
+}
+
 /// Along the axis of the scene that comes nearest to what the camera calls that direction.
 void Walkthrough::nudge(NudgeDirection way, double metres) {
     if (!selection_ || !selection_->node) return;
     const Compass& compass = rig_.compass();
-    const glm::dvec3 right = rig_.pose().right(compass);
-    const bool eastward = std::abs(glm::dot(right, compass.east)) > std::sqrt(0.5);
-    const glm::dvec3 aside =
-        eastward ? compass.east * std::copysign(1.0, right[0])
-                 : compass.north * std::copysign(1.0, glm::dot(right, compass.north));
+    const glm::dvec3 aside = besideCamera();
     const glm::dvec3 ahead = glm::cross(compass.up, aside);
     const std::array<glm::dvec3, 6> ways{-aside, aside, -ahead, ahead, compass.up, -compass.up};
     const glm::dmat4& now = placed_.objects[selection_->object.value].toWorld;
@@ -229,6 +250,44 @@ void Walkthrough::switchLights() {
         step.push_back(LightEdit{light, now, on ? Rgb() : switchedOff_[light.get()]});
     }
     make(step);
+}
+
+void Walkthrough::removeSelected(bool hides) {
+    if (!selection_ || held_) return;
+    if (const auto removal = removalOf(loaded_, *selection_, hides)) make({*removal});
+    selection_.reset();
+}
+
+void Walkthrough::showHidden() {
+    EditHistory::Step step;
+    for (PresenceEdit edit : history_.hidden()) {
+        std::swap(edit.before, edit.after);
+        step.push_back(edit);
+    }
+    make(step);
+}
+
+/// Beside the thing, and selected, so that it can be put where it belongs.
+void Walkthrough::duplicateSelected() {
+    constexpr double kGap = 0.05; // [m]
+    if (!selection_ || held_) return;
+    const glm::dvec3 aside = besideCamera();
+    const double width =
+        glm::dot(glm::abs(aside), glm::dvec3(rays_->bounds(selection_->object).size()));
+    const glm::dvec3 shift = (width + kGap) * aside;
+    glm::dmat4 place = glm::translate(glm::dmat4(1.0), shift / loaded_.scene->metersPerUnit);
+    if (selection_->node) {
+        const glm::dmat4& now = placed_.objects[selection_->object.value].toWorld;
+        place = matrixFor(*selection_->node, now, shifted(now, shift)) *
+                glm::inverse(selection_->node->matrix());
+    }
+    const auto copy = duplicateOf(loaded_, *selection_, place);
+    if (!copy) return;
+    make({copy->edit});
+    selection_->objectPath = selection_->path = copy->path;
+    selection_->node = std::static_pointer_cast<Transform>(copy->edit.node);
+    followSelection();
+    if (selection_) selection_->lights = lightsOf(scene(), placed_, selection_->object);
 }
 
 void Walkthrough::perform(const Command& command) {
@@ -295,6 +354,18 @@ void Walkthrough::performOnScene(const Command& command) {
         break;
     case Action::switchLight:
         switchLights();
+        break;
+    case Action::remove:
+        removeSelected(false);
+        break;
+    case Action::hide:
+        removeSelected(true);
+        break;
+    case Action::showHidden:
+        showHidden();
+        break;
+    case Action::duplicate:
+        duplicateSelected();
         break;
     default:
         break;

@@ -90,7 +90,12 @@ private:
     void nudge(NudgeDirection way, double metres);
     void turnSelected(double angle);
     void switchLights();
+    void removeSelected(bool hides);
+    void showHidden();
+    void duplicateSelected();
+    glm::dvec3 besideCamera() const;
     void changed();
+    void followSelection();
 
     LoadedScene loaded_;
     PlacedScene placed_;

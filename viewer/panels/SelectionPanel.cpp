@@ -73,6 +73,14 @@ void explainLight(const Walkthrough& walk, const Selection& selection) {
     ImGui::TreePop();
 }
 
+void furnish(Walkthrough& walk) {
+    if (ImGui::Button("Duplicate")) walk.perform({Action::duplicate});
+    ImGui::SameLine();
+    if (ImGui::Button("Hide")) walk.perform({Action::hide});
+    ImGui::SameLine();
+    if (ImGui::Button("Remove")) walk.perform({Action::remove});
+}
+
 } // namespace
 
 void drawSelectionPanel(PanelState& state) {
@@ -88,6 +96,7 @@ void drawSelectionPanel(PanelState& state) {
         walk.make({LoosenEdit{selection.node, !movable, movable}});
     if (selection.node && ImGui::IsItemHovered())
         ImGui::SetTooltip("Whether it can be dragged; its light is then kept ready to follow");
+    furnish(walk);
     editLights(walk, selection);
     if (selection.material) editPaint(walk, selection.material);
     explainLight(walk, selection);

@@ -69,6 +69,11 @@ void addMetadata(UsdDictionary& metadata, std::string_view name, UsdKind kind, s
     assign(metadata, {std::string(name), {}, {{kind}, std::vector{std::move(text)}}});
 }
 
+void addMetadata(UsdDictionary& metadata, std::string_view name, bool flag) {
+    assign(metadata,
+           {std::string(name), {}, {{UsdKind::boolean}, std::vector<std::uint8_t>{flag}}});
+}
+
 void addMetadata(UsdDictionary& metadata, std::string_view name, double number) {
     assign(metadata, {std::string(name), {}, {{UsdKind::float64}, std::vector{number}}});
 }

@@ -48,6 +48,7 @@ void addConnection(UsdPrimSpec& spec, std::string_view type, std::string_view na
 void addRelationship(UsdPrimSpec& spec, std::string_view name, std::string target);
 void addMetadata(UsdDictionary& metadata, std::string_view name, UsdKind kind, std::string text);
 void addMetadata(UsdDictionary& metadata, std::string_view name, double number);
+void addMetadata(UsdDictionary& metadata, std::string_view name, bool flag);
 void applySchema(UsdPrimSpec& spec, std::string_view schema);
 
 /// Gives the prim a transform of its own, unless it is the identity. \param matrix column vectors

@@ -41,12 +41,21 @@ struct UsdAddresses {
         std::string prim;
     };
 
+    /// Something that was added, removed or hidden since the file was read.
+    struct Presence {
+        std::shared_ptr<Group> parent;
+        NodePtr node;       ///< a child of `parent`, or not
+        std::string prim;   ///< empty: it has none, and can't be written about
+        std::string source; ///< the prim that it is a copy of; empty: it is in the file
+    };
+
     std::vector<TransformAddress> transforms;
     std::vector<Choice> choices;
     std::vector<LightAddress> lights;
     std::vector<Paint> paints;
     std::vector<Eye> eyes;
-    std::string defaultPrim; ///< its name; empty: none
+    std::vector<Presence> presences; ///< one a node
+    std::string defaultPrim;         ///< its name; empty: none
 };
 
 } // namespace penumbra

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <tuple>
 
 namespace penumbra {
 
@@ -25,7 +27,8 @@ public:
     /// \param components of the C++ type that UsdValue stores
     template <class T>
     void put(double code, std::vector<T> components) {
-        for (T& component : components) component += T(0); // no -0
+        if constexpr (std::is_arithmetic_v<T>)
+            for (T& component : components) component += T(0); // no -0
         put(code, UsdValue{usdTypeNamed(type_), std::move(components)});
     }
     bool empty() const { return samples_.empty(); }
@@ -182,6 +185,33 @@ struct PaintTrack {
     bool changes() const { return diffuse.changes() || emissive.changes(); }
 };
 
+bool isThere(const UsdAddresses::Presence& presence) {
+    const auto& children = presence.parent->children();
+    return std::find(children.begin(), children.end(), presence.node) != children.end();
+}
+const char* visibilityOf(bool visible) {
+    return visible ? "inherited" : "invisible";
+}
+
+/// Whether something is there.
+struct PresenceTrack {
+    Track visibility{"token"};
+    bool now = true;
+    void put(double code, bool isThere) {
+        now = isThere;
+        visibility.put(code, std::vector<std::string>{visibilityOf(now)});
+    }
+};
+
+bool isAtOrBelow(const std::string& prim, const std::string& above) {
+    return prim.starts_with(above) && (prim.size() == above.size() || prim[above.size()] == '/');
+}
+
+/// Where something that is part of a thing is in a copy of it.
+std::string counterpart(const std::string& prim, const UsdAddresses::Presence& copy) {
+    return copy.prim + prim.substr(copy.source.size());
+}
+
 /// Something of the scene with what became of it.
 template <class Address, class Values>
 struct Followed {
@@ -203,12 +233,27 @@ struct UsdRecording::Impl {
     std::vector<Followed<UsdAddresses::LightAddress, LightTrack>> lights;
     std::vector<Followed<UsdAddresses::Paint, PaintTrack>> paints;
     std::vector<UsdAddresses::Choice> choices;
+    using FollowedPresence = Followed<UsdAddresses::Presence, PresenceTrack>;
+    std::vector<FollowedPresence> presences;
+    /// How many of each are followed.
+    struct {
+        std::size_t transforms = 0, lights = 0, presences = 0;
+    } known;
+    std::vector<const Node*> hidden; ///< of what is not there
     PoseTrack eye;
     Track focalLength{"float"}, aperture{"float"}, clipping{"float2"};
     double lastCode = 1;
 
+    void follow(const UsdAddresses& addresses);
     void sample(double code, bool all);
     void sample(double code, const glm::dmat4& cameraToWorld, const Lens& lens);
+    bool isOfCopy(const std::string& prim) const;
+    bool leftOut(const std::string& prim) const;
+    std::vector<const FollowedPresence*> copies() const;
+    std::set<std::string> followedPrims() const;
+    void writeCopy(UsdLayer& layer, const FollowedPresence& copy) const;
+    void matchCopy(UsdLayer& layer, const UsdAddresses::Presence& copy) const;
+    void writePresences(UsdLayer& layer) const;
     void writePlaces(UsdLayer& layer) const;
     void writeLights(UsdLayer& layer) const;
     void writePaints(UsdLayer& layer) const;
@@ -226,6 +271,24 @@ std::uint64_t revisionOf(const UsdAddresses::LightAddress& light) {
 
 } // namespace
 
+/// What comes later has been as it is now from the beginning, but for what was not there.
+void UsdRecording::Impl::follow(const UsdAddresses& addresses) {
+    for (; known.transforms < addresses.transforms.size(); ++known.transforms) {
+        const auto& place = addresses.transforms[known.transforms];
+        if (place.prim == camera) continue;
+        transforms.push_back({place, {}, 0});
+        transforms.back().track.put(1, place.node->matrix());
+    }
+    for (; known.lights < addresses.lights.size(); ++known.lights) {
+        lights.push_back({addresses.lights[known.lights], {}, 0});
+        lights.back().track.put(1, luminanceOf(lights.back().address));
+    }
+    for (; known.presences < addresses.presences.size(); ++known.presences) {
+        presences.push_back({addresses.presences[known.presences], {}, 0});
+        presences.back().track.put(1, presences.back().address.source.empty());
+    }
+}
+
 void UsdRecording::Impl::sample(double code, bool all) {
     for (auto& [address, track, revision] : transforms)
         if (all || revision != address.node->revision()) {
@@ -241,6 +304,11 @@ void UsdRecording::Impl::sample(double code, bool all) {
         if (all || revision != address.material->revision()) {
             revision = address.material->revision();
             track.put(code, address);
+        }
+    for (auto& [address, track, revision] : presences)
+        if (all || revision != address.parent->revision()) {
+            revision = address.parent->revision();
+            track.put(code, isThere(address));
         }
 }
 
@@ -263,11 +331,9 @@ UsdRecording::UsdRecording(const LoadedScene& scene, std::filesystem::path file)
     impl_->defaultPrim = addresses.defaultPrim;
     impl_->ownCamera = addresses.eyes.empty();
     impl_->camera = impl_->ownCamera ? "/SessionCamera" : addresses.eyes.front().prim;
-    for (const auto& place : addresses.transforms)
-        if (place.prim != impl_->camera) impl_->transforms.push_back({place, {}, 0});
-    for (const auto& light : addresses.lights) impl_->lights.push_back({light, {}, 0});
     for (const auto& paint : addresses.paints) impl_->paints.push_back({paint, {}, 0});
     impl_->choices = addresses.choices;
+    impl_->follow(addresses);
     impl_->sample(1, true);
 }
 
@@ -280,16 +346,110 @@ void UsdRecording::sample(double seconds, const glm::dmat4& cameraToWorld, const
     impl_->sample(code, cameraToWorld, lens);
 }
 
-void UsdRecording::takeEdits() {
+void UsdRecording::follow(const UsdAddresses& addresses) {
+    impl_->follow(addresses);
+}
+
+void UsdRecording::takeEdits(std::span<const Node* const> hidden) {
+    impl_->hidden.assign(hidden.begin(), hidden.end());
     impl_->sample(1, false);
     impl_->timeless = true;
     impl_->animated = false; // what it moves goes on
 }
 
+bool UsdRecording::Impl::isOfCopy(const std::string& prim) const {
+    return std::any_of(presences.begin(), presences.end(), [&](const auto& copy) {
+        return !copy.address.source.empty() && isAtOrBelow(prim, copy.address.prim);
+    });
+}
+
+/// Whether a layer of edits has nothing of a prim: of a copy that is not there.
+bool UsdRecording::Impl::leftOut(const std::string& prim) const {
+    return timeless && std::any_of(presences.begin(), presences.end(), [&](const auto& copy) {
+               return !copy.address.source.empty() && !copy.track.now &&
+                      isAtOrBelow(prim, copy.address.prim);
+           });
+}
+
+/// The copies that are written: those that are there, and what they are copies of.
+std::vector<const UsdRecording::Impl::FollowedPresence*> UsdRecording::Impl::copies() const {
+    std::vector<const FollowedPresence*> written;
+    const std::set<std::string> prims = followedPrims();
+    for (auto one = presences.rbegin(); one != presences.rend(); ++one) {
+        const auto& [prim, source] = std::tie(one->address.prim, one->address.source);
+        if (source.empty()) continue;
+        const auto needs = [&, &p = prim](const FollowedPresence* later) {
+            return isAtOrBelow(later->address.source, p) ||
+                   (isAtOrBelow(p, later->address.source) &&
+                    prims.contains(counterpart(p, later->address)));
+        };
+        if (!timeless || one->track.now || std::any_of(written.begin(), written.end(), needs))
+            written.push_back(&*one);
+    }
+    return written;
+}
+
+std::set<std::string> UsdRecording::Impl::followedPrims() const {
+    std::set<std::string> prims;
+    for (const auto& place : transforms) prims.insert(place.address.prim);
+    for (const auto& light : lights) prims.insert(light.address.prim);
+    return prims;
+}
+
+void UsdRecording::Impl::writeCopy(UsdLayer& layer, const FollowedPresence& copy) const {
+    UsdPrimSpec& prim = overAt(layer, copy.address.prim);
+    prim.specifier = UsdSpecifier::def;
+    addMetadata(prim.metadata, "active", copy.track.now || !timeless);
+    addMetadata(prim.metadata, "instanceable", false);
+    if (!prim.arcs) prim.arcs = std::make_unique<UsdArcs>();
+    UsdReference reference;
+    reference.path = copy.address.source;
+    prim.arcs->references = {{UsdListOp::prepend, {reference}}};
+    copy.track.visibility.write(prim, "visibility");
+}
+
+/// A reference brings what its target has now: the copy has what that had when it was made.
+void UsdRecording::Impl::matchCopy(UsdLayer& layer, const UsdAddresses::Presence& copy) const {
+    const std::set<std::string> prims = followedPrims();
+    const auto presenceOf = [&](const std::string& prim) {
+        return std::find_if(presences.begin(), presences.end(),
+                            [&](const auto& one) { return one.address.prim == prim; });
+    };
+    for (const std::string& prim : prims) {
+        if (prim == copy.source || !isAtOrBelow(prim, copy.source)) continue;
+        const std::string same = counterpart(prim, copy);
+        if (presenceOf(same) != presences.end()) continue; // is written by itself
+        const bool has = prims.contains(same);
+        const auto source = presenceOf(prim);
+        if (has && source == presences.end()) continue;
+        UsdPrimSpec& spec = overAt(layer, same);
+        addMetadata(spec.metadata, "active", has);
+        if (has) addText(spec, "token", "visibility", visibilityOf(true));
+    }
+}
+
+void UsdRecording::Impl::writePresences(UsdLayer& layer) const {
+    for (const FollowedPresence* const copy : copies()) writeCopy(layer, *copy);
+    for (const FollowedPresence* const copy : copies()) matchCopy(layer, copy->address);
+    for (const auto& [address, track, revision] : presences) {
+        const bool untold = address.prim.empty() || !address.source.empty(); // see missed()
+        if (untold || !track.visibility.changes() || leftOut(address.prim)) continue;
+        if (timeless && track.now) continue;
+        UsdPrimSpec& prim = overAt(layer, address.prim);
+        const bool hides = std::ranges::find(hidden, address.node.get()) != hidden.end();
+        if (!timeless)
+            track.visibility.write(prim, "visibility");
+        else if (hides)
+            addText(prim, "token", "visibility", visibilityOf(false));
+        else
+            addMetadata(prim.metadata, "active", false);
+    }
+}
+
 void UsdRecording::Impl::writePlaces(UsdLayer& layer) const {
     for (const auto& [address, track, revision] : transforms) {
-        const bool held = animated && address.node->movable();
-        if (!track.changes() && !held) continue;
+        const bool held = (animated && address.node->movable()) || isOfCopy(address.prim);
+        if ((!track.changes() && !held) || leftOut(address.prim)) continue;
         UsdPrimSpec& prim = overAt(layer, address.prim);
         if (address.node->movable()) addBool(prim, "penumbra:movable", true);
         track.write(prim, false);
@@ -302,7 +462,8 @@ void UsdRecording::Impl::writePlaces(UsdLayer& layer) const {
 
 void UsdRecording::Impl::writeLights(UsdLayer& layer) const {
     for (const auto& [address, track, revision] : lights) {
-        if (!track.changes() && !animated) continue;
+        const bool held = animated || isOfCopy(address.prim);
+        if ((!track.changes() && !held) || leftOut(address.prim)) continue;
         UsdPrimSpec& light = overAt(layer, address.prim);
         track.colour.write(light, "inputs:color");
         track.intensity.write(light, "inputs:intensity");
@@ -382,6 +543,7 @@ std::string UsdRecording::text(const std::filesystem::path& path) const {
     addMetadata(metadata, "timeCodesPerSecond", timeless ? scene.timeCodesPerSecond : kRate);
     addMetadata(metadata, "upAxis", UsdKind::token, scene.upAxis == UpAxis::z ? "Z" : "Y");
     layer.subLayers.push_back({relativeAsset(impl_->file, path), {}, {}});
+    impl_->writePresences(layer);
     impl_->writePlaces(layer);
     impl_->writeLights(layer);
     impl_->writePaints(layer);
@@ -398,6 +560,9 @@ std::vector<std::string> UsdRecording::missed() const {
     for (const auto& [address, track, revision] : impl_->paints)
         if (track.changes() && address.shader.empty() && address.meshes.empty())
             names.push_back(address.material->name());
+    for (const auto& [address, track, revision] : impl_->presences)
+        if (address.prim.empty() && track.visibility.changes())
+            names.push_back(address.node->name());
     return names;
 }
 

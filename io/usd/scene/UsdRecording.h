@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ namespace penumbra {
 /// The layer has the scene's file as its sublayer. Transforms are written as translate, orient and
 /// scale (a matrix if they are sheared or mirrored), the camera over the first camera of the
 /// file, or, if it has none, as /SessionCamera. What holds still has one value and no samples.
+/// What is removed or hidden is invisible from then on, and inactive or invisible in a layer of
+/// edits; a copy of a thing is a reference to its prim.
 /// Colours that are factors of a texture are written as its scale; if others read that texture as
 /// well, or it has a bias, its mean colour takes its place.
 /// Time codes begin at 1 and count kRate a second.
@@ -34,13 +37,17 @@ public:
     UsdRecording(const UsdRecording&) = delete;
     UsdRecording& operator=(const UsdRecording&) = delete;
 
+    /// Takes in what was added to the addresses since the recording began.
+    void follow(const UsdAddresses& addresses);
+
     /// Takes in how things are at a time [s] since the beginning; between two time codes the last
     /// one counts. \param cameraToWorld [m] \param lens clipping range in metres
     void sample(double seconds, const glm::dmat4& cameraToWorld, const Lens& lens);
 
     /// Takes in how things are, as if they had been so from the beginning. The layer then has what
     /// was edited, and nothing of time and of the camera: the file's own animation plays on.
-    void takeEdits();
+    /// \param hidden of what is not there: nodes that are to be invisible, not removed
+    void takeEdits(std::span<const Node* const> hidden = {});
 
     /// The layer so far, as it is to be written to the file `path`.
     std::string text(const std::filesystem::path& path) const;
@@ -48,7 +55,7 @@ public:
     void write(const std::filesystem::path& layer) const;
 
     /// Names of what was edited but can't be written in a layer: colours of a mesh that has several
-    /// of its own without materials, mesh lights.
+    /// of its own without materials, mesh lights, things that have no prim.
     std::vector<std::string> missed() const;
 
 private:
