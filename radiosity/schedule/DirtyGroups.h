@@ -37,6 +37,16 @@ public:
         }
     }
     std::size_t size() const { return groups_.size(); }
+    /// Nothing is dirty any more: all is known from elsewhere.
+    /// \param ways one a group: around all that its rays cross
+    void takeOver(std::vector<Bounds> ways) {
+        ways_.assign(std::move(ways));
+        groups_.assign(groups_.size(), {});
+        queued_.assign(queued_.size(), 0);
+        queue_.clear();
+        next_ = 0;
+    }
+    const Bounds& ways(std::uint32_t group) const { return ways_[group]; }
 
     void add(std::uint32_t group, std::uint32_t anew) {
         groups_[group].anew |= anew;

@@ -57,6 +57,33 @@ DetailGather::DetailGather(const PatchSet& patches)
 
 DetailGather::~DetailGather() = default;
 
+/// Of what is new nothing is known but what is usual.
+void DetailGather::takeOver(const DetailGather& before, const PatchMatch& match) {
+    const std::vector<std::uint32_t> elements = hits_.takeOver(before.hits_, match);
+    if (elements.empty() || before.sent_.nodes.empty()) return;
+    std::vector<std::uint32_t> were(patches_.elements.size(), PatchMatch::kNew);
+    for (std::uint32_t e = 0; e < elements.size(); ++e)
+        if (elements[e] != DetailHits::kGone) were[elements[e]] = e;
+    const auto take = [](const auto& from, std::span<const std::uint32_t> numbers, auto usual,
+                         auto& to) {
+        to.assign(numbers.size(), usual);
+        for (std::size_t i = 0; i < numbers.size(); ++i)
+            if (numbers[i] != PatchMatch::kNew) to[i] = from[numbers[i]];
+    };
+    const auto usual = [](const std::vector<Light>& lights) {
+        glm::dvec3 sum(0);
+        for (const Light& light : lights)
+            sum += glm::dvec3(light.colour.r, light.colour.g, light.colour.b);
+        const Rgb mean = toRgb(sum / double(std::max<std::size_t>(lights.size(), 1)));
+        return Light{mean, luminance(mean)};
+    };
+    glm::dvec3 nodes(0);
+    for (const glm::dvec3 node : before.sent_.nodes) nodes += node;
+    take(before.sent_.all, were, usual(before.sent_.all), sent_.all);
+    take(before.sent_.direct, were, usual(before.sent_.direct), sent_.direct);
+    take(before.sent_.nodes, match.nodes, nodes / double(before.sent_.nodes.size()), sent_.nodes);
+}
+
 void DetailGather::apply(const SceneChange& change) {
     hits_.apply(change);
     swept_ = sweeping_ = false;
@@ -160,6 +187,7 @@ glm::dvec3 DetailGather::gathered(const Sent& sent, std::span<const std::uint32_
         const std::uint32_t hit = hits[i];
         if (hit == Element::kNone) continue;
         const std::uint32_t element = hit & ~DetailRays::kAcross;
+        if (element == DetailHits::kGone) continue; // until it is found what the ray meets now
         const bool returns = slit && isAcross(hit);
         if (returns) {
             const Rgb rho = elementReflectance(patches_, element);

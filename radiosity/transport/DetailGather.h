@@ -45,6 +45,9 @@ public:
     explicit DetailGather(const PatchSet& patches);
     ~DetailGather();
 
+    /// Takes over what still holds of the meshing before, and shows its light until the sweeps are
+    /// done. \pre nothing was done here
+    void takeOver(const DetailGather& before, const PatchMatch& match);
     /// Takes note of an edit that has been made to the patch set. Traces nothing.
     void apply(const SceneChange& change);
     void invalidate(const Bounds& region); ///< see LitScene

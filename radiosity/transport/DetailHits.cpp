@@ -170,6 +170,7 @@ DetailRays::Moved DetailHits::movedOf(const DirtyGroups::Dirty& dirty) const {
         moved.elements.push_back(patches_.objects[object].elements);
         if (!boxes_[object].empty()) moved.boxes.push_back(boxes_[object]);
     }
+    if (!dirty.moved.empty()) moved.elements.push_back({kGone, 1});
     return moved;
 }
 

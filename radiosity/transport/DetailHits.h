@@ -7,6 +7,7 @@
 #include "radiosity/mesh/PatchSet.h"
 #include "radiosity/schedule/DirtyGroups.h"
 #include "radiosity/transport/DetailRays.h"
+#include "radiosity/transport/PatchMatch.h"
 #include "radiosity/transport/SceneChange.h"
 
 #include <array>
@@ -45,6 +46,13 @@ public:
     explicit DetailHits(const PatchSet& patches);
     DetailHits(const DetailHits&) = delete;
     DetailHits& operator=(const DetailHits&) = delete;
+
+    /// Element of a hit on something that is not as it was; its ray is dirty.
+    static constexpr std::uint32_t kGone = 0x7ffffffeu;
+    /// Takes over what is known of the meshing before, as far as it still holds; nothing, if work
+    /// was left there. The rest is dirty. \pre nothing was done here
+    /// \return one an element before: what it is called now, or kGone; empty: nothing was taken
+    std::vector<std::uint32_t> takeOver(const DetailHits& before, const PatchMatch& match);
 
     void apply(const SceneChange& change);
     void invalidate(const Bounds& region); ///< has all that crosses a box [m, world] traced anew
@@ -95,6 +103,12 @@ private:
         Bounds ways;
     };
     struct Visit;
+    void takeNodes(const DetailHits& before, std::span<const std::uint32_t> were,
+                   const std::vector<std::uint32_t>& elements);
+    void takeVertices(const DetailHits& before, std::span<const std::uint32_t> were,
+                      const std::vector<std::uint32_t>& elements);
+    bool takeVertex(const Group& before, std::uint32_t was, std::uint32_t vertex,
+                    const std::vector<std::uint32_t>& elements);
     void resize();
     Bounds boxOf(std::uint32_t object) const;
     DetailRays::Moved movedOf(const DirtyGroups::Dirty& dirty) const;

@@ -74,6 +74,7 @@ void Solver::setDirectPolicy(std::shared_ptr<SchedulingPolicy> policy) {
 void Solver::takeOver(Solver& before, const PatchMatch& match) {
     if (indirect_ && before.indirect_) indirect_->takeOver(*before.indirect_, match);
     direct_.takeOver(before.direct_, match);
+    if (detail_ && before.detail_) detail_->takeOver(*before.detail_, match);
     pace_ = before.pace_;
     begin();
 }
