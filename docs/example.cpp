@@ -28,19 +28,31 @@ int main(int argc, char** argv) try {
     options.trigger = Trigger::continuous;
     RadiosityNode lit("lit", options, makeProcessLink());
     lit.add(loaded.scene->root); // whatever stands below the node is lit
-    lit.add(shelf);
-    for (double height : {0.38, 0.42, 0.46}) {
-        shelf->setMatrix(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, height))); // an edit
+    const auto settle = [&](const char* what) {
         do { // here a program would draw: lit.lit() has the light, lit.unlit() what has none yet
             lit.update();
             for (const std::string& message : lit.takeMessages()) std::puts(message.c_str());
             std::this_thread::sleep_for(std::chrono::milliseconds(16));
         } while (!lit.state().reached(SolutionState::certified));
+        std::printf("%s:", what);
         for (const LitObject& object : lit.objects())
-            if (object.path == "/shelf")
-                std::printf("shelf at %.2f m: %.1f lux\n", height,
-                            double(object.geometry->data().direct[0].g));
-    }
+            if (object.path == "/shelf" && object.visible)
+                std::printf(" %.1f lux", double(object.geometry->data().direct[0].g));
+        std::puts("");
+    };
+    settle("empty");
+    const auto at = [](double height) {
+        return glm::translate(glm::dmat4(1), glm::dvec3(0, 0, height));
+    };
+    shelf->setMatrix(at(0.38)); // every edit of the graph is followed: something comes,
+    lit.add(shelf);
+    settle("with a shelf");
+    shelf->setMatrix(at(0.46)); // moves,
+    settle("moved");
+    shelf->setMatrix(at(0.46) * glm::scale(glm::dmat4(1), glm::dvec3(1.5, 1.5, 1))); // grows,
+    settle("resized");
+    lit.remove(shelf); // and goes
+    settle("without it");
 } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

@@ -34,7 +34,7 @@ NodePtr copyOfOne(const NodePtr& node, const std::string& name) {
 
 NodePtr copyOf(const NodePtr& node, const std::string& name,
                const std::function<void(const NodePtr& node, const NodePtr& copy)>& made) {
-    const NodePtr copy = copyOfOne(node, name);
+    NodePtr copy = copyOfOne(node, name);
     if (!copy) return nullptr;
     made(node, copy);
     if (const auto* group = dynamic_cast<const Group*>(node.get()))

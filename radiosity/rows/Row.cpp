@@ -352,6 +352,12 @@ void Row::clear() {
     entries_.clear();
 }
 
+std::size_t Row::slotFrom(std::uint32_t block) const {
+    if (indices_.empty()) return std::min<std::size_t>(block, entries_.size());
+    const auto place = std::lower_bound(indices_.begin(), indices_.end(), block);
+    return std::size_t(place - indices_.begin());
+}
+
 const RowBlock* Row::find(std::uint32_t block) const {
     if (indices_.empty()) return block < entries_.size() ? &entries_[block] : nullptr;
     const auto place = std::lower_bound(indices_.begin(), indices_.end(), block);

@@ -223,6 +223,9 @@ public:
         return indices_.empty() ? std::uint32_t(i) : indices_[i];
     }
 
+    /// The first slot whose block is not before this one.
+    std::size_t slotFrom(std::uint32_t block) const;
+
     /// Has the blocks 0 ... count - 1. \pre none was opened
     void resize(std::size_t count) { entries_.resize(count); }
     /// Has these blocks, all without entries as yet. \pre empty(), `blocks` ascending

@@ -31,6 +31,13 @@ void RowTable::listBlockers(const PatchSet& set, std::uint32_t row, std::uint32_
     });
 }
 
+void RowTable::noteAll(std::uint32_t row, std::span<const BlockerNote> notes) {
+    std::vector<std::uint64_t>& list = blockers_[row];
+    for (const auto& note : notes) list.push_back(std::uint64_t(note.object) << 32 | note.block);
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
 void RowTable::note(std::span<const BlockerNote> notes) {
     for (const auto& [row, block, object] : notes) {
         std::vector<std::uint64_t>& list = blockers_[row];

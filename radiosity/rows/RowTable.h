@@ -60,6 +60,8 @@ public:
                              const RowBlock& entries, std::vector<BlockerNote>& notes);
     /// Remembers them. Notes may repeat themselves.
     void note(std::span<const BlockerNote> notes);
+    /// Many of one row at once.
+    void noteAll(std::uint32_t row, std::span<const BlockerNote> notes);
 
     /// Some blocks of a row, first ... end - 1.
     struct Blocks {

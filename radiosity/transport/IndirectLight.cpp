@@ -145,14 +145,19 @@ void IndirectLight::takeReached(const IndirectLight& before, const PatchMatch& m
 
 /// What nodes have received through the rows as they are.
 void IndirectLight::receiveAgain() {
-    parallelFor(blockCount(), 4, [&](std::size_t first, std::size_t last) {
-        for (std::uint32_t s = 0; s < senders_.count(); ++s)
-            for (auto b = std::uint32_t(first); known_[s] && b < last; ++b)
-                if (const RowBlock* const block = table_[s].find(b))
-                    forEachReceived(*block, sent_[s], [&](int r, float factor, glm::dvec3 light) {
-                        nodes_[b * kBlock + std::size_t(r)] += light;
-                        rowSums_[b * kBlock + std::size_t(r)] += factor;
-                    });
+    parallelFor(blockCount(), 16, [&](std::size_t first, std::size_t last) {
+        for (std::uint32_t s = 0; s < senders_.count(); ++s) {
+            const Row& row = table_[s];
+            std::size_t slot = known_[s] ? row.slotFrom(std::uint32_t(first)) : row.size();
+            for (; slot < row.size() && row.blockAt(slot) < last; ++slot) {
+                const std::size_t node = row.blockAt(slot) * kBlock;
+                const RowBlock& block = row.begin()[std::ptrdiff_t(slot)];
+                forEachReceived(block, sent_[s], [&](int r, float factor, glm::dvec3 light) {
+                    nodes_[node + std::size_t(r)] += light;
+                    rowSums_[node + std::size_t(r)] += factor;
+                });
+            }
+        }
     });
 }
 

@@ -91,7 +91,7 @@ std::vector<BlockMask> RowCarrying::carry(Place place, RowTable& before, const D
             if (noted_[object]) notes.push_back({place.row, b, object});
         });
     }
-    now.note(notes);
+    now.noteAll(place.row, notes);
     before[place.was].clear();
     return anew;
 }

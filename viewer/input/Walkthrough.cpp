@@ -323,7 +323,6 @@ bool Walkthrough::performOnCamera(const Command& command) {
 
 void Walkthrough::performOnScene(const Command& command) {
     constexpr double kStop = 1.0 / 3;
-    constexpr double kTurnStep = 15 * std::numbers::pi / 180;
     switch (command.action) {
     case Action::cancel:
         if (held_)
@@ -337,6 +336,23 @@ void Walkthrough::performOnScene(const Command& command) {
     case Action::redo:
         if (!held_ && history_.redo()) changed();
         break;
+    case Action::dimmer:
+        brighten(-kStop);
+        break;
+    case Action::brighter:
+        brighten(kStop);
+        break;
+    case Action::showHidden:
+        showHidden();
+        break;
+    default:
+        performOnSelection(command);
+    }
+}
+
+void Walkthrough::performOnSelection(const Command& command) {
+    constexpr double kTurnStep = 15 * std::numbers::pi / 180;
+    switch (command.action) {
     case Action::nudge:
         nudge(NudgeDirection(command.number), command.more ? 0.1 : 0.01);
         break;
@@ -346,12 +362,6 @@ void Walkthrough::performOnScene(const Command& command) {
     case Action::turnRight:
         turnSelected(-kTurnStep);
         break;
-    case Action::dimmer:
-        brighten(-kStop);
-        break;
-    case Action::brighter:
-        brighten(kStop);
-        break;
     case Action::switchLight:
         switchLights();
         break;
@@ -360,9 +370,6 @@ void Walkthrough::performOnScene(const Command& command) {
         break;
     case Action::hide:
         removeSelected(true);
-        break;
-    case Action::showHidden:
-        showHidden();
         break;
     case Action::duplicate:
         duplicateSelected();

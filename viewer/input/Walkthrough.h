@@ -80,6 +80,7 @@ private:
     SightLine sightAt(glm::dvec2 position, glm::ivec2 picture) const;
     bool performOnCamera(const Command& command);
     void performOnScene(const Command& command);
+    void performOnSelection(const Command& command);
     void press(const ButtonEvent& button, glm::ivec2 picture);
     void release(const ButtonEvent& button);
     bool takeHold(const ButtonEvent& button, glm::ivec2 picture);

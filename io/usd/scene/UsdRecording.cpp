@@ -375,16 +375,17 @@ bool UsdRecording::Impl::leftOut(const std::string& prim) const {
 std::vector<const UsdRecording::Impl::FollowedPresence*> UsdRecording::Impl::copies() const {
     std::vector<const FollowedPresence*> written;
     const std::set<std::string> prims = followedPrims();
-    for (auto one = presences.rbegin(); one != presences.rend(); ++one) {
-        const auto& [prim, source] = std::tie(one->address.prim, one->address.source);
+    for (std::size_t i = presences.size(); i-- > 0;) {
+        const FollowedPresence& one = presences[i];
+        const auto& [prim, source] = std::tie(one.address.prim, one.address.source);
         if (source.empty()) continue;
         const auto needs = [&, &p = prim](const FollowedPresence* later) {
             return isAtOrBelow(later->address.source, p) ||
                    (isAtOrBelow(p, later->address.source) &&
                     prims.contains(counterpart(p, later->address)));
         };
-        if (!timeless || one->track.now || std::any_of(written.begin(), written.end(), needs))
-            written.push_back(&*one);
+        if (!timeless || one.track.now || std::any_of(written.begin(), written.end(), needs))
+            written.push_back(&one);
     }
     return written;
 }
