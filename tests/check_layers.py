@@ -29,6 +29,7 @@ USES = {
     "io/model": ["io/usd/layer"],
     "io/usd/shade": ["io/usd/stage", "io/image"],
     "io/usd/scene": ["io/usd/shade", "io/usd/crate", "io/model"],
+    "io/usd/recording": ["io/usd/scene"],
     "comparison": ["radiosity/process", "io/usd/scene"],
     "viewer/preview": ["radiosity/process"],
     "viewer/input": ["viewer/preview", "io/usd/scene"],
@@ -36,7 +37,7 @@ USES = {
     "viewer/shadowmaps": ["viewer/gl"],
     "viewer/overlay": ["viewer/gl"],
     "viewer/panels": ["viewer/overlay", "viewer/input"],
-    "viewer/app": ["viewer/panels", "viewer/shadowmaps"],
+    "viewer/app": ["viewer/panels", "viewer/shadowmaps", "io/usd/recording"],
     "tools": ["viewer/app", "comparison"],
 }
 # Third-party headers (by how their path begins) that a room, or some, keep to themselves, in their .cpp files.

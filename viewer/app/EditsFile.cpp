@@ -1,6 +1,6 @@
 #include "viewer/app/EditsFile.h"
 
-#include "io/usd/scene/UsdRecording.h"
+#include "io/usd/recording/UsdRecording.h"
 
 namespace penumbra {
 

@@ -1,7 +1,7 @@
 // The recording of a session, safe on disk.
 #pragma once
 
-#include "io/usd/scene/UsdRecording.h"
+#include "io/usd/recording/UsdRecording.h"
 
 #include <optional>
 #include <string>

@@ -1,153 +1,19 @@
-#include "io/usd/scene/UsdRecording.h"
+#include "io/usd/recording/UsdRecording.h"
 
 #include "io/image/AtomicFile.h"
 #include "io/usd/layer/UsdAssets.h"
 #include "io/usd/layer/UsdPrimSpecs.h"
+#include "io/usd/recording/UsdTrack.h"
 #include "io/usd/text/UsdLayerWriter.h"
-
-#include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <set>
 #include <tuple>
 
 namespace penumbra {
 
 namespace {
-
-/// The values of one attribute over time.
-class Track {
-public:
-    /// \param type as in USD text, e.g. `double3`
-    explicit Track(const char* type) : type_(type) {}
-
-    /// A value from `code` on; before it the last one held until the code before.
-    /// \param components of the C++ type that UsdValue stores
-    template <class T>
-    void put(double code, std::vector<T> components) {
-        if constexpr (std::is_arithmetic_v<T>)
-            for (T& component : components) component += T(0); // no -0
-        put(code, UsdValue{usdTypeNamed(type_), std::move(components)});
-    }
-    bool empty() const { return samples_.empty(); }
-    /// Whether it became another value, be it at its first time code.
-    bool changes() const { return changed_; }
-    std::vector<double> first() const { return samples_.front().value.numbers(); }
-
-    /// As an attribute of a prim: time samples, or one value that never changes.
-    void write(UsdPrimSpec& prim, std::string_view name) const {
-        UsdProperty& property = declareAttribute(prim, type_, name);
-        property.hasSamples = samples_.size() > 1;
-        if (property.hasSamples)
-            property.samples = samples_;
-        else
-            property.value = samples_.front().value;
-    }
-
-private:
-    void put(double code, UsdValue value) {
-        if (!samples_.empty()) {
-            const UsdTimeSample last = samples_.back();
-            if (last.value == value) return;
-            changed_ = true;
-            if (last.time == code)
-                samples_.pop_back(); // the last of several within one time code counts
-            else if (last.time < code - 1)
-                samples_.push_back({code - 1, last.value});
-        }
-        samples_.push_back({code, std::move(value)});
-    }
-
-    const char* type_;
-    std::vector<UsdTimeSample> samples_;
-    bool changed_ = false;
-};
-
-template <class Vector>
-auto listOf(const Vector& v) {
-    return std::vector{v.x, v.y, v.z};
-}
-std::vector<float> listOf(Rgb c) {
-    return {c.r, c.g, c.b};
-}
-
-/// A transform as it is written: M = translate * orient * scale.
-struct Parts {
-    glm::dvec3 translate{0.0};
-    glm::dquat orient{1, 0, 0, 0};
-    glm::dvec3 scale{1.0};
-};
-
-/// None: the axes are sheared, mirrored or flat.
-std::optional<Parts> partsOf(const glm::dmat4& matrix) {
-    Parts parts;
-    parts.translate = glm::dvec3(matrix[3]);
-    glm::dmat3 axes(matrix);
-    for (int i = 0; i < 3; ++i) {
-        parts.scale[i] = glm::length(axes[i]);
-        if (!(parts.scale[i] > 0)) return std::nullopt;
-        axes[i] /= parts.scale[i];
-        if (std::abs(parts.scale[i] - 1) < 1e-14) parts.scale[i] = 1; // of rounding alone
-    }
-    const double skew = std::abs(glm::dot(axes[0], axes[1])) +
-                        std::abs(glm::dot(axes[1], axes[2])) + std::abs(glm::dot(axes[2], axes[0]));
-    if (skew > 1e-9 || glm::determinant(axes) < 0) return std::nullopt;
-    parts.orient = glm::normalize(glm::quat_cast(axes));
-    return parts;
-}
-
-/// The transform of one prim over time, both ways it may be written.
-struct PoseTrack {
-    Track translate{"double3"}, orient{"quatd"}, scale{"double3"}, matrix{"matrix4d"};
-    bool rigid = true; ///< translate, orient and scale say it all
-
-    void put(double code, const glm::dmat4& value) {
-        const double* const first = &value[0][0]; // USD's rows are our columns
-        matrix.put(code, std::vector<double>(first, first + 16));
-        const auto parts = partsOf(value);
-        rigid = rigid && parts;
-        if (!rigid) return;
-        translate.put(code, listOf(parts->translate));
-        const glm::dquat& q = parts->orient;
-        orient.put(code, std::vector{q.w, q.x, q.y, q.z});
-        scale.put(code, listOf(parts->scale));
-    }
-    bool changes() const { return matrix.changes(); }
-
-    void write(UsdPrimSpec& prim, bool absolute) const {
-        std::vector<std::string> order;
-        const auto add = [&](const Track& track, const char* op) {
-            track.write(prim, op);
-            order.emplace_back(op);
-        };
-        if (absolute) order.emplace_back("!resetXformStack!");
-        if (rigid) {
-            add(translate, "xformOp:translate:session");
-            add(orient, "xformOp:orient:session");
-            if (scale.changes() || scale.first() != std::vector{1.0, 1.0, 1.0})
-                add(scale, "xformOp:scale:session");
-        } else {
-            add(matrix, "xformOp:transform:session");
-        }
-        addAttribute(prim, "token[]", "xformOpOrder", std::move(order)).uniform = true;
-    }
-};
-
-/// A luminance as UsdLux has it: a colour whose largest channel is 1, times an intensity.
-struct LightTrack {
-    Track colour{"color3f"}, intensity{"float"};
-    void put(double code, Rgb nits) {
-        const float most = maxChannel(nits);
-        if (most > 0)
-            colour.put(code, listOf(glm::vec3(nits.r, nits.g, nits.b) / most));
-        else if (colour.empty())
-            colour.put(code, listOf(glm::vec3(1)));
-        intensity.put(code, std::vector{most});
-    }
-    bool changes() const { return colour.changes() || intensity.changes(); }
-};
 
 const UsdListEdits<std::string>& noConnection() {
     static const UsdListEdits<std::string> kNone{{UsdListOp::explicitly, {}}};
@@ -156,7 +22,7 @@ const UsdListEdits<std::string>& noConnection() {
 
 /// A colour of a material: a constant, or the factor of a texture.
 struct ColourTrack {
-    Track constant{"color3f"}, scale{"float4"};
+    UsdTrack constant{"color3f"}, scale{"float4"};
 
     void put(double code, Rgb factor, const Texture* texture, const UsdTextureAddress& address) {
         constant.put(code, listOf(texture ? factor * texture->mean() : factor));
@@ -195,7 +61,7 @@ const char* visibilityOf(bool visible) {
 
 /// Whether something is there.
 struct PresenceTrack {
-    Track visibility{"token"};
+    UsdTrack visibility{"token"};
     bool now = true;
     void put(double code, bool isThere) {
         now = isThere;
@@ -229,8 +95,8 @@ struct UsdRecording::Impl {
     bool timeless = false; ///< edits alone
     std::string defaultPrim, camera;
     bool ownCamera = false;
-    std::vector<Followed<UsdAddresses::TransformAddress, PoseTrack>> transforms;
-    std::vector<Followed<UsdAddresses::LightAddress, LightTrack>> lights;
+    std::vector<Followed<UsdAddresses::TransformAddress, UsdPoseTrack>> transforms;
+    std::vector<Followed<UsdAddresses::LightAddress, UsdLightTrack>> lights;
     std::vector<Followed<UsdAddresses::Paint, PaintTrack>> paints;
     std::vector<UsdAddresses::Choice> choices;
     using FollowedPresence = Followed<UsdAddresses::Presence, PresenceTrack>;
@@ -240,8 +106,8 @@ struct UsdRecording::Impl {
         std::size_t transforms = 0, lights = 0, presences = 0;
     } known;
     std::vector<const Node*> hidden; ///< of what is not there
-    PoseTrack eye;
-    Track focalLength{"float"}, aperture{"float"}, clipping{"float2"};
+    UsdPoseTrack eye;
+    UsdTrack focalLength{"float"}, aperture{"float"}, clipping{"float2"};
     double lastCode = 1;
 
     void follow(const UsdAddresses& addresses);
@@ -465,13 +331,7 @@ void UsdRecording::Impl::writeLights(UsdLayer& layer) const {
     for (const auto& [address, track, revision] : lights) {
         const bool held = animated || isOfCopy(address.prim);
         if ((!track.changes() && !held) || leftOut(address.prim)) continue;
-        UsdPrimSpec& light = overAt(layer, address.prim);
-        track.colour.write(light, "inputs:color");
-        track.intensity.write(light, "inputs:intensity");
-        addFloat(light, "inputs:exposure", 0);
-        addFloat(light, "inputs:diffuse", 1);
-        addBool(light, "inputs:normalize", false);
-        addBool(light, "inputs:enableColorTemperature", false);
+        track.write(overAt(layer, address.prim));
     }
 }
 

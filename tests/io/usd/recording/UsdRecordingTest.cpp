@@ -1,5 +1,5 @@
 // A session as a layer, and back.
-#include "io/usd/scene/UsdRecording.h"
+#include "io/usd/recording/UsdRecording.h"
 
 #include "io/image/PngEncoder.h"
 #include "scenegraph/Mesh.h"
