@@ -359,15 +359,10 @@ def furnishing(display):
     display.hands("mousemove", *orange(start))
     display.hands("click", 1)
 
-    def settled():
-        view.lit()
-        rows = view.rest()  # while the scene is meshed anew the title may not say so yet
-        view.lit()
-        return rows
-
     def after(key, name):
         display.hands("key", key)
-        rows = settled()
+        view.lit()
+        rows = view.rest()
         view.shot(name)
         return len(orange_places(rows)) / pixels
 
@@ -379,13 +374,13 @@ def furnishing(display):
     check(share > 1.3, f"Shift+H shows it: {share:.2f}")
     for _ in range(3):
         display.hands("key", "ctrl+z")
-    settled()
+    view.lit()
     check(differing(still, view.exr(), 0.01) < 0.001, "undone, the light is as it was")
     display.hands("click", 1)
     share = after("Delete", "office-seat-removed")
     check(share < 0.5, f"Del removes the seat: {share:.2f}")
     display.hands("key", "ctrl+z")
-    settled()
+    view.lit()
     check(differing(still, view.exr(), 0.01) < 0.001, "undone, it stands in its light again")
     check(view.program.end() == 0, "SIGTERM: exit code 0")
     check(view.program.said() == "", "and without a word: " + view.program.said())

@@ -17,7 +17,11 @@ constexpr double kScrollTurn = 0.05;                       // sideways on a touc
 
 void MotionControls::take(const InputEvent& event, int pictureHeight) {
     state_.take(event);
-    if (const auto* move = std::get_if<MoveEvent>(&event)) {
+    if (const auto* pressed = std::get_if<KeyEvent>(&event)) {
+        const Modifiers with = state_.modifiers();
+        if (pressed->key >= key('A') && pressed->key <= key('Z') && !pressed->repeat)
+            shortcuts_.set(std::size_t(pressed->key), pressed->down && (with.control || with.alt));
+    } else if (const auto* move = std::get_if<MoveEvent>(&event)) {
         const glm::dvec2 share = move->moved / double(std::max(1, pictureHeight));
         switch (gesture_) {
         case Gesture::look:
@@ -45,6 +49,7 @@ void MotionControls::take(const InputEvent& event, int pictureHeight) {
 
 void MotionControls::release() {
     state_.release();
+    shortcuts_.reset();
     end();
 }
 
@@ -52,7 +57,7 @@ MotionInput MotionControls::takeMotion() {
     MotionInput motion = std::exchange(gathered_, {});
     if (state_.modifiers().control || state_.modifiers().alt) return motion; // a shortcut
     const auto axis = [&](char positive, char negative) {
-        return double(state_.held(key(positive))) - double(state_.held(key(negative)));
+        return double(moves(positive)) - double(moves(negative));
     };
     motion.move = {axis('D', 'A'), axis('W', 'S'), axis('E', 'Q')};
     motion.run = state_.modifiers().shift;

@@ -4,6 +4,9 @@
 #include "viewer/input/CameraMotion.h"
 #include "viewer/input/Input.h"
 
+#include <bitset>
+#include <cstddef>
+
 namespace penumbra {
 
 /// Keys and mouse movements, gathered to the MotionInput of a frame. Movement keys count by their
@@ -28,6 +31,11 @@ public:
     MotionInput takeMotion();
 
     const InputState& state() const { return state_; }
+    /// Whether a letter is held to move by: not since it was part of a shortcut, such as Ctrl+D,
+    /// of which the Ctrl may be let go first.
+    bool moves(char letter) const {
+        return state_.held(key(letter)) && !shortcuts_.test(std::size_t(letter));
+    }
 
     double sensitivity = 1; ///< of looking around: 1 turns 0.1 degrees a pixel
 
@@ -35,6 +43,7 @@ private:
     InputState state_;
     Gesture gesture_ = Gesture::none;
     MotionInput gathered_;
+    std::bitset<128> shortcuts_; ///< letters that were pressed with Ctrl or Alt, and are held
 };
 
 } // namespace penumbra

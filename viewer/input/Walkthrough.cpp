@@ -392,7 +392,7 @@ void Walkthrough::advance(double seconds) {
 bool Walkthrough::moving() const {
     const auto held = [&](const char* letters) {
         return std::any_of(letters, letters + std::char_traits<char>::length(letters),
-                           [&](char letter) { return controls_.state().held(key(letter)); });
+                           [&](char letter) { return controls_.moves(letter); });
     };
     return rig_.moving() || held("WASDEQ");
 }

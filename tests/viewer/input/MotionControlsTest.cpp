@@ -25,6 +25,26 @@ TEST(MotionControls, KeysAreReadAsLongAsTheyAreHeld) {
     EXPECT_EQ(controls.takeMotion().move, glm::dvec3(0)) << "Ctrl+D is no step to the right";
 }
 
+TEST(MotionControls, AShortcutOfWhichCtrlIsLetGoFirstIsNoStep) {
+    MotionControls controls;
+    const auto press = [&](Key which, bool down, bool repeat = false) {
+        controls.take(KeyEvent{.key = which, .down = down, .repeat = repeat}, kHeight);
+    };
+    for (const Key with : {Key::leftControl, Key::rightAlt}) {
+        press(with, true);
+        press(key('D'), true);
+        press(with, false);
+        EXPECT_EQ(controls.takeMotion().move, glm::dvec3(0));
+        press(key('D'), true, true);
+        EXPECT_EQ(controls.takeMotion().move, glm::dvec3(0)) << "the keyboard sends it again";
+        EXPECT_FALSE(controls.moves('D'));
+        press(key('D'), false);
+        press(key('D'), true);
+        EXPECT_EQ(controls.takeMotion().move, glm::dvec3(1, 0, 0)) << "pressed alone";
+        press(key('D'), false);
+    }
+}
+
 TEST(MotionControls, ThePointerTurnsTheViewOnlyDuringAGestureAndCountsOnce) {
     MotionControls controls;
     controls.take(MoveEvent{.moved = {10, 0}}, kHeight);
