@@ -11,6 +11,10 @@ void Group::accept(Visitor& visitor) const {
     visitor.visit(*this);
 }
 
+bool Group::has(const NodePtr& child) const {
+    return std::find(children_.begin(), children_.end(), child) != children_.end();
+}
+
 void Group::add(NodePtr child) {
     assert(child && child.get() != this);
     children_.push_back(std::move(child));

@@ -15,6 +15,7 @@ public:
     void accept(Visitor& visitor) const override;
 
     const std::vector<NodePtr>& children() const { return children_; }
+    bool has(const NodePtr& child) const;
     void add(NodePtr child);
     /// Before the child that has this place now; at the end if there is none.
     void insert(std::size_t place, NodePtr child);

@@ -1,5 +1,6 @@
 #include "viewer/input/Furnishing.h"
 
+#include "io/usd/layer/UsdPath.h"
 #include "scenegraph/Copy.h"
 #include "scenegraph/Find.h"
 
@@ -46,10 +47,6 @@ std::string primOf(const UsdAddresses& addresses, const NodePtr& node) {
     return prim;
 }
 
-bool isAtOrBelow(const std::string& prim, const std::string& above) {
-    return prim.starts_with(above) && (prim.size() == above.size() || prim[above.size()] == '/');
-}
-
 /// Seat: Seat_copy, Seat_copy2, ...; of Seat_copy likewise.
 std::string freeName(const UsdAddresses& addresses, const Group& parent, const std::string& name) {
     const std::string suffix = "_copy";
@@ -72,11 +69,6 @@ std::string freeName(const UsdAddresses& addresses, const Group& parent, const s
     return free;
 }
 
-/// What is before the last name.
-std::string above(const std::string& path) {
-    return path.substr(0, path.rfind('/'));
-}
-
 void note(UsdAddresses& addresses, UsdAddresses::Presence presence) {
     const auto same = [&](const auto& known) { return known.node == presence.node; };
     if (std::none_of(addresses.presences.begin(), addresses.presences.end(), same))
@@ -87,8 +79,8 @@ void note(UsdAddresses& addresses, UsdAddresses::Presence presence) {
 void noteCopied(UsdAddresses& addresses, const NodePtr& node, const NodePtr& copy,
                 const std::string& from, const std::string& to) {
     const std::string prim = primOf(addresses, node);
-    if (prim.empty() || !isAtOrBelow(prim, from)) return;
-    const std::string place = to + prim.substr(from.size());
+    if (prim.empty() || !isUsdPathWithin(prim, from)) return;
+    const std::string place = movedUsdPath(prim, from, to);
     if (const auto transform = std::dynamic_pointer_cast<Transform>(copy))
         addresses.transforms.push_back({transform, place});
     if (const auto light = std::dynamic_pointer_cast<Light>(copy))
@@ -118,7 +110,8 @@ std::optional<Duplicate> duplicateOf(LoadedScene& loaded, const Selection& selec
     const std::string last = thing->path.substr(thing->path.rfind('/') + 1);
     const std::string name = freeName(addresses, *parent, last);
     const std::string prim = primOf(addresses, thing->node);
-    const std::string copyPrim = prim.empty() ? std::string() : above(prim) + "/" + name;
+    const std::string copyPrim =
+        prim.empty() ? std::string() : usdChildPath(usdParentPath(prim), name);
 
     std::shared_ptr<Transform> copy;
     std::vector<std::pair<NodePtr, NodePtr>> copied;
@@ -140,7 +133,7 @@ std::optional<Duplicate> duplicateOf(LoadedScene& loaded, const Selection& selec
         for (const auto& [one, other] : copied) noteCopied(addresses, one, other, prim, copyPrim);
     note(addresses, {parent, copy, copyPrim, prim});
     return Duplicate{{parent, copy, parent->children().size(), false, true, false},
-                     above(thing->path) + "/" + name};
+                     usdChildPath(usdParentPath(thing->path), name)};
 }
 
 } // namespace penumbra

@@ -23,12 +23,8 @@ void put(const PaintEdit& edit, const PaintEdit::Paint& paint) {
     if (material.emission() != paint.emission) material.setEmission(paint.emission);
 }
 
-bool isThere(const PresenceEdit& edit) {
-    const auto& children = edit.parent->children();
-    return std::find(children.begin(), children.end(), edit.node) != children.end();
-}
 void put(const PresenceEdit& edit, bool present) {
-    if (present == isThere(edit)) return;
+    if (present == edit.parent->has(edit.node)) return;
     if (present)
         edit.parent->insert(edit.place, edit.node);
     else

@@ -101,4 +101,12 @@ std::string usdChildPath(std::string_view parent, std::string_view name) {
     return path += name;
 }
 
+bool isUsdPathWithin(std::string_view path, std::string_view above) {
+    return path.starts_with(above) && (path.size() == above.size() || path[above.size()] == '/');
+}
+
+std::string movedUsdPath(std::string_view path, std::string_view from, std::string_view to) {
+    return std::string(to).append(path.substr(from.size()));
+}
+
 } // namespace penumbra

@@ -34,5 +34,9 @@ std::string_view usdPropertyPart(std::string_view path);
 /// `/a` of `/a/b`; `/` of `/a` and of `/`.
 std::string_view usdParentPath(std::string_view path);
 std::string usdChildPath(std::string_view parent, std::string_view name);
+/// Whether a prim is another one or below it. \param above not the root
+bool isUsdPathWithin(std::string_view path, std::string_view above);
+/// The path of a prim within `from`, were it within `to`.
+std::string movedUsdPath(std::string_view path, std::string_view from, std::string_view to);
 
 } // namespace penumbra

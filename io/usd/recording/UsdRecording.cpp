@@ -2,6 +2,7 @@
 
 #include "io/image/AtomicFile.h"
 #include "io/usd/layer/UsdAssets.h"
+#include "io/usd/layer/UsdPath.h"
 #include "io/usd/layer/UsdPrimSpecs.h"
 #include "io/usd/recording/UsdTrack.h"
 #include "io/usd/text/UsdLayerWriter.h"
@@ -51,10 +52,6 @@ struct PaintTrack {
     bool changes() const { return diffuse.changes() || emissive.changes(); }
 };
 
-bool isThere(const UsdAddresses::Presence& presence) {
-    const auto& children = presence.parent->children();
-    return std::find(children.begin(), children.end(), presence.node) != children.end();
-}
 const char* visibilityOf(bool visible) {
     return visible ? "inherited" : "invisible";
 }
@@ -69,13 +66,9 @@ struct PresenceTrack {
     }
 };
 
-bool isAtOrBelow(const std::string& prim, const std::string& above) {
-    return prim.starts_with(above) && (prim.size() == above.size() || prim[above.size()] == '/');
-}
-
 /// Where something that is part of a thing is in a copy of it.
 std::string counterpart(const std::string& prim, const UsdAddresses::Presence& copy) {
-    return copy.prim + prim.substr(copy.source.size());
+    return movedUsdPath(prim, copy.source, copy.prim);
 }
 
 /// Something of the scene with what became of it.
@@ -115,10 +108,11 @@ struct UsdRecording::Impl {
     void sample(double code, const glm::dmat4& cameraToWorld, const Lens& lens);
     bool isOfCopy(const std::string& prim) const;
     bool leftOut(const std::string& prim) const;
-    std::vector<const FollowedPresence*> copies() const;
+    std::vector<const FollowedPresence*> copies(const std::set<std::string>& prims) const;
     std::set<std::string> followedPrims() const;
     void writeCopy(UsdLayer& layer, const FollowedPresence& copy) const;
-    void matchCopy(UsdLayer& layer, const UsdAddresses::Presence& copy) const;
+    void matchCopy(UsdLayer& layer, const UsdAddresses::Presence& copy,
+                   const std::set<std::string>& prims) const;
     void writePresences(UsdLayer& layer) const;
     void writePlaces(UsdLayer& layer) const;
     void writeLights(UsdLayer& layer) const;
@@ -174,7 +168,7 @@ void UsdRecording::Impl::sample(double code, bool all) {
     for (auto& [address, track, revision] : presences)
         if (all || revision != address.parent->revision()) {
             revision = address.parent->revision();
-            track.put(code, isThere(address));
+            track.put(code, address.parent->has(address.node));
         }
 }
 
@@ -225,7 +219,7 @@ void UsdRecording::takeEdits(std::span<const Node* const> hidden) {
 
 bool UsdRecording::Impl::isOfCopy(const std::string& prim) const {
     return std::any_of(presences.begin(), presences.end(), [&](const auto& copy) {
-        return !copy.address.source.empty() && isAtOrBelow(prim, copy.address.prim);
+        return !copy.address.source.empty() && isUsdPathWithin(prim, copy.address.prim);
     });
 }
 
@@ -233,21 +227,22 @@ bool UsdRecording::Impl::isOfCopy(const std::string& prim) const {
 bool UsdRecording::Impl::leftOut(const std::string& prim) const {
     return timeless && std::any_of(presences.begin(), presences.end(), [&](const auto& copy) {
                return !copy.address.source.empty() && !copy.track.now &&
-                      isAtOrBelow(prim, copy.address.prim);
+                      isUsdPathWithin(prim, copy.address.prim);
            });
 }
 
 /// The copies that are written: those that are there, and what they are copies of.
-std::vector<const UsdRecording::Impl::FollowedPresence*> UsdRecording::Impl::copies() const {
+/// \param prims followedPrims()
+std::vector<const UsdRecording::Impl::FollowedPresence*>
+UsdRecording::Impl::copies(const std::set<std::string>& prims) const {
     std::vector<const FollowedPresence*> written;
-    const std::set<std::string> prims = followedPrims();
     for (std::size_t i = presences.size(); i-- > 0;) {
         const FollowedPresence& one = presences[i];
         const auto& [prim, source] = std::tie(one.address.prim, one.address.source);
         if (source.empty()) continue;
         const auto needs = [&, &p = prim](const FollowedPresence* later) {
-            return isAtOrBelow(later->address.source, p) ||
-                   (isAtOrBelow(p, later->address.source) &&
+            return isUsdPathWithin(later->address.source, p) ||
+                   (isUsdPathWithin(p, later->address.source) &&
                     prims.contains(counterpart(p, later->address)));
         };
         if (!timeless || one.track.now || std::any_of(written.begin(), written.end(), needs))
@@ -276,14 +271,14 @@ void UsdRecording::Impl::writeCopy(UsdLayer& layer, const FollowedPresence& copy
 }
 
 /// A reference brings what its target has now: the copy has what that had when it was made.
-void UsdRecording::Impl::matchCopy(UsdLayer& layer, const UsdAddresses::Presence& copy) const {
-    const std::set<std::string> prims = followedPrims();
+void UsdRecording::Impl::matchCopy(UsdLayer& layer, const UsdAddresses::Presence& copy,
+                                   const std::set<std::string>& prims) const {
     const auto presenceOf = [&](const std::string& prim) {
         return std::find_if(presences.begin(), presences.end(),
                             [&](const auto& one) { return one.address.prim == prim; });
     };
     for (const std::string& prim : prims) {
-        if (prim == copy.source || !isAtOrBelow(prim, copy.source)) continue;
+        if (prim == copy.source || !isUsdPathWithin(prim, copy.source)) continue;
         const std::string same = counterpart(prim, copy);
         if (presenceOf(same) != presences.end()) continue; // is written by itself
         const bool has = prims.contains(same);
@@ -296,8 +291,11 @@ void UsdRecording::Impl::matchCopy(UsdLayer& layer, const UsdAddresses::Presence
 }
 
 void UsdRecording::Impl::writePresences(UsdLayer& layer) const {
-    for (const FollowedPresence* const copy : copies()) writeCopy(layer, *copy);
-    for (const FollowedPresence* const copy : copies()) matchCopy(layer, copy->address);
+    const std::set<std::string> prims = followedPrims();
+    for (const FollowedPresence* const copy : copies(prims)) {
+        writeCopy(layer, *copy);
+        matchCopy(layer, copy->address, prims);
+    }
     for (const auto& [address, track, revision] : presences) {
         const bool untold = address.prim.empty() || !address.source.empty(); // see missed()
         if (untold || !track.visibility.changes() || leftOut(address.prim)) continue;
@@ -323,8 +321,7 @@ void UsdRecording::Impl::writePlaces(UsdLayer& layer) const {
     }
     if (timeless) return;
     for (const auto& [node, prim] : choices)
-        addText(overAt(layer, prim), "token", "visibility",
-                node->visible() ? "inherited" : "invisible");
+        addText(overAt(layer, prim), "token", "visibility", visibilityOf(node->visible()));
 }
 
 void UsdRecording::Impl::writeLights(UsdLayer& layer) const {

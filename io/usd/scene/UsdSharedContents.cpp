@@ -1,5 +1,7 @@
 #include "io/usd/scene/UsdSharedContents.h"
 
+#include "io/usd/layer/UsdPath.h"
+
 #include <type_traits>
 #include <vector>
 
@@ -22,9 +24,8 @@ std::uint32_t UsdSharedContents::originalOf(std::uint32_t instance) {
 std::string UsdSharedContents::inOriginal(const std::string& path, std::uint32_t copy,
                                           std::uint32_t original) const {
     const std::string& from = stage_.prims()[copy].path;
-    const bool below =
-        path.starts_with(from) && (path.size() == from.size() || path[from.size()] == '/');
-    return below ? stage_.prims()[original].path + path.substr(from.size()) : path;
+    return isUsdPathWithin(path, from) ? movedUsdPath(path, from, stage_.prims()[original].path)
+                                       : path;
 }
 
 // Breadth first, each prim's number of children with it: equal keys mean equal trees.
