@@ -77,7 +77,7 @@ void total(benchmark::State& state, const Move& move) {
         const SolveStatistics scratch = run.statistics();
         auto& counters = state.counters;
         counters["elements"] = double(run.lit().patches().elements.size());
-        counters["patches"] = double(run.lit().patches().patches.size());
+        counters["patches"] = double(run.lit().patches().patchCount());
         counters["scratch_s"] = run.firstCertified();
         counters["scratch_settled_s"] = run.firstSolve().wall;
         counters["scratch_shots"] = double(scratch.shots);
@@ -136,7 +136,7 @@ void play(benchmark::State& state, const std::string& layer, bool directOnly) {
         }
         const double all = playing.wall();
         auto& counters = state.counters;
-        counters["patches"] = double(lit.patches().patches.size());
+        counters["patches"] = double(lit.patches().patchCount());
         counters["elements"] = double(lit.patches().elements.size());
         counters["updates"] = double(seconds.size());
         counters["updates_per_s"] = double(seconds.size()) / all;

@@ -38,7 +38,7 @@ struct Room {
         for (std::uint32_t n = 0; n < set.nodes.size(); ++n)
             nodeKeys.push_back(addressOfNode(set, n));
         for (std::uint32_t o = 0; o < set.objects.size() && moved.empty(); ++o) {
-            if (!set.objects[o].movable) continue;
+            if (boundsOf(set.rayMeshes[o]).diagonal() > 0.5f * set.bounds.diagonal()) continue;
             moved.push_back({o, true, boundsOf(set.rayMeshes[o])});
             rays.move(ObjectId{o}, set.rayMeshes[o].vertices); // to where it is: from now on
             rays.commit();                                     // it can be traced alone

@@ -145,7 +145,7 @@ double unwatchedDirty(EditPlayer& player, DirtySetKind dirty) {
 void describe(EditPlayer& player, ComparisonResult& result) {
     const PatchSet& patches = player.lit().patches();
     result.elements = patches.elements.size();
-    result.patches = patches.patches.size();
+    result.patches = patches.patchCount();
     result.lights = patches.emitters.size();
     result.truth = player.picture();
     result.pixelsPerDegree = player.pixelsPerDegree();

@@ -78,19 +78,18 @@ private:
     struct Pending {
         std::string path = "/";
         glm::dmat4 toWorld{1.0};
-        bool movable = false;
-        int hidden = 0; ///< hiding switches above it
+        bool movable = false; ///< only what is movable begins an object within it
+        int hidden = 0;       ///< hiding switches above it
         ObjectId id;
     };
 
-    /// Hidden, and not as a movable object as a whole.
-    bool leftOut() const { return hidden_ > (pending_.movable ? pending_.hidden : 0); }
+    /// Hidden, and not with its object as a whole.
+    bool leftOut() const { return hidden_ > pending_.hidden; }
 
     ObjectId currentObject() {
         if (!pending_.id.valid()) {
             pending_.id.value = std::uint32_t(out_.objects.size());
-            out_.objects.push_back(
-                {pending_.path, pending_.toWorld, pending_.movable, pending_.hidden == 0});
+            out_.objects.push_back({pending_.path, pending_.toWorld, pending_.hidden == 0});
         }
         return pending_.id;
     }

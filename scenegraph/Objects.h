@@ -22,8 +22,7 @@ class Camera;
 struct Object {
     std::string path;        ///< of the transform that begins it
     glm::dmat4 toWorld{1.0}; ///< its frame
-    bool movable = false;
-    bool visible = true; ///< false only of movable objects, see placeScene()
+    bool visible = true;     ///< false if a Switch above its transform hides all of it
 };
 
 /// A node at one path, with its transform. The pointers live as long as the scene.
@@ -48,8 +47,8 @@ struct PlacedScene {
 /// Lists a scene. An object begins at a Transform that is movable or said to begin one and,
 /// outside of any object, at a Transform that directly holds a mesh or a light (through plain
 /// groups, not through further Transforms). Objects without geometry are not listed, nor is what a
-/// Switch hides, except for whole movable objects: they are listed as not visible, since they may
-/// come back.
+/// Switch hides, except for whole objects: they are listed as not visible, since they may come
+/// back.
 PlacedScene placeScene(const Scene& scene);
 
 /// Whether a scene has anything that may give light, switched on or not: a light, or a material

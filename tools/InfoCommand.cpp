@@ -107,13 +107,12 @@ void printTextures(const PlacedScene& placed) {
                images.size() == 1 ? "" : "s", width, height, double(bytes) / 1e6);
 }
 
-/// What may be moved, hidden and shown without lighting everything anew.
-void printMovables(const PlacedScene& placed) {
+/// What may be moved, hidden and shown, each as a whole.
+void printObjects(const PlacedScene& placed) {
     constexpr std::size_t kMost = 8; // lines
     std::vector<std::string> paths;
     for (const Object& object : placed.objects)
-        if (object.movable) paths.push_back(object.path + (object.visible ? "" : " (hidden)"));
-    fmt::print("  {} movable objects\n", paths.size());
+        paths.push_back(object.path + (object.visible ? "" : " (hidden)"));
     for (std::size_t i = 0; i < std::min(paths.size(), kMost); ++i) fmt::print("  {}\n", paths[i]);
     if (paths.size() > kMost)
         fmt::print("  and {} more (--verbose lists all objects)\n", paths.size() - kMost);
@@ -154,7 +153,7 @@ void describeScene(const SolveSettings& command) {
     printFrames(loaded);
     printMeshes(placed);
     printTextures(placed);
-    printMovables(placed);
+    printObjects(placed);
     printSizes(command, loaded, placed);
     fmt::print("  {} lights\n", placed.lights.size());
     printLights(placed);
@@ -162,8 +161,7 @@ void describeScene(const SolveSettings& command) {
     for (const auto& camera : placed.cameras) fmt::print("  {}\n", camera.path);
     if (command.verbose)
         for (std::size_t i = 0; i < placed.objects.size(); ++i)
-            fmt::print("  object {:>4} {}{}\n", i, placed.objects[i].path,
-                       placed.objects[i].movable ? " (movable)" : "");
+            fmt::print("  object {:>4} {}\n", i, placed.objects[i].path);
     finishStandardOutput();
     reportDiagnostics(loaded.diagnostics, command.verbose);
 }

@@ -253,7 +253,7 @@ void SceneSolution::light() {
             stderr,
             "%s: warning: so many patches (%zu) that relaxation was stopped after %llu shots; an "
             "ambient estimate replaces the rest (--residual goes on to the end)\n",
-            settings_.scene.c_str(), patches().patches.size(),
+            settings_.scene.c_str(), patches().patchCount(),
             static_cast<unsigned long long>(s.shots));
 }
 

@@ -87,7 +87,7 @@ void run(SolveCommand command) {
     const PatchSet& patches = solution.patches();
     fmt::print(stderr,
                "{} patches, {} elements, {} emitters; {:.1f} M rays, {} shots in {:.1f} s; {}\n",
-               patches.patches.size(), patches.elements.size(), patches.emitters.size(),
+               patches.patchCount(), patches.elements.size(), patches.emitters.size(),
                double(s.direct.rays.total() + s.indirect.rays.total()) * 1e-6, s.shots,
                s.direct.seconds + s.indirect.seconds, certificateSummary(s));
 }

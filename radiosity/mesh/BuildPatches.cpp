@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <span>
 
@@ -29,7 +30,7 @@ struct Surface {
     const Light* light = nullptr;
     glm::dmat4 toShape{1.0};
     double area = 0;       ///< of all faces [m^2]
-    bool backdrop = false; ///< see Backdrops.h; of the fixed part alone
+    bool backdrop = false; ///< see Backdrops.h
 };
 
 std::uint64_t keyOf(const std::string& path) { // FNV-1a, 64 bits
@@ -43,13 +44,10 @@ void listObjects(const PlacedScene& scene, PatchSet& out) {
         ObjectPart part;
         part.path = object.path;
         part.key = keyOf(object.path);
-        part.movable = object.movable;
         part.present = object.visible;
-        if (object.movable) {
-            const Placement placement = placementOf(object.toWorld);
-            part.pose = placement.pose;
-            part.stretch = placement.stretch;
-        }
+        const Placement placement = placementOf(object.toWorld);
+        part.pose = placement.pose;
+        part.stretch = placement.stretch;
         out.objects.push_back(std::move(part));
     }
     out.rayMeshes.resize(out.objects.size());
@@ -62,17 +60,22 @@ double areaOf(const SurfaceMesh& mesh) {
     return area;
 }
 
-/// Finds the backdrops. Movable things take no part: it holds wherever they are.
-void markBackdrops(std::vector<Surface>& surfaces, const PatchSet& set) {
+/// Finds how large a surface is a backdrop: as the scene stands now. No other time asks for that
+/// again, so that what comes or moves later does not change how all else is meshed.
+double findBackdropArea(const std::vector<Surface>& surfaces, const PatchSet& set) {
     std::vector<PieceSize> pieces(surfaces.size());
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
-        surfaces[i].area = areaOf(surfaces[i].mesh);
-        if (set.objects[surfaces[i].object.value].movable) continue;
+        const ObjectPart& part = set.objects[surfaces[i].object.value];
+        if (!part.present) continue;
         pieces[i].area = surfaces[i].area;
-        for (glm::vec3 point : surfaces[i].mesh.points) pieces[i].bounds.add(point);
+        for (glm::vec3 point : surfaces[i].mesh.points)
+            pieces[i].bounds.add(part.pose.point(point));
     }
     const std::vector<std::uint8_t> backdrops = backdropsAmong(pieces);
-    for (std::size_t i = 0; i < surfaces.size(); ++i) surfaces[i].backdrop = backdrops[i] != 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < surfaces.size(); ++i)
+        if (backdrops[i]) least = std::min(least, surfaces[i].area);
+    return least;
 }
 
 /// The surfaces, object by object.
@@ -80,7 +83,7 @@ std::vector<Surface> placeSurfaces(const PlacedScene& scene, const PatchSet& set
                                    std::vector<MeshData>& lightMeshes) {
     const auto toShape = [&](const auto& placed) {
         const ObjectPart& part = set.objects[placed.object.value];
-        return part.movable ? glm::dmat4(part.stretch) * placed.toObject : placed.toWorld;
+        return glm::dmat4(part.stretch) * placed.toObject;
     };
     std::vector<Surface> surfaces;
     for (const Placed<Mesh>& mesh : scene.meshes)
@@ -94,7 +97,7 @@ std::vector<Surface> placeSurfaces(const PlacedScene& scene, const PatchSet& set
     }
     std::stable_sort(surfaces.begin(), surfaces.end(),
                      [](const Surface& a, const Surface& b) { return a.object < b.object; });
-    markBackdrops(surfaces, set);
+    for (Surface& surface : surfaces) surface.area = areaOf(surface.mesh);
     return surfaces;
 }
 
@@ -289,7 +292,8 @@ void addEmitters(const Surface& surface, const Tessellation& tessellation, Built
 
 /// Notes the faces that may hide a room from the next.
 void addWalls(const Surface& surface, PatchSet& set) {
-    if (set.objects[surface.object.value].movable || surface.mesh.subdivided()) return;
+    if (surface.mesh.subdivided()) return;
+    return; // walls: merged from their branch
     const double least = 4.0 * set.patchSize * set.patchSize; // [m^2]
     for (const SurfaceFace& face : surface.mesh.faces) {
         const auto corners = surface.mesh.cornersOf(face);
@@ -358,7 +362,12 @@ void refuseTooMuch(const PatchSet& set, const std::vector<Surface>& surfaces) {
 /// In a larger building people stand as near to things as in a room [m].
 constexpr float kRoomPatch = 0.5f;
 
-MeshingOptions resolved(MeshingOptions sizes, SceneArea area) {
+/// Fills in what follows from the scene, and marks its backdrops.
+MeshingOptions resolved(MeshingOptions sizes, const PatchSet& set,
+                        std::vector<Surface>& surfaces) {
+    if (!(sizes.backdropArea > 0)) sizes.backdropArea = findBackdropArea(surfaces, set);
+    for (Surface& surface : surfaces) surface.backdrop = surface.area >= sizes.backdropArea;
+    const SceneArea area = areaOf(surfaces);
     if (!(sizes.patchSize > 0)) {
         sizes.patchSize = defaultPatchSize(area.all);
         if (sizes.patchSize > kRoomPatch) sizes.patchSize = defaultPatchSize(area.within);
@@ -369,15 +378,16 @@ MeshingOptions resolved(MeshingOptions sizes, SceneArea area) {
 }
 
 /// Sizes, and what follows from them and from how far things reach.
-void setSizes(const std::vector<Surface>& surfaces, const MeshingOptions& options, PatchSet& out) {
+void setSizes(std::vector<Surface>& surfaces, const MeshingOptions& options, PatchSet& out) {
     for (const Surface& surface : surfaces) {
         const Pose& pose = out.objects[surface.object.value].pose;
         for (glm::vec3 point : surface.mesh.points) out.bounds.add(pose.point(point));
         if (!surface.light) out.polygons += surface.mesh.used;
     }
-    const MeshingOptions sizes = resolved(options, areaOf(surfaces));
+    const MeshingOptions sizes = resolved(options, out, surfaces);
     out.patchSize = sizes.patchSize;
     out.elementSize = sizes.elementSize;
+    out.backdropArea = sizes.backdropArea;
     refuseTooMuch(out, surfaces);
     out.skin = skinOf(out.patchSize);
     out.farthest = magnitude(out.bounds);
@@ -419,7 +429,8 @@ MeshingOptions resolvedSizes(const PlacedScene& scene, MeshingOptions sizes) {
     PatchSet set;
     listObjects(scene, set);
     std::vector<MeshData> lightMeshes;
-    return resolved(sizes, areaOf(placeSurfaces(scene, set, lightMeshes)));
+    std::vector<Surface> surfaces = placeSurfaces(scene, set, lightMeshes);
+    return resolved(sizes, set, surfaces);
 }
 
 float defaultPatchSize(double area) {

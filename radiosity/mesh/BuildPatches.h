@@ -18,12 +18,15 @@ struct MeshingOptions {
     float patchSize =
         0; ///< longest edge of a patch [m]; 0: follows the scene, see defaultPatchSize()
     float elementSize = 0; ///< longest edge of an element [m]; 0: an eighth of a patch
+    /// Surfaces of this area, and larger ones, are backdrops (see Backdrops.h) [m^2]; 0: found when
+    /// the scene is meshed.
+    double backdropArea = 0;
 };
 
 /// The sizes that a scene was meshed with. A scene in which things have moved is meshed alike with
 /// these, but perhaps not with sizes that follow the scene.
 inline MeshingOptions sizesOf(const PatchSet& set) {
-    return {set.patchSize, set.elementSize};
+    return {set.patchSize, set.elementSize, set.backdropArea};
 }
 
 /// The node that a colour or an exitance was taken from; one of the two. Owned by the scene.
@@ -43,10 +46,9 @@ struct BuiltPatches {
     std::vector<std::string> warnings; ///< one line each, for people
 };
 
-/// Meshes `scene`: surfaces are cut into patches and elements, corners of the fixed part that lie
-/// under or inside of another piece of it are told from those that lie free, lights become
-/// emitters. Movable objects are meshed as if nothing touched them; a Coverage sees to what they
-/// touch. \throws Error if the scene is too wide to trace rays in, or would make too many elements
+/// Meshes `scene`: surfaces are cut into patches and elements, lights become emitters. Each object
+/// is meshed in a frame of its own, as if nothing touched it, and brought to its pose; a Coverage
+/// sees to what it touches. \throws Error if the scene is too wide to trace rays in, or would make too many elements
 BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& options = {});
 
 /// The same sizes, with those that follow the scene filled in: what buildPatches() would choose.

@@ -113,89 +113,12 @@ Fans fansOf(const std::vector<Element>& elements, std::size_t vertexCount) {
     return fans;
 }
 
-namespace {
-
-/// A wall may stand exactly where elements meet: then no corner is covered, but elements on its two
-/// sides must not share theirs.
-void partAtWalls(const RayScene& rays, const ContactResolver& resolver,
-                 std::span<const std::uint8_t> fixed, const std::vector<Element>& elements,
-                 const Fans& fans, std::vector<ContactResolver::Result>& results) {
-    parallelFor(fans.first.size() - 1, 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t v = begin; v < end; ++v) {
-            bool anchored = false;
-            glm::vec3 anchor(0);
-            for (std::uint32_t i = fans.first[v]; i < fans.first[v + 1]; ++i) {
-                const std::uint32_t e = fans.corners[i] / 4, k = fans.corners[i] % 4;
-                ContactResolver::Result& result = results[e];
-                if (!fixed[e] || !result.free || result.moved[k]) continue;
-                const glm::vec3 corner = resolver.cornerOf(elements[e], k);
-                if (!anchored) {
-                    anchor = corner;
-                    anchored = true;
-                } else if (rays.occluded(anchor, corner)) {
-                    result.moved[k] = true; // each (element, corner) belongs to one vertex: no race
-                    result.position[k] = corner;
-                }
-            }
-        }
-    });
-}
-
-/// Moves the receivers of shared vertices towards the mean middle of their elements: not at all
-/// inside of a flat surface, a hair inwards at its border.
-void pullReceiversIn(float skin, const std::vector<Element>& elements, const Fans& fans,
-                     const std::vector<ContactResolver::Result>& results,
-                     std::vector<Vertex>& vertices) {
-    parallelFor(vertices.size(), 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t v = begin; v < end; ++v) {
-            glm::vec3 sum(0);
-            float count = 0;
-            for (std::uint32_t i = fans.first[v]; i < fans.first[v + 1]; ++i) {
-                const std::uint32_t e = fans.corners[i] / 4;
-                if (!results[e].free || results[e].moved[fans.corners[i] % 4]) continue;
-                const std::size_t corners = elements[e].isTriangle() ? 3 : 4;
-                for (std::size_t k = 0; k < corners; ++k)
-                    sum += vertices[elements[e].vertices[k]].position / float(corners);
-                count += 1;
-            }
-            Vertex& vertex = vertices[v];
-            const glm::vec3 middle = count > 0 ? sum / count : vertex.position;
-            const glm::vec3 in = glm::mix(vertex.position, middle, kPullIn);
-            const float hover = hoverAt(skin, in);
-            // Along a ridge the middle lies below the surface: what is pulled there must not sink
-            // into its own object.
-            const float sunk = glm::dot(vertex.position - in, vertex.receiver.normal);
-            const float lift = sunk > 0.5f * hover ? hover + sunk : hover;
-            vertex.receiver.position = in + lift * vertex.receiver.normal;
-        }
-    });
-}
-
-/// Gives every moved corner a vertex of its own.
-void makePrivate(const std::vector<ContactResolver::Result>& results,
-                 std::vector<Element>& elements, std::vector<Vertex>& vertices) {
-    for (std::size_t e = 0; e < elements.size(); ++e) {
-        Element& element = elements[e];
-        const std::size_t corners = element.isTriangle() ? 3 : 4;
-        for (std::size_t k = 0; k < corners; ++k) {
-            if (!results[e].moved[k]) continue;
-            Vertex own = vertices[element.vertices[k]];
-            own.receiver.position = results[e].position[k];
-            element.vertices[k] = std::uint32_t(vertices.size());
-            vertices.push_back(own);
-        }
-        if (corners == 3) element.vertices[3] = element.vertices[2];
-    }
-}
-
-} // namespace
-
 float coverDistance(float elementSize, float hover) {
     return std::max(kCover * elementSize, 4 * hover);
 }
 
 Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point, glm::vec3 normal,
-          float cover, ObjectId* by) {
+          float cover) {
     // Not quite along the normal, so as not to run along edges that stand on the surface.
     const glm::vec3 direction = normal + glm::vec3(0.0123f, 0.0234f, -0.0171f);
     std::vector<RayHit> hits;
@@ -206,10 +129,7 @@ Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point
     std::vector<std::pair<ObjectId, int>> left;
     Lie lie = Lie::free;
     for (const RayHit& hit : hits) {
-        if (hit.distance < cover) {
-            if (by && (lie == Lie::free || *by < hit.object)) *by = hit.object;
-            lie = Lie::covered;
-        }
+        if (hit.distance < cover) lie = Lie::covered;
         if (!meshes[hit.object.value].solid[hit.triangle]) continue;
         const int side = glm::dot(hit.normal, direction) > 0 ? 1 : -1;
         const auto known = std::find_if(left.begin(), left.end(),
@@ -219,34 +139,35 @@ Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point
         else
             known->second += side;
     }
-    for (const auto& [object, times] : left) {
-        if (times <= 0) continue;
-        if (by && (lie != Lie::buried || *by < object)) *by = object;
-        lie = Lie::buried;
-    }
+    for (const auto& [object, times] : left)
+        if (times > 0) lie = Lie::buried;
     return lie;
 }
 
-std::vector<std::uint8_t> resolveContacts(const RayScene& rays, std::span<const RayMesh> meshes,
-                                          float skin, std::span<const std::uint8_t> fixed,
-                                          std::vector<Element>& elements,
-                                          std::vector<Vertex>& vertices) {
-    std::vector<ContactResolver::Result> results(elements.size());
-    const ContactResolver resolver(rays, meshes, skin, vertices);
-    parallelFor(elements.size(), 4096, [&](std::size_t first, std::size_t last) {
-        for (std::size_t e = first; e < last; ++e)
-            if (fixed[e])
-                results[e] = resolver.examine(elements[e]);
-            else
-                results[e].free = true;
-    });
+void pullReceiversIn(float skin, const std::vector<Element>& elements,
+                     std::vector<Vertex>& vertices) {
     const Fans fans = fansOf(elements, vertices.size());
-    partAtWalls(rays, resolver, fixed, elements, fans, results);
-    pullReceiversIn(skin, elements, fans, results, vertices);
-    makePrivate(results, elements, vertices);
-    std::vector<std::uint8_t> free(elements.size());
-    for (std::size_t e = 0; e < elements.size(); ++e) free[e] = results[e].free;
-    return free;
+    parallelFor(vertices.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+            glm::vec3 sum(0);
+            for (const std::uint32_t corner : fans.at(v)) {
+                const Element& element = elements[corner / 4];
+                const std::size_t corners = element.isTriangle() ? 3 : 4;
+                for (std::size_t k = 0; k < corners; ++k)
+                    sum += vertices[element.vertices[k]].position / float(corners);
+            }
+            Vertex& vertex = vertices[v];
+            const auto count = float(fans.at(v).size());
+            const glm::vec3 middle = count > 0 ? sum / count : vertex.position;
+            const glm::vec3 in = glm::mix(vertex.position, middle, kPullIn);
+            const float hover = hoverAt(skin, in);
+            // Along a ridge the middle lies below the surface: what is pulled there must not sink
+            // into its own object.
+            const float sunk = glm::dot(vertex.position - in, vertex.receiver.normal);
+            const float lift = sunk > 0.5f * hover ? hover + sunk : hover;
+            vertex.receiver.position = in + lift * vertex.receiver.normal;
+        }
+    });
 }
 
 } // namespace penumbra

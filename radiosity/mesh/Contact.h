@@ -11,20 +11,11 @@
 
 namespace penumbra {
 
-/// A corner may be covered by another object (the floor under a cabinet, the wall behind a shelf)
-/// or lie beyond one (the floor behind a partition). Its light must not be interpolated over the
-/// element's free part. So the element gets a corner of its own: it is drawn at the same point, and
-/// its light is computed where the free way from the element's middle to the corner ends.
-///
-/// Changes `elements` to use such private vertices, which are appended to `vertices`, and moves
-/// every receiver clear of the edges of its surface.
-/// \param skin    how far receivers hover over the surface, see hoverAt() [m]
-/// \param fixed   1: elements to check; others are taken to be free
-/// \return        for each element whether any of it is free
-std::vector<std::uint8_t> resolveContacts(const RayScene& rays, std::span<const RayMesh> meshes,
-                                          float skin, std::span<const std::uint8_t> fixed,
-                                          std::vector<Element>& elements,
-                                          std::vector<Vertex>& vertices);
+/// Moves the receiver of every vertex clear of the edges of its surface: not at all inside of a flat
+/// one, a hair inwards at its border, where a neighbouring wall begins. Then lifts it by hoverAt().
+/// \param skin how far receivers hover, at least [m]
+void pullReceiversIn(float skin, const std::vector<Element>& elements,
+                     std::vector<Vertex>& vertices);
 
 /// How a point that hovers over a surface lies.
 enum class Lie {
@@ -33,15 +24,18 @@ enum class Lie {
     buried   ///< inside of something solid
 };
 /// \param cover [m], see coverDistance()
-/// \param by set to the object that covers the point or that it is buried in; the last of several
 Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point, glm::vec3 normal,
-          float cover, ObjectId* by = nullptr);
+          float cover);
 
 /// Something this close above a surface with elements of this size counts as lying on it [m].
 /// \param hover how far receivers hover there, see hoverAt() [m]
 float coverDistance(float elementSize, float hover);
 
-/// Checks single elements.
+/// Checks single elements. A corner may be covered by another object (the floor under a cabinet, the
+/// wall behind a shelf) or lie beyond one (the floor behind a partition). Its light must not be
+/// interpolated over the element's free part. So the element gets a corner of its own: it is drawn
+/// at the same point, and its light is computed where the free way from the element's middle to
+/// the corner ends.
 class ContactResolver {
 public:
     ContactResolver(const RayScene& rays, std::span<const RayMesh> meshes, float skin,

@@ -5,7 +5,6 @@
 #include "radiosity/rays/Shaft.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace penumbra {
 
@@ -22,19 +21,14 @@ void makeUnique(std::vector<std::uint32_t>& items) {
 
 Coverage::Coverage(PatchSet& set, const RayScene& rays)
     : set_(set), rays_(rays), resolver_(rays, set.rayMeshes, set.skin, set.vertices),
-      shared_(set.uncoveredElements), fans_(fansOf(shared_, set.vertices.size())),
-      nodePatches_(set) {
+      shared_(set.uncoveredElements), fans_(fansOf(shared_, set.vertices.size())) {
     orderElements();
-
-    std::vector<std::uint32_t> near;
-    for (std::uint32_t o = 0; o < set_.objects.size(); ++o) {
-        const ObjectPart& part = set_.objects[o];
-        if (!part.movable || !part.present) continue;
-        collectNear(boundsOf(set_, {o}), near);
-        for (std::uint32_t e = part.elements.first; e < part.elements.end(); ++e) near.push_back(e);
-    }
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t e = 0; e < shared_.size(); ++e)
+        if (set_.objects[set_.elementObject[e].value].present) all.push_back(e);
     Change change;
-    refresh(std::move(near), change);
+    refresh(std::move(all), change);
+    if (!set_.nodes.empty()) parting_.emplace(set_, change.patches);
 }
 
 void Coverage::orderElements() {
@@ -87,11 +81,15 @@ void Coverage::collectNear(const Bounds& box, std::vector<std::uint32_t>& elemen
                   });
 }
 
+void Coverage::follow(std::span<const ObjectId> moved) {
+    for (std::size_t c = 0; c < chunkObject_.size(); ++c)
+        if (std::find(moved.begin(), moved.end(), chunkObject_[c]) != moved.end()) updateChunk(c);
+}
+
 Coverage::Change Coverage::update(std::span<const ObjectId> moved, std::span<const Bounds> before) {
     Change change;
     std::vector<std::uint32_t> near;
-    for (std::size_t c = 0; c < chunkObject_.size(); ++c)
-        if (std::find(moved.begin(), moved.end(), chunkObject_[c]) != moved.end()) updateChunk(c);
+    follow(moved);
     for (std::size_t i = 0; i < moved.size(); ++i) {
         const ObjectPart& part = set_.objects[moved[i].value];
         collectNear(before[i], near);
@@ -122,24 +120,7 @@ void Coverage::refresh(std::vector<std::uint32_t> elements, Change& change) {
                 settleCorner(corner / 4, corner % 4, apart[i], change);
     makeUnique(change.vertices);
     makeUnique(change.patches);
-    if (set_.nodes.empty()) return; // only direct light is asked for
-    for (std::uint32_t p : change.patches) {
-        const Patch& patch = set_.patches[p];
-        nodes.push_back(patch.centreNode);
-        if (patch.hasCornerNodes)
-            nodes.insert(nodes.end(), patch.cornerNodes.begin(), patch.cornerNodes.end());
-    }
-    makeUnique(nodes);
-    std::vector<Receiver> places(nodes.size());
-    parallelFor(nodes.size(), 64, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) places[i] = placeOfNode(nodes[i]);
-    });
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        Receiver& now = set_.nodes[nodes[i]];
-        if (now.position == places[i].position && now.normal == places[i].normal) continue;
-        now = places[i];
-        change.nodes.push_back(nodes[i]);
-    }
+    if (parting_) change.parted = parting_->update(change.patches);
 }
 
 void Coverage::examine(const std::vector<std::uint32_t>& elements) {
@@ -203,7 +184,7 @@ void Coverage::settleCorner(std::uint32_t element, std::uint32_t corner, bool pa
             vertex.receiver.normal != wanted.receiver.normal)
             change.vertices.push_back(now);
         vertex = wanted;
-        set_.vertexCoordinates[now] = set_.vertexCoordinates[shared];
+        set_.vertexCoordinates[now] = set_.vertexCoordinates[shared]; // until Parting says better
         set_.privateElement[now - set_.firstPrivate] = element;
     } else if (before != shared) {
         unused_[set_.elementObject[element].value].push_back(before);
@@ -214,7 +195,7 @@ void Coverage::settleCorner(std::uint32_t element, std::uint32_t corner, bool pa
     }
     drawn.vertices[corner] = now;
     if (corner == 2 && shared_[element].isTriangle()) drawn.vertices[3] = now;
-    change.patches.push_back(drawn.patch);
+    change.patches.push_back(shared_[element].patch);
 }
 
 /// A free vertex in a block of the object's own.
@@ -231,37 +212,6 @@ std::uint32_t Coverage::takeVertex(ObjectId object) {
     const std::uint32_t vertex = unused.back();
     unused.pop_back();
     return vertex;
-}
-
-/// Where light is computed for a node: if it is covered, at the nearest point of its patches that
-/// is not.
-Receiver Coverage::placeOfNode(std::uint32_t node) const {
-    const ObjectPart& part = set_.objects[set_.nodeBlockObject[node / PatchSet::kBlock].value];
-    Receiver wanted = set_.uncoveredNodes[node];
-    const float cover = coverDistance(set_.elementSize, hoverAt(set_.skin, wanted.position));
-    ObjectId by;
-    const bool free =
-        lieOf(rays_, set_.rayMeshes, wanted.position, wanted.normal, cover, &by) == Lie::free;
-    // The fixed part has taken care of itself.
-    if (part.present && !free && (part.movable || set_.objects[by.value].movable)) {
-        const glm::vec3 place = wanted.position;
-        float nearest = std::numeric_limits<float>::infinity();
-        for (const std::uint32_t p : nodePatches_.of(node)) {
-            const Patch& patch = set_.patches[p];
-            for (std::uint32_t j = 0; j < patch.elementCount; ++j) {
-                const std::uint32_t e = set_.patchElements[patch.firstElement + j];
-                if (set_.covered[e]) continue;
-                for (std::uint32_t v : set_.elements[e].vertices) {
-                    const Receiver& candidate = set_.vertices[v].receiver;
-                    const glm::vec3 d = candidate.position - place;
-                    if (glm::dot(d, d) >= nearest) continue;
-                    nearest = glm::dot(d, d);
-                    wanted = candidate;
-                }
-            }
-        }
-    }
-    return wanted;
 }
 
 } // namespace penumbra

@@ -1,22 +1,24 @@
-// What movable objects cover of each other and of the fixed part.
+// What objects cover of each other.
 #pragma once
 
 #include "base/BoundsTree.h"
 #include "radiosity/mesh/Contact.h"
-#include "radiosity/mesh/NodePatches.h"
+#include "radiosity/mesh/Parting.h"
 #include "radiosity/mesh/PatchSet.h"
 #include "radiosity/rays/RayScene.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
 namespace penumbra {
 
-/// Follows movable objects: keeps up to date which corners of elements they touch, cover or part
-/// (see Contact.h), and which nodes they cover. The result depends on the poses of things and not
-/// on how they came there, apart from which private vertices replace which corners.
+/// Follows objects: keeps up to date which corners of elements they touch, cover or part (see
+/// Contact.h), and what that makes of patches and nodes (Parting.h). The result depends on the poses
+/// of things and not on how they came there, apart from which private vertices replace which
+/// corners.
 class Coverage {
 public:
     /// Brings `set` up to date. Both must outlive this; `rays` shows the objects of `set`.
@@ -25,12 +27,16 @@ public:
     /// What lies elsewhere than before. Whole moved objects are not listed.
     struct Change {
         std::vector<std::uint32_t> vertices; ///< new, moved or given back
-        std::vector<std::uint32_t> nodes;
-        std::vector<std::uint32_t> patches; ///< whose elements are lit by other vertices
+        std::vector<std::uint32_t> patches; ///< of the mesh, whose elements are lit by other vertices
+        Parting::Change parted;             ///< nothing in a set without nodes
     };
     /// Objects were posed anew, hidden or shown, in `set` and in `rays`.
     /// \param before their boxes before, empty for those that were hidden [m, world]
     Change update(std::span<const ObjectId> moved, std::span<const Bounds> before);
+    /// The same, but for what they touch.
+    void follow(std::span<const ObjectId> moved);
+    /// See Parting.
+    bool exhausted() const { return parting_ && parting_->exhausted(); }
 
 private:
     static constexpr std::uint32_t kChunk = 32;
@@ -42,7 +48,6 @@ private:
     void examine(const std::vector<std::uint32_t>& elements);
     bool parted(std::uint32_t vertex) const;
     void settleCorner(std::uint32_t element, std::uint32_t corner, bool parted, Change& change);
-    Receiver placeOfNode(std::uint32_t node) const;
     std::uint32_t takeVertex(ObjectId object);
     void refresh(std::vector<std::uint32_t> elements, Change& change);
 
@@ -50,9 +55,8 @@ private:
     PatchSet& set_;
     const RayScene& rays_;
     ContactResolver resolver_;
-    const std::vector<Element>& shared_; ///< elements as they are when nothing movable is near
+    const std::vector<Element>& shared_; ///< elements as they are when nothing else is near
     Fans fans_;                          ///< of those
-    NodePatches nodePatches_;
     std::vector<std::uint32_t> order_;      ///< elements, object by object along a curve
     std::vector<ObjectId> chunkObject_;     ///< kChunk consecutive ones of one object
     std::vector<std::uint32_t> chunkFirst_; ///< into order_; one more than chunks
@@ -62,6 +66,7 @@ private:
     std::unordered_map<std::uint32_t, std::uint32_t>
         own_; ///< private vertex of element * 4 + corner
     std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> unused_; ///< by object
+    std::optional<Parting> parting_;
 };
 
 } // namespace penumbra

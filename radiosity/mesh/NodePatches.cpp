@@ -4,14 +4,14 @@
 
 namespace penumbra {
 
-NodePatches::NodePatches(const PatchSet& set) : first_(set.nodes.size() + 1) {
+NodePatches::NodePatches(const PatchSet& set)
+    : set_(&set), first_(1 + (set.parts.used.empty() ? set.nodes.size() : set.parts.firstNode)) {
     if (set.nodes.empty()) return;
     const auto forEachNode = [&](auto visit) {
-        for (std::uint32_t p = 0; p < set.patches.size(); ++p) {
-            const Patch& patch = set.patches[p];
-            visit(patch.centreNode, p);
-            if (patch.hasCornerNodes)
-                for (std::uint32_t node : patch.cornerNodes) visit(node, p);
+        for (std::uint32_t p = 0; p < set.parts.cornerNodes.size(); ++p) {
+            visit(set.patches[p].centreNode, p);
+            if (set.patches[p].hasCornerNodes)
+                for (std::uint32_t node : set.parts.cornerNodes[p]) visit(node, p);
         }
     };
     forEachNode([&](std::uint32_t n, std::uint32_t) { ++first_[n + 1]; });

@@ -9,15 +9,21 @@
 
 namespace penumbra {
 
-/// The patches of every node, ascending.
+/// The patches of the mesh at every node, ascending. Of a node that was handed out (PatchParts) it
+/// is the one that it was handed out for.
 class NodePatches {
 public:
+    /// `set` must outlive this.
     explicit NodePatches(const PatchSet& set);
     std::span<const std::uint32_t> of(std::uint32_t node) const {
+        const PatchParts& parts = set_->parts;
+        if (node + 1 >= first_.size())
+            return std::span(parts.nodePatch).subspan(node - parts.firstNode, 1);
         return std::span(patches_).subspan(first_[node], first_[node + 1] - first_[node]);
     }
 
 private:
+    const PatchSet* set_;
     std::vector<std::uint32_t> first_, patches_;
 };
 

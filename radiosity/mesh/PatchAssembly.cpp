@@ -2,9 +2,9 @@
 
 #include "radiosity/mesh/Contact.h"
 #include "radiosity/mesh/LightShapes.h"
+#include "radiosity/mesh/PatchGeometry.h"
 
 #include <algorithm>
-#include <numeric>
 #include <unordered_map>
 
 namespace penumbra {
@@ -37,11 +37,6 @@ std::uint32_t mortonCode(glm::vec3 p) {
     for (int bit = 9; bit >= 0; --bit)
         for (int axis = 0; axis < 3; ++axis) code = code << 1 | (cell[axis] >> bit & 1);
     return code;
-}
-
-std::uint32_t rootOf(std::vector<std::uint32_t>& parent, std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
 }
 
 } // namespace
@@ -143,7 +138,7 @@ void PatchAssembly::addElements(const Tessellation& tessellation, std::uint32_t 
         if (!cells_[cell].present) continue;
         const std::size_t count = facet.vertices[2] == facet.vertices[3] ? 3 : 4;
         Element element;
-        CornerCoordinates st, uv;
+        std::array<glm::vec2, 4> st, uv;
         for (std::size_t k = 0; k < 4; ++k) { // the back is wound the other way round, st mirrored
             const std::size_t corner = std::min(k, count - 1);
             const std::size_t from = back ? (count - corner) % count : corner;
@@ -155,7 +150,7 @@ void PatchAssembly::addElements(const Tessellation& tessellation, std::uint32_t 
         out_.elements.push_back(element);
         out_.elementObject.push_back(object);
         elementCell_.push_back(cell);
-        elementSt_.push_back(st);
+        out_.parts.elementCoordinates.push_back(st);
         if (textured) {
             out_.textures.uvs.resize(out_.elements.size());
             out_.textures.uvs.back() = uv;
@@ -164,8 +159,7 @@ void PatchAssembly::addElements(const Tessellation& tessellation, std::uint32_t 
 }
 
 void PatchAssembly::finish() {
-    std::vector<std::uint8_t> free;
-    resolveFixedContacts(free);
+    pullReceiversIn(out_.skin, out_.elements, out_.vertices);
     const std::vector<std::uint32_t> order = cellsInOrder();
     std::vector<std::vector<std::uint32_t>> cellElements(cells_.size());
     for (std::uint32_t e = 0; e < elementCell_.size(); ++e)
@@ -173,8 +167,7 @@ void PatchAssembly::finish() {
     orderVertices(cellElements, order);
     out_.covered.assign(out_.elements.size(), 0);
     out_.vertexCoordinates.assign(out_.vertices.size(), {});
-    vertexNode_.assign(out_.vertices.size(), kNone);
-    vertexPlaced_.assign(out_.vertices.size(), 0);
+    out_.parts.vertexNode.assign(out_.vertices.size(), kNone);
 
     for (std::size_t i = 0; i < order.size();) {
         const ObjectId object = cells_[order[i]].object;
@@ -182,11 +175,9 @@ void PatchAssembly::finish() {
         part.patches.first = std::uint32_t(out_.patches.size());
         part.nodes.first = std::uint32_t(out_.nodes.size());
         part.corners.first = std::uint32_t(out_.corners.size());
-        for (; i < order.size() && cells_[order[i]].object == object; ++i) {
-            std::vector<std::uint32_t>& elements = cellElements[order[i]];
-            std::erase_if(elements, [&](std::uint32_t e) { return !free[e]; });
-            if (!elements.empty()) makePatches(order[i], elements);
-        }
+        for (; i < order.size() && cells_[order[i]].object == object; ++i)
+            if (!cellElements[order[i]].empty())
+                makePatch(cells_[order[i]], cellElements[order[i]]);
         part.patches.count = std::uint32_t(out_.patches.size()) - part.patches.first;
         part.nodes.count = std::uint32_t(out_.nodes.size()) - part.nodes.first;
         part.corners.count = std::uint32_t(out_.corners.size()) - part.corners.first;
@@ -197,19 +188,7 @@ void PatchAssembly::finish() {
     out_.uncoveredElements = out_.elements;
     out_.firstPrivate = std::uint32_t(out_.vertices.size());
     findTextureMeans(out_);
-    placeMovables();
-}
-
-/// Movable objects are meshed as if nothing touched them.
-void PatchAssembly::resolveFixedContacts(std::vector<std::uint8_t>& free) {
-    std::vector<RayMesh> meshes(out_.rayMeshes.size());
-    std::vector<std::uint8_t> fixed(out_.elements.size());
-    for (std::size_t o = 0; o < meshes.size(); ++o)
-        if (!out_.objects[o].movable) meshes[o] = out_.rayMeshes[o];
-    for (std::size_t e = 0; e < fixed.size(); ++e)
-        fixed[e] = !out_.objects[out_.elementObject[e].value].movable;
-    free = resolveContacts(RayScene(meshes, out_.skin), meshes, out_.skin, fixed, out_.elements,
-                           out_.vertices);
+    placeObjects();
 }
 
 /// Object by object, within one along a space-filling curve: what is near in space shall be near
@@ -263,10 +242,9 @@ void PatchAssembly::orderVertices(const std::vector<std::vector<std::uint32_t>>&
     out_.vertices = std::move(ordered);
 }
 
-void PatchAssembly::placeMovables() {
+void PatchAssembly::placeObjects() {
     for (std::uint32_t o = 0; o < out_.objects.size(); ++o) {
         ObjectPart& part = out_.objects[o];
-        if (!part.movable) continue;
         ObjectShape& shape = part.shape;
         const auto copy = [](const auto& from, Range range, auto& to) {
             to.assign(from.begin() + range.first, from.begin() + range.end());
@@ -282,119 +260,15 @@ void PatchAssembly::placeMovables() {
     }
 }
 
-/// Elements of a cell that hang together form a patch: one patch a cell, unless a contact (a
-/// partition that stands on the floor) parts it.
-void PatchAssembly::makePatches(std::uint32_t cell, const std::vector<std::uint32_t>& elements) {
-    std::vector<std::uint32_t> parent(elements.size());
-    std::iota(parent.begin(), parent.end(), 0u);
-    std::unordered_map<std::uint32_t, std::uint32_t> seen;
-    for (std::uint32_t i = 0; i < elements.size(); ++i)
-        for (std::uint32_t v : out_.elements[elements[i]].vertices) {
-            const auto [found, fresh] = seen.try_emplace(v, i);
-            if (!fresh) parent[rootOf(parent, i)] = rootOf(parent, found->second);
-        }
-    std::unordered_map<std::uint32_t, std::size_t> groupOf;
-    std::vector<Group> groups;
-    for (std::uint32_t i = 0; i < elements.size(); ++i) {
-        const auto [found, fresh] = groupOf.try_emplace(rootOf(parent, i), groups.size());
-        if (fresh) groups.emplace_back();
-        Group& group = groups[found->second];
-        group.elements.push_back(elements[i]);
-        for (glm::vec2 st : elementSt_[elements[i]]) group.part.add(st);
-    }
-    if (cells_[cell].whole) { // it has no coordinates to part it by
-        for (std::size_t i = 1; i < groups.size(); ++i)
-            groups[0].elements.insert(groups[0].elements.end(), groups[i].elements.begin(),
-                                      groups[i].elements.end());
-        groups.resize(1);
-    }
-    mergeOverlapping(groups);
-    for (const Group& group : groups) makePatch(cells_[cell], group, groups.size() > 1);
-}
-
-/// What is sent is sent by the rectangle around a group: rectangles must not overlap.
-void PatchAssembly::mergeOverlapping(std::vector<Group>& groups) {
-    const auto overlap = [](const Group& a, const Group& b) {
-        const glm::vec2 size =
-            glm::min(a.part.high, b.part.high) - glm::max(a.part.low, b.part.low);
-        return size.x > 1e-3f && size.y > 1e-3f;
-    };
-    for (std::size_t i = 0; i < groups.size(); ++i)
-        for (std::size_t j = 0; j < groups.size(); ++j) {
-            if (i == j || !overlap(groups[i], groups[j])) continue;
-            Group& into = groups[std::min(i, j)];
-            Group& from = groups[std::max(i, j)];
-            into.elements.insert(into.elements.end(), from.elements.begin(), from.elements.end());
-            into.part.add(from.part.low);
-            into.part.add(from.part.high);
-            groups.erase(groups.begin() + std::ptrdiff_t(std::max(i, j)));
-            i = std::size_t(-1); // it has grown: search again
-            break;
-        }
-}
-
-/// Fills in area, centre and normal of a patch. \return false if it has no area
-bool PatchAssembly::measure(Patch& patch, const std::vector<std::uint32_t>& elements) const {
-    glm::vec3 areaVector(0), centre(0);
-    for (std::uint32_t e : elements) {
-        const Element& element = out_.elements[e];
-        std::array<glm::vec3, 4> p;
-        for (std::size_t k = 0; k < 4; ++k) p[k] = out_.vertices[element.vertices[k]].position;
-        const glm::vec3 vector = 0.5f * glm::cross(p[2] - p[0], p[3] - p[1]);
-        const float area = glm::length(vector);
-        patch.area += area;
-        areaVector += vector;
-        centre += area * (element.isTriangle() ? (p[0] + p[1] + p[2]) / 3.0f
-                                               : 0.25f * (p[0] + p[1] + p[2] + p[3]));
-    }
-    if (!(patch.area > 0)) return false;
-    patch.centre = centre / patch.area;
-    patch.normal = glm::length(areaVector) > 0 // not if it folds back on itself
-                       ? glm::normalize(areaVector)
-                       : out_.vertices[out_.elements[elements[0]].vertices[0]].receiver.normal;
-    return true;
-}
-
-/// Gives a patch the corners of its cell, or of the part of it that the group spans.
-/// \param part the cell has several patches. \return coordinates within the cell that it spans
-PatchAssembly::Part PatchAssembly::placeCorners(Patch& patch, const SheetCell& cell,
-                                                const Group& group, bool part) {
-    const auto& q = cell.outline;
-    Part spans{glm::vec2(0), glm::vec2(1)};
-    patch.firstCorner = std::uint32_t(out_.corners.size());
-    if (part && !cell.whole && q.size() == 4) {
-        const glm::vec2 low = group.part.low, high = group.part.high;
-        for (glm::vec2 st : {low, glm::vec2(high.x, low.y), high, glm::vec2(low.x, high.y)})
-            out_.corners.push_back(
-                glm::mix(glm::mix(q[0], q[1], st.x), glm::mix(q[3], q[2], st.x), st.y));
-        spans = group.part;
-    } else {
-        out_.corners.insert(out_.corners.end(), q.begin(), q.end());
-    }
-    patch.cornerCount = std::uint32_t(out_.corners.size()) - patch.firstCorner;
-    return spans;
-}
-
-/// Tells the vertices of a patch that no other patch has where they lie in it.
-void PatchAssembly::placeVertices(std::uint32_t index, const std::vector<std::uint32_t>& elements,
-                                  const Part& part) {
-    const glm::vec2 size = glm::max(part.high - part.low, glm::vec2(1e-6f));
-    for (std::uint32_t e : elements)
-        for (std::size_t k = 0; k < 4; ++k) {
-            const std::uint32_t v = out_.elements[e].vertices[k];
-            if (vertexPlaced_[v]) continue;
-            vertexPlaced_[v] = 1;
-            const glm::vec2 st = glm::clamp((elementSt_[e][k] - part.low) / size, 0.0f, 1.0f);
-            out_.vertexCoordinates[v] = {index, st.x, st.y};
-        }
-}
-
-void PatchAssembly::makePatch(const SheetCell& cell, const Group& group, bool part) {
-    const std::vector<std::uint32_t>& elements = group.elements;
+/// A cell becomes a patch, if it has any area. It is the cell as it is when nothing is near: Parting
+/// sees to what parts it.
+void PatchAssembly::makePatch(const SheetCell& cell, const std::vector<std::uint32_t>& elements) {
     Patch patch;
     patch.material = cell.material;
     patch.object = cell.object;
-    const bool any = measure(patch, elements);
+    patch.divisible = !cell.whole && cell.outline.size() == 4;
+    patch.smooth = cell.smooth;
+    const bool any = measurePatch(out_, elements, patch);
     const auto index = any ? std::uint32_t(out_.patches.size()) : kNone;
     for (std::uint32_t e : elements) out_.elements[e].patch = index;
     if (!any) return;
@@ -402,63 +276,45 @@ void PatchAssembly::makePatch(const SheetCell& cell, const Group& group, bool pa
     patch.firstElement = std::uint32_t(out_.patchElements.size());
     patch.elementCount = std::uint32_t(elements.size());
     out_.patchElements.insert(out_.patchElements.end(), elements.begin(), elements.end());
-    const Part spans = placeCorners(patch, cell, group, part);
-    placeNodes(patch, cell, elements, spans);
-    placeVertices(index, elements, spans);
+    patch.firstCorner = std::uint32_t(out_.corners.size());
+    patch.cornerCount = std::uint32_t(cell.outline.size());
+    out_.corners.insert(out_.corners.end(), cell.outline.begin(), cell.outline.end());
+    placeNodes(patch, cell, elements);
+    placeVertices(index, elements);
     out_.patches.push_back(patch);
+}
+
+/// Tells the vertices of a patch that no other patch has where they lie in it.
+void PatchAssembly::placeVertices(std::uint32_t index, const std::vector<std::uint32_t>& elements) {
+    for (std::uint32_t e : elements)
+        for (std::size_t k = 0; k < 4; ++k) {
+            PatchCoordinate& at = out_.vertexCoordinates[out_.elements[e].vertices[k]];
+            if (at.patch != kNone) continue;
+            const glm::vec2 st = glm::clamp(out_.parts.elementCoordinates[e][k], 0.0f, 1.0f);
+            at = {index, st.x, st.y};
+        }
 }
 
 /// Indirect light is received at a patch's middle and, unless the patch is small, at its corners,
 /// which neighbouring patches share.
 void PatchAssembly::placeNodes(Patch& patch, const SheetCell& cell,
-                               const std::vector<std::uint32_t>& elements, const Part& part) {
-    const glm::vec2 low = part.low, high = part.high;
-    const glm::vec2 middle = 0.5f * (low + high);
-    std::array<glm::vec2, 4> corner{low, glm::vec2(high.x, low.y), high, glm::vec2(low.x, high.y)};
-    std::array<float, 4> nearest;
-    std::array<std::uint32_t, 4> vertex{};
-    nearest.fill(1e30f);
-    float nearestMiddle = 1e30f;
-    Receiver centre;
-    float extent = 0;
-    for (std::uint32_t e : elements) {
-        const Element& element = out_.elements[e];
-        const std::size_t count = element.isTriangle() ? 3 : 4;
-        glm::vec2 st(0);
-        glm::vec3 position(0), normal(0);
-        for (std::size_t k = 0; k < count; ++k) {
-            const Receiver& receiver = out_.vertices[element.vertices[k]].receiver;
-            extent = std::max(extent, glm::distance(receiver.position, patch.centre));
-            st += elementSt_[e][k] / float(count);
-            position += receiver.position / float(count);
-            normal += receiver.normal;
-            for (std::size_t c = 0; c < 4; ++c) {
-                const glm::vec2 d = elementSt_[e][k] - corner[c];
-                if (glm::dot(d, d) >= nearest[c]) continue;
-                nearest[c] = glm::dot(d, d);
-                vertex[c] = element.vertices[k];
-            }
-        }
-        const float distance = glm::dot(st - middle, st - middle);
-        if (distance < nearestMiddle) {
-            nearestMiddle = distance;
-            centre = {position, glm::normalize(normal)};
-        }
-    }
+                               const std::vector<std::uint32_t>& elements) {
+    const NodePlaces places = findNodePlaces(out_, patch, elements, {glm::vec2(0), glm::vec2(1)});
     patch.centreNode = std::uint32_t(out_.nodes.size());
-    out_.nodes.push_back(centre);
-    const bool small = 2 * extent < 0.6f * out_.patchSize && !cell.smooth;
-    patch.hasCornerNodes = !cell.whole && !small;
+    out_.nodes.push_back(places.centre);
+    patch.hasCornerNodes = !cell.whole && !places.small;
     if (patch.hasCornerNodes)
-        for (std::size_t c = 0; c < 4; ++c) patch.cornerNodes[c] = nodeOfVertex(vertex[c]);
+        for (std::size_t c = 0; c < 4; ++c)
+            patch.cornerNodes[c] = nodeOfVertex(places.vertices[c]);
+    out_.parts.cornerNodes.push_back(patch.cornerNodes);
 }
 
 std::uint32_t PatchAssembly::nodeOfVertex(std::uint32_t vertex) {
-    if (vertexNode_[vertex] == kNone) {
-        vertexNode_[vertex] = std::uint32_t(out_.nodes.size());
+    if (out_.parts.vertexNode[vertex] == kNone) {
+        out_.parts.vertexNode[vertex] = std::uint32_t(out_.nodes.size());
         out_.nodes.push_back(out_.vertices[vertex].receiver);
     }
-    return vertexNode_[vertex];
+    return out_.parts.vertexNode[vertex];
 }
 
 } // namespace penumbra

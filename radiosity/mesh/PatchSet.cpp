@@ -1,5 +1,6 @@
 #include "radiosity/mesh/PatchSet.h"
 
+#include "base/PairHash.h"
 #include "base/Parallel.h"
 #include "radiosity/rays/Margins.h"
 
@@ -70,19 +71,22 @@ void findTextureMeans(PatchSet& set) {
             textures.elements[e] = textureMean(*texture, positions, textures.uvs[e]);
         }
     });
-    for (const Patch& patch : set.patches) {
-        Rgb sum;
-        float area = 0;
-        for (std::uint32_t i = patch.firstElement; i < patch.firstElement + patch.elementCount;
-             ++i) {
-            const std::uint32_t e = set.patchElements[i];
-            const float part = elementArea(set, set.elements[e]);
-            sum += part * textures.elements[e];
-            area += part;
-        }
-        const bool textured = set.materials[patch.material].textures.reflectance != nullptr;
-        textures.patches.push_back(textured && area > 0 ? sum * (1 / area) : Rgb(1));
+    for (const Patch& patch : set.patches)
+        textures.patches.push_back(textureMeanOf(
+            set, std::span(set.patchElements).subspan(patch.firstElement, patch.elementCount)));
+}
+
+Rgb textureMeanOf(const PatchSet& set, std::span<const std::uint32_t> elements) {
+    const LitMaterial& material = set.materials[set.elements[elements[0]].material];
+    if (!material.textures.reflectance) return Rgb(1);
+    Rgb sum;
+    float area = 0;
+    for (const std::uint32_t e : elements) {
+        const float part = elementArea(set, set.elements[e]);
+        sum += part * set.textures.elements[e];
+        area += part;
     }
+    return area > 0 ? sum * (1 / area) : Rgb(1);
 }
 
 Receiver placedReceiver(const Receiver& own, const Pose& pose, float skin) {
@@ -131,6 +135,11 @@ void placeObject(PatchSet& set, ObjectId object, const Pose& pose) {
     set.farthest = std::max(set.farthest, magnitude(boundsOf(set, object)));
 }
 
+std::size_t PatchSet::patchCount() const {
+    if (parts.used.empty()) return patches.size();
+    return std::size_t(std::count(parts.used.begin(), parts.used.end(), std::uint8_t(1)));
+}
+
 std::uint32_t addressOf(const ObjectPart& part, const Receiver& inFrame) {
     std::uint64_t hash = part.key;
     for (const glm::vec3 v : {inFrame.position, inFrame.normal})
@@ -142,17 +151,23 @@ std::uint32_t addressOf(const ObjectPart& part, const Receiver& inFrame) {
 }
 
 std::uint32_t addressOfNode(const PatchSet& set, std::uint32_t node) {
+    if (!set.parts.used.empty() && node >= set.parts.firstNode)
+        return set.parts.nodeAddress[node - set.parts.firstNode];
     const ObjectPart& part = set.objects[set.nodeBlockObject[node / PatchSet::kBlock].value];
     if (!part.nodes.contains(node)) return 0; // padding
-    return addressOf(part, part.movable ? part.shape.nodes[node - part.nodes.first]
-                                        : set.uncoveredNodes[node]);
+    return addressOf(part, part.shape.nodes[node - part.nodes.first]);
 }
 
 std::uint32_t addressOfPatch(const PatchSet& set, std::uint32_t patch) {
     const Patch& it = set.patches[patch];
     const ObjectPart& part = set.objects[it.object.value];
-    return addressOf(part, part.movable ? part.shape.patches[patch - part.patches.first]
-                                        : Receiver{it.centre, it.normal});
+    if (part.patches.contains(patch))
+        return addressOf(part, part.shape.patches[patch - part.patches.first]);
+    // A part: its first element is no other's.
+    const std::uint32_t whole = set.wholeOf(patch);
+    if (whole == Element::kNone) return 0;
+    const std::uint32_t first = set.patchElements[it.firstElement] - part.elements.first;
+    return pairHash(addressOfPatch(set, whole), first);
 }
 
 Bounds boundsOf(const PatchSet& set, ObjectId object) {

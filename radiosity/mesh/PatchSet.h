@@ -12,7 +12,9 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace penumbra {
@@ -60,6 +62,8 @@ struct Patch {
     std::array<std::uint32_t, 4> cornerNodes{}; ///< nodes at its four corners, if hasCornerNodes
     std::uint32_t centreNode = 0;
     bool hasCornerNodes = false;
+    bool divisible = false; ///< a quadrilateral with coordinates: contacts may part it
+    bool smooth = false;    ///< of a subdivision surface
     glm::vec3 centre{};
     glm::vec3 normal{}; ///< unit, area-weighted mean
     float area = 0;     ///< of its elements [m^2]
@@ -97,8 +101,7 @@ struct Range {
     bool contains(std::uint32_t index) const { return index - first < count; }
 };
 
-/// Geometry of a movable object in its own stretched frame (see Pose.h), in the order of its
-/// ranges.
+/// Geometry of an object in its own stretched frame (see Pose.h), in the order of its ranges.
 struct ObjectShape {
     std::vector<Vertex> vertices;
     std::vector<glm::vec3> corners;
@@ -112,16 +115,15 @@ struct ObjectShape {
 struct ObjectPart {
     std::string path;
     std::uint64_t key = 0; ///< of its path: the same in every scene that has it
-    bool movable = false;  ///< may be moved, hidden and shown; others are the fixed part
     bool present = true;   ///< false: hidden, neither blocks nor sends nor receives
     bool removed = false;  ///< hidden because it is not in the scene any more
-    Pose pose;             ///< of a movable object; identity for the fixed part
+    Pose pose;
     glm::dmat3 stretch{1.0};
     Range vertices, elements, patches, nodes, corners, emitters;
-    ObjectShape shape; ///< empty for the fixed part
+    ObjectShape shape;
 };
 
-/// A large convex face of the fixed part, see Walls.h.
+/// A large convex face, see Walls.h.
 struct Wall {
     ObjectId object;
     glm::vec3 normal{};             ///< unit
@@ -136,9 +138,32 @@ struct SurfaceTextures {
     std::vector<Rgb> elements, patches;
 };
 
-/// A scene, meshed: hot loops see these arrays and nothing else. The fixed part never changes;
-/// movable objects are brought to their poses by placeObject(), and what they cover of
-/// each other and of the fixed part is kept up to date by Coverage.
+/// How patches are parted where other things cut through them (a partition that stands on the
+/// floor), and which nodes are split there. Kept up to date by Parting. Empty in a set without
+/// nodes.
+///
+/// Patches and nodes that parts take are handed out behind those of the mesh, as private vertices
+/// are: which one of them stands for which part is a matter of history, and decides nothing.
+struct PatchParts {
+    std::uint32_t firstPatch = 0; ///< the first patch that is handed out
+    std::uint32_t firstNode = 0;  ///< the first node that is
+    /// 1: a patch that sends and receives; 0: a parted one, or one that nobody has.
+    std::vector<std::uint8_t> used;
+    std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> of; ///< of each parted patch
+    std::vector<std::uint32_t> wholePatch; ///< of each patch that is handed out, or kNone
+
+    std::vector<std::array<glm::vec2, 4>> elementCoordinates;  ///< of its corners, in its patch
+    std::vector<PatchCoordinate> vertexCoordinates;            ///< in whole patches; shared ones
+    std::vector<std::uint32_t> vertexNode;                     ///< at a shared vertex, or kNone
+    std::vector<std::array<std::uint32_t, 4>> cornerNodes;     ///< of each whole patch
+    /// Of each node that is handed out: the whole patch that it is of, or kNone, and its address.
+    std::vector<std::uint32_t> nodePatch, nodeAddress;
+    /// Of each block of them: the block in which the middles of their whole patches are, or kNone.
+    std::vector<std::uint32_t> sourceBlock;
+};
+
+/// A scene, meshed: hot loops see these arrays and nothing else. Objects are brought to their poses
+/// by placeObject(), and what they cover of each other, and part, is kept up to date by Coverage.
 ///
 /// Vertices and nodes come in blocks of kBlock consecutive ones that belong to one object and lie
 /// near each other; what is left of an object's last block is padding that receives nothing.
@@ -152,15 +177,16 @@ struct PatchSet {
     std::vector<ObjectId> vertexBlockObject;        ///< one a block of vertices
     std::vector<ObjectId> nodeBlockObject;          ///< one a block of nodes
     std::vector<Element> elements;
-    std::vector<Element> uncoveredElements; ///< the same when nothing movable is near
-    std::vector<std::uint8_t> covered;      ///< 1: an element that movable objects cover all over
+    std::vector<Element> uncoveredElements; ///< the same when nothing else is near
+    std::vector<std::uint8_t> covered;      ///< 1: an element that other things cover all over
     std::uint32_t firstPrivate = 0;         ///< the first vertex that Coverage hands out
     std::vector<std::uint32_t> privateElement; ///< whose corner each of those is
     std::vector<Patch> patches;
     std::vector<glm::vec3> corners;           ///< outlines of the patches
     std::vector<std::uint32_t> patchElements; ///< indices into elements, patch by patch
     std::vector<Receiver> nodes;              ///< where indirect light is received
-    std::vector<Receiver> uncoveredNodes;     ///< the same when nothing movable is near
+    std::vector<Receiver> uncoveredNodes;     ///< the same when nothing else is near
+    PatchParts parts;
     std::vector<LitMaterial> materials;
     SurfaceTextures textures;
     std::vector<Emitter> emitters;
@@ -172,6 +198,7 @@ struct PatchSet {
     double area = 0;                      ///< of all elements [m^2]
     std::size_t polygons = 0;             ///< faces of the scene that were meshed
     float patchSize = 0, elementSize = 0; ///< as used [m]
+    double backdropArea = 0;              ///< likewise [m^2], see MeshingOptions
     float skin = 0; ///< how far receivers hover over their surface, at least: see hoverAt() [m]
     /// Largest coordinate that anything has had so far [m]. Says how far to search around what
     /// moves, never what is found there.
@@ -181,6 +208,26 @@ struct PatchSet {
     bool receives(std::uint32_t element) const {
         return elements[element].patch != Element::kNone && !covered[element] &&
                objects[elementObject[element].value].present;
+    }
+    /// Whether a patch is there, as a whole.
+    bool sends(std::uint32_t patch) const {
+        return (parts.used.empty() || parts.used[patch]) &&
+               objects[patches[patch].object.value].present;
+    }
+    /// Number of patches that are there, hidden ones included.
+    std::size_t patchCount() const;
+    /// Calls visit(patch) for what there is of a patch of the mesh: itself, or its parts.
+    template <class Visit>
+    void forEachPart(std::uint32_t whole, const Visit& visit) const {
+        const auto parted = parts.of.find(whole);
+        if (parted == parts.of.end()) return visit(whole);
+        for (const std::uint32_t part : parted->second) visit(part);
+    }
+    /// The patch of the mesh that a patch is, or is a part of.
+    std::uint32_t wholeOf(std::uint32_t patch) const {
+        return patch < parts.firstPatch || parts.used.empty()
+                   ? patch
+                   : parts.wholePatch[patch - parts.firstPatch];
     }
 };
 
@@ -196,7 +243,7 @@ std::uint32_t addressOfPatch(const PatchSet& set, std::uint32_t patch);
 Receiver placedReceiver(const Receiver& own, const Pose& pose, float skin);
 /// An emitter of an object's own frame, as seen from a pose.
 Emitter placedEmitter(const Emitter& own, const Pose& pose);
-/// Writes a movable object's share of the arrays as seen from `pose`.
+/// Writes an object's share of the arrays as seen from `pose`, as if nothing else were near.
 void placeObject(PatchSet& set, ObjectId object, const Pose& pose);
 /// Box around an object's triangles [m, world].
 Bounds boundsOf(const PatchSet& set, ObjectId object);
@@ -209,6 +256,9 @@ Rgb textureMean(const Texture& texture, const std::array<glm::vec3, 4>& position
                 const std::array<glm::vec2, 4>& uvs);
 /// Reflectance and emission [nit] at a point of an element, as it is drawn.
 LitMaterial surfaceAt(const PatchSet& set, std::uint32_t element, glm::vec2 uv);
+/// What textures make of the reflectance of a patch in the mean, as a factor of that of its
+/// material. \param elements of the patch; those of set.textures have their means
+Rgb textureMeanOf(const PatchSet& set, std::span<const std::uint32_t> elements);
 /// Fills in the means of set.textures. \pre the set has elements and patches, in the frames of
 /// their objects
 void findTextureMeans(PatchSet& set);

@@ -1,5 +1,4 @@
-// The patches of a scene, posed: with its movable objects where they are, for rays and with
-// their contacts.
+// The patches of a scene, posed: with its objects where they are, for rays and with their contacts.
 #pragma once
 
 #include "radiosity/mesh/Coverage.h"
@@ -24,7 +23,7 @@ public:
     PosedPatches(const PosedPatches&) = delete;
     PosedPatches& operator=(const PosedPatches&) = delete;
 
-    /// The pose that a movable object is to have.
+    /// The pose that an object is to have.
     struct ObjectPose {
         ObjectId object;
         Pose pose;
@@ -35,12 +34,17 @@ public:
         Coverage::Change covered;
     };
     /// Puts objects elsewhere, hides or shows them; costs what changes.
-    Change pose(std::span<const ObjectPose> wanted);
+    /// \param contacts if false, what they touch there is not searched for
+    Change pose(std::span<const ObjectPose> wanted, bool contacts = true);
+    /// Finds what some objects touch where they stand.
+    void findContacts(std::span<const ObjectId> objects);
 
     /// Rays can be traced against each of these alone.
     void setAlone(std::span<const ObjectId> objects);
 
     const RayScene& rays() const { return rays_; }
+    /// See Parting.
+    bool exhausted() const { return coverage_.exhausted(); }
 
 private:
     PatchSet& set_;

@@ -202,8 +202,6 @@ void LightingWorker::build() {
     invalid_.clear();
     if (!lit_) lit_ = std::make_unique<LitScene>(placed, task_->meshing, task_->solving);
     viewer_.solverIsNew();
-    objectFrames_.clear();
-    for (const Object& object : placed.objects) objectFrames_.push_back(object.toWorld);
     publisher_ = std::make_unique<LightPublisher>(*lit_);
     if (!lights_.empty()) publisher_->setPreviewLights(previewSet_, lights_);
     directDone_ = false;
@@ -212,7 +210,7 @@ void LightingWorker::build() {
 
 void LightingWorker::requestStore() {
     constexpr std::uint32_t kLeastSpare = 64;
-    mesh_ = describeMesh(*lit_, *graph_, objectFrames_);
+    mesh_ = describeMesh(*lit_, *graph_);
     const std::uint32_t blocks = publisher_->blockCount();
     shape_.meshBytes = mesh_.size();
     shape_.blocks = blocks + std::max(kLeastSpare, blocks / 4);

@@ -68,7 +68,6 @@ private:
     std::optional<LightingTask> task_; ///< its scene is in graph_
     std::unique_ptr<LitScene> lit_;
     std::unique_ptr<LightPublisher> publisher_;
-    std::vector<glm::dmat4> objectFrames_; ///< when it was meshed
     std::vector<Bounds> invalid_;
     ViewerAttention viewer_;
     std::uint32_t question_ = 0; ///< for the dirty set; 0: nobody asks

@@ -1,5 +1,6 @@
 #include "radiosity/query/PointGather.h"
 
+#include "base/PairHash.h"
 #include "radiosity/rays/Margins.h"
 #include "radiosity/rows/FormFactor.h"
 #include "radiosity/rows/SenderSamples.h"
@@ -58,6 +59,7 @@ PointGather::PointGather(const PatchSet& patches, const RayScene& rays, const Li
             emitters_.emplace_back(emitter, kShadowSamples, kShadowSamples);
     for (std::uint32_t p = 0; p < patches.patches.size(); ++p) {
         const Patch& patch = patches.patches[p];
+        if (!patches.sends(p)) continue;
         samplePatch(patches, patch, patchSamples_.data() + p * kPatchSamples);
         for (std::uint32_t i = 0; i < patch.cornerCount; ++i)
             patchRadius_[p] =

@@ -1,5 +1,6 @@
 #include "radiosity/rows/PatchRowBuilder.h"
 
+#include "base/PairHash.h"
 #include "radiosity/rays/Shaft.h"
 #include "radiosity/rows/FormFactor.h"
 #include "radiosity/rows/SenderSamples.h"

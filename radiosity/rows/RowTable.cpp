@@ -24,11 +24,9 @@ bool PendingChange::moves(std::uint32_t object) const {
                        [&](const MovedObject& m) { return m.object == object; });
 }
 
-void RowTable::listBlockers(const PatchSet& set, std::uint32_t row, std::uint32_t block,
-                            const RowBlock& entries, std::vector<BlockerNote>& notes) {
-    entries.forEachBlocker([&](std::uint32_t object) {
-        if (set.objects[object].movable) notes.push_back({row, block, object});
-    });
+void RowTable::listBlockers(std::uint32_t row, std::uint32_t block, const RowBlock& entries,
+                            std::vector<BlockerNote>& notes) {
+    entries.forEachBlocker([&](std::uint32_t object) { notes.push_back({row, block, object}); });
 }
 
 void RowTable::noteAll(std::uint32_t row, std::span<const BlockerNote> notes) {

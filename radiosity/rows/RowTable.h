@@ -33,7 +33,7 @@ struct PendingChange {
 /// All emitters onto the vertices, or all patches onto the nodes.
 ///
 /// What an edit changes in a row is found without reading its entries: old shadows by a list of
-/// the blocks in which each movable object is a recorded blocker, new ones by the shafts between
+/// the blocks in which each object is a recorded blocker, new ones by the shafts between
 /// the sender and a hierarchy of the blocks.
 class RowTable {
 public:
@@ -51,13 +51,13 @@ public:
     /// How many edits a row has taken in.
     std::uint32_t& edits(std::size_t row) { return known_[row]; }
 
-    /// A movable object that blocks something in a block of a row.
+    /// An object that blocks something in a block of a row.
     struct BlockerNote {
         std::uint32_t row, block, object;
     };
-    /// Lists the movable objects that are blockers in a block.
-    static void listBlockers(const PatchSet& set, std::uint32_t row, std::uint32_t block,
-                             const RowBlock& entries, std::vector<BlockerNote>& notes);
+    /// Lists the objects that are blockers in a block.
+    static void listBlockers(std::uint32_t row, std::uint32_t block, const RowBlock& entries,
+                             std::vector<BlockerNote>& notes);
     /// Remembers them. Notes may repeat themselves.
     void note(std::span<const BlockerNote> notes);
     /// Many of one row at once.

@@ -45,7 +45,4 @@ inline float facing(float here, float there, float d2) {
     return counts ? here * there : 0.0f;
 }
 
-/// An arbitrary but fixed number for a pair of indices: decides which samples the pair uses.
-std::uint32_t pairHash(std::uint32_t a, std::uint32_t b);
-
 } // namespace penumbra

@@ -299,7 +299,7 @@ std::span<const DirtyBlock> RowUpdates::work(std::size_t effort, double enough, 
                 const int entries = update(builder, item, movedSince(item.since), i);
                 if (entries == 0) continue;
                 changed[task] += std::uint64_t(entries);
-                RowTable::listBlockers(set_, item.row, item.block, table_[item.row][item.block],
+                RowTable::listBlockers(item.row, item.block, table_[item.row][item.block],
                                        notes[task]);
             }
         });

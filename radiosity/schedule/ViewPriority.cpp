@@ -53,11 +53,11 @@ void ViewPriority::forgetSeen(std::span<const ObjectId> objects, const Bounds& b
             const Bounds point{p, p};
             if (from.contains(p) || to.contains(p) ||
                 ((sample.seen & bit) && shaftMeets(point, eye, to)) ||
-                ((sample.behindMovable & bit) && shaftMeets(point, eye, from)))
+                ((sample.behind & bit) && shaftMeets(point, eye, from)))
                 sample.asked &= ~bit; // what stays hides what it hid
         }
         sample.seen &= sample.asked;
-        sample.behindMovable &= sample.asked;
+        sample.behind &= sample.asked;
     }
     std::erase_if(clusterPixels_, [&](const auto& item) {
         return moved(clusters_.objectOf(item.first)) || stale(clusters_.known(item.first).box);
@@ -158,8 +158,8 @@ void ViewPriority::ask(std::uint32_t block, std::uint64_t which, SeenVertices& s
             const std::uint64_t bit = std::uint64_t(1) << of[std::size_t(i)];
             if (rays.blocker[i] == ObjectId::kNone)
                 sample.seen |= bit;
-            else if (patches_.objects[rays.blocker[i]].movable)
-                sample.behindMovable |= bit;
+            else
+                sample.behind |= bit;
         }
         rays.used = 0;
         count = 0;

@@ -43,7 +43,7 @@ private:
     /// What rays found of the vertices of a block.
     struct SeenVertices {
         Bounds box; ///< around those that were asked for [m, world]
-        std::uint64_t asked = 0, seen = 0, behindMovable = 0; ///< bits
+        std::uint64_t asked = 0, seen = 0, behind = 0; ///< bits
     };
     /// The priorities of vertices of a block.
     struct Values {

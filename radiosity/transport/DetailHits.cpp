@@ -85,6 +85,7 @@ void DetailHits::apply(const SceneChange& change) {
     for (std::uint32_t n : change.nodes) dirtyNodes_.add(n / kGroup, 1u << n % kGroup);
     for (std::uint32_t v : change.vertices) dirtyVertices_.add(v / kGroup, 1u << v % kGroup);
     for (std::uint32_t p : change.patches) revisit(p, true);
+    for (std::uint32_t p : change.parted) revisit(p, false);
 }
 
 void DetailHits::invalidate(const Bounds& region) {

@@ -71,11 +71,11 @@ void DirectLight::placeReceivers(std::vector<BlockMask>& masks) {
     }
 }
 
-/// Patches that are lit by vertices of a block, some perhaps several times.
+/// Patches that may be lit by vertices of a block, some perhaps several times.
 template <class Visit>
 void DirectLight::forEachPatch(std::uint32_t block, Visit visit) const {
     if (block < blockPatches_.size()) {
-        for (std::uint32_t patch : blockPatches_[block]) visit(patch);
+        for (std::uint32_t patch : blockPatches_[block]) set_.forEachPart(patch, visit);
         return;
     }
     for (std::uint32_t v = block * kBlock; v < (block + 1) * kBlock; ++v)
@@ -193,9 +193,12 @@ void DirectLight::apply(const SceneChange& change) {
         const ObjectPart& part = set_.objects[object.value];
         for (std::uint32_t e = part.emitters.first; e < part.emitters.end(); ++e)
             emitters_[e] = sender(set_.emitters[e], samples_);
-        for (std::uint32_t p = part.patches.first; p < part.patches.end(); ++p) touchPatch(p);
+        for (std::uint32_t p = part.patches.first; p < part.patches.end(); ++p)
+            set_.forEachPart(p, [&](std::uint32_t each) { touchPatch(each); });
     }
-    for (std::uint32_t p : change.patches) touchPatch(p);
+    for (std::uint32_t p : change.patches)
+        set_.forEachPart(p, [&](std::uint32_t part) { touchPatch(part); });
+    for (std::uint32_t p : change.senders) touchPatch(p);
     for (std::uint32_t e : change.emitters) // no form factor changes: only sums
         for (std::uint32_t b = 0; b < table_[e].size(); ++b)
             if (table_[e][b].entryCount() > 0) touchBlock(b);
@@ -352,7 +355,8 @@ void DirectLight::average(std::uint32_t index) {
     glm::dvec3 sum(0);
     double area = 0;
     bool lit = false;
-    for (std::uint32_t i = 0; i < patch.elementCount; ++i) {
+    const std::uint32_t count = set_.sends(index) ? patch.elementCount : 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t e = set_.patchElements[patch.firstElement + i];
         if (!set_.receives(e)) continue;
         const Element& element = set_.elements[e];

@@ -2,6 +2,7 @@
 // IndirectResiduals.cpp, how they send it in IndirectShots.cpp.
 #include "radiosity/transport/IndirectLight.h"
 
+#include "base/Bits.h"
 #include "base/Parallel.h"
 #include "radiosity/rows/SenderSamples.h"
 #include "radiosity/schedule/WorkCosts.h"
@@ -29,19 +30,22 @@ IndirectLight::IndirectLight(const PatchSet& set, const RayScene& rays, const Di
       rowSums_(set.nodes.size()), sent_(senders_.count()), residuals_(senders_.count()),
       colours_(senders_.count()), known_(senders_.count()), kept_(senders_.count()) {
     for (std::uint32_t n = 0; n < set.nodes.size(); ++n) nodeKeys_.push_back(addressOfNode(set, n));
-    for (std::uint32_t p = 0; p < senders_.patchCount(); ++p) {
-        const Patch& patch = set.patches[p];
-        const auto points = std::span(senders_.sender(p).samples, kPatchSamples);
-        planar_.push_back(std::all_of(points.begin(), points.end(), [&](glm::vec3 point) {
-            const float height = glm::dot(patch.normal, point - patch.centre);
-            return height * height < 1e-8f * patch.area;
-        }));
-    }
+    for (std::uint32_t p = 0; p < senders_.patchCount(); ++p) planar_.push_back(isPlanar(p));
     std::vector<BlockMask> all;
     for (std::uint32_t b = 0; b < blockCount(); ++b) all.push_back({b, ~std::uint64_t(0)});
     placeNodes(all);
     buildRays_.full += reach_.rayCount();
     coloursChanged();
+}
+
+/// Whether a patch sends from one plane.
+bool IndirectLight::isPlanar(std::uint32_t index) const {
+    const Patch& patch = set_.patches[index];
+    const auto points = std::span(senders_.sender(index).samples, kPatchSamples);
+    return std::all_of(points.begin(), points.end(), [&](glm::vec3 point) {
+        const float height = glm::dot(patch.normal, point - patch.centre);
+        return height * height < 1e-8f * patch.area;
+    });
 }
 
 ReceiverBlock IndirectLight::receiversOf(std::uint32_t sender, std::uint32_t block) const {
@@ -61,26 +65,42 @@ void IndirectLight::placeNodes(std::span<const BlockMask> masks) {
             if (!isPadding(nodes[n])) box.add(nodes[n].position);
         return box;
     };
-    for (const auto& [block, bits] : masks) {
+    const std::uint32_t firstSpare =
+        set_.parts.used.empty() ? std::uint32_t(blockCount()) : set_.parts.firstNode / kBlock;
+    for (const auto& [block, bits] : masks) { // ascending: those that are handed out come last
         table_.blocks().set(block, boxOf(&set_.nodes[block * kBlock]));
-        linkBoxes_.set(block, boxOf(&set_.uncoveredNodes[block * kBlock]));
+        if (block < firstSpare) {
+            linkBoxes_.set(block, boxOf(&set_.uncoveredNodes[block * kBlock]));
+            continue;
+        }
+        const std::uint32_t source = set_.parts.sourceBlock[block - firstSpare];
+        linkBoxes_.set(block, source != Element::kNone ? linkBoxes_[source] : Bounds());
+        for (const std::uint32_t r : bitsOf(bits))
+            nodeKeys_[block * kBlock + r] = addressOfNode(set_, block * kBlock + r);
     }
 }
 
-/// Gives rows the blocks that are linked to them since an object was posed anew: all of what it
-/// sends, and of all that it receives.
+/// Gives the row of a sender, if there is one, the blocks that are linked to it now.
+void IndirectLight::linkSender(std::uint32_t sender) {
+    if (!kept_[sender]) return;
+    for (std::uint32_t b : senders_.linkedBlocks(sender, linkBoxes_)) table_[sender].open(b);
+}
+
+/// Gives rows of senders that are linked to a block now this block.
+void IndirectLight::linkBlock(std::uint32_t block) {
+    if (linkBoxes_[block].empty()) return;
+    senders_.forEachLinked(linkBoxes_[block], [&](std::uint32_t s) {
+        if (kept_[s]) table_[s].open(block);
+    });
+}
+
+/// An object was posed anew: links all of what it sends, and of all that it receives.
 void IndirectLight::link(ObjectId object) {
     const ObjectPart& part = set_.objects[object.value];
-    const auto open = [&](std::uint32_t sender, std::uint32_t block) {
-        if (kept_[sender]) table_[sender].open(block);
-    };
     for (const Range own : {part.patches, senders_.clustersOf(object)})
-        for (std::uint32_t s = own.first; s < own.end(); ++s)
-            if (kept_[s])
-                for (std::uint32_t b : senders_.linkedBlocks(s, linkBoxes_)) open(s, b);
+        for (std::uint32_t s = own.first; s < own.end(); ++s) linkSender(s);
     for (std::uint32_t b = part.nodes.first / kBlock; b * kBlock < part.nodes.end(); ++b)
-        if (!linkBoxes_[b].empty())
-            senders_.forEachLinked(linkBoxes_[b], [&](std::uint32_t s) { open(s, b); });
+        linkBlock(b);
 }
 
 void IndirectLight::takeOver(IndirectLight& before, const PatchMatch& match) {
@@ -163,23 +183,52 @@ void IndirectLight::receiveAgain() {
 
 void IndirectLight::apply(const SceneChange& change) {
     described_ = false;
+    for (ObjectId object : change.objects) senders_.place(object);
+    for (std::uint32_t p : change.senders) {
+        senders_.placePatch(p);
+        planar_[p] = isPlanar(p);
+    }
+    const std::vector<BlockMask> masks = nodesOf(change);
+    placeNodes(masks);
+    residualsChanged();
+    if (change.colours || !change.parted.empty()) coloursChanged();
+    if (change.objects.empty() && masks.empty() && change.senders.empty()) return;
+    for (ObjectId object : change.objects) link(object);
+    for (std::uint32_t p : change.senders) linkSender(p);
+    for (const BlockMask& mask : masks)
+        if (mask.block * kBlock >= set_.parts.firstNode) linkBlock(mask.block);
+    if (rowsMissing_) restart();
+    reachStale_ = true;
+    updates_.add(change.objects, masks);
+    markRows(change.senders);
+}
+
+/// Nodes that lie elsewhere, block by block.
+std::vector<BlockMask> IndirectLight::nodesOf(const SceneChange& change) const {
     std::vector<BlockMask> masks;
     for (ObjectId object : change.objects) {
         const ObjectPart& part = set_.objects[object.value];
-        senders_.place(object);
         for (std::uint32_t b = part.nodes.first / kBlock; b * kBlock < part.nodes.end(); ++b)
             if (part.nodes.count > 0) masks.push_back({b, ~std::uint64_t(0)});
+        for (auto b = std::uint32_t(set_.parts.firstNode / kBlock); b < blockCount(); ++b)
+            if (set_.nodeBlockObject[b] == object) masks.push_back({b, ~std::uint64_t(0)});
     }
     for (std::uint32_t n : change.nodes)
         masks.push_back({n / kBlock, std::uint64_t(1) << n % kBlock});
     unite(masks);
-    placeNodes(masks);
-    residualsChanged();
-    if (change.colours) coloursChanged();
-    if (change.objects.empty() && masks.empty()) return;
-    for (ObjectId object : change.objects) link(object);
-    if (rowsMissing_) restart();
-    updates_.add(change.objects, std::move(masks));
+    return masks;
+}
+
+/// Has all entries of the rows of some senders evaluated anew.
+void IndirectLight::markRows(std::span<const std::uint32_t> senders) {
+    for (const std::uint32_t s : senders) {
+        if (!kept_[s]) continue;
+        std::vector<BlockMask> all;
+        for (std::size_t i = 0; i < table_[s].size(); ++i)
+            all.push_back({table_[s].blockAt(i), ~std::uint64_t(0)});
+        updates_.mark(
+            s, [&](std::uint32_t row) { return factsOf(row); }, all);
+    }
 }
 
 void IndirectLight::invalidate(const Bounds& region) {
@@ -324,6 +373,7 @@ void IndirectLight::updateSendersReached() {
     sendersReached_.assign(senders_.count(), 0);
     for (std::uint32_t p = 0; p < senders_.patchCount(); ++p) {
         const Patch& patch = set_.patches[p];
+        if (!senders_.present(p)) continue;
         sendersReached_[p] =
             reached(patch.centreNode) ||
             (patch.hasCornerNodes &&

@@ -121,7 +121,12 @@ private:
     RowUpdates::RowFacts factsOf(std::uint32_t sender) const;
     std::size_t blockCount() const { return set_.nodes.size() / PatchSet::kBlock; }
     void placeNodes(std::span<const BlockMask> masks);
+    bool isPlanar(std::uint32_t index) const;
+    void linkSender(std::uint32_t sender);
+    void linkBlock(std::uint32_t block);
     void link(ObjectId object);
+    std::vector<BlockMask> nodesOf(const SceneChange& change) const;
+    void markRows(std::span<const std::uint32_t> senders);
     ReceiverBlock receiversOf(std::uint32_t sender, std::uint32_t block) const;
     std::vector<std::uint32_t> keptFor(const IndirectSenders& senders,
                                        const PatchMatch& match) const;
@@ -155,7 +160,8 @@ private:
     const DirectLight& direct_;
     std::size_t rowMemory_;
     IndirectSenders senders_;
-    /// Boxes of the nodes where nothing movable covers them, block by block: what is linked.
+    /// Boxes of the nodes where nothing covers them, block by block: what is linked. Blocks that are
+    /// handed out have that of the block they are handed out for (PatchParts::sourceBlock).
     BoundsTree linkBoxes_;
     RowTable table_;
     RowUpdates updates_;

@@ -40,7 +40,7 @@ Value IndirectLight::mean(const Patch& patch, AtNode atNode) const {
 
 glm::dvec3 IndirectLight::reflected(std::uint32_t index) const {
     const Patch& patch = set_.patches[index];
-    if (!set_.objects[patch.object.value].present) return glm::dvec3(0);
+    if (!senders_.present(index)) return glm::dvec3(0);
     const auto indirect = mean<glm::dvec3>(patch, [&](std::uint32_t n) { return node(n); });
     return toDouble(patchReflectance(set_, index)) * (direct_.patches()[index] + indirect);
 }
@@ -74,6 +74,10 @@ void IndirectLight::updateResiduals() {
         Part& part = parts[first / kGrain];
         for (auto p = std::uint32_t(first); p < last; ++p) {
             const Patch& patch = set_.patches[p];
+            if (!senders_.present(p)) { // it has yet to take back what it sent
+                part.both = std::max(part.both, largest(sent_[p][0]));
+                continue;
+            }
             const double rho = maxChannel(patchReflectance(set_, p));
             reflects[p] = reflected(p);
             const double dirty =
@@ -115,9 +119,11 @@ void IndirectLight::coloursChanged() {
     reflectances_.assign(blockCount(), 0.0f);
     for (std::uint32_t p = 0; p < set_.patches.size(); ++p) {
         const Patch& patch = set_.patches[p];
-        const Rgb colour = patchReflectance(set_, p);
+        const bool there = set_.parts.used.empty() || set_.parts.used[p];
+        const Rgb colour = there ? patchReflectance(set_, p) : Rgb();
         const float rho = maxChannel(colour);
         colours.push_back(toDouble(colour));
+        if (!there) continue;
         most = std::max(most, rho);
         const auto at = [&](std::uint32_t n) {
             reflectances_[n / kBlock] = std::max(reflectances_[n / kBlock], rho);
@@ -134,7 +140,7 @@ glm::dvec3 IndirectLight::ambient() const {
     glm::dvec3 owed(0), reflected(0);
     double area = 0;
     for (std::uint32_t p = 0; p < set_.patches.size(); ++p) {
-        const double size = set_.patches[p].area;
+        const double size = set_.parts.used.empty() || set_.parts.used[p] ? set_.patches[p].area : 0;
         owed += size * residuals_[p][0];
         reflected += size * toDouble(patchReflectance(set_, p));
         area += size;

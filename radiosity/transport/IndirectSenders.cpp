@@ -1,5 +1,6 @@
 #include "radiosity/transport/IndirectSenders.h"
 
+#include "base/PairHash.h"
 #include "base/Parallel.h"
 #include "radiosity/rows/SenderSamples.h"
 
@@ -25,48 +26,38 @@ float squaredGap(const Bounds& a, const Bounds& b) {
 } // namespace
 
 IndirectSenders::IndirectSenders(const PatchSet& set, std::size_t flatPatches)
-    : set_(set), familyOf_(set.objects.size()), clusterRanges_(set.objects.size()) {
+    : set_(set), clusterRanges_(set.objects.size()) {
     const std::size_t patches = set.patches.size();
     boxes_.resize(patches), parents_.assign(patches, Clusters::kNone), areas_.resize(patches);
     keys_.resize(patches), objects_.resize(patches), samples_.resize(patches * kPatchSamples);
-    for (const ObjectPart& part : set.objects)
-        for (std::uint32_t p = part.patches.first; p < part.patches.end(); ++p) {
-            keys_[p] = addressOfPatch(set, p);
-            areas_[p] = set.patches[p].area;
-            objects_[p] = set.patches[p].object;
-        }
-    placePatches({0, std::uint32_t(patches)});
-
-    std::vector<ClusterPatch> fixed;
-    for (const ObjectPart& part : set.objects)
-        for (std::uint32_t p = part.patches.first; p < part.patches.end() && !part.movable; ++p)
-            fixed.push_back({p, set.patches[p].centre, set.patches[p].normal, areas_[p]});
-    const bool clustered = patches > flatPatches;
-    if (!clustered) fixed.clear();
-    addFamily(fixed);
-    fixedClusters_ = {std::uint32_t(patches), count() - std::uint32_t(patches)};
+    parallelFor(patches, 256, [&](std::size_t first, std::size_t last) {
+        for (std::size_t p = first; p < last; ++p) placePatch(std::uint32_t(p));
+    });
+    const std::size_t meshed = set.parts.used.empty() ? patches : set.parts.firstPatch;
     for (std::size_t o = 0; o < set.objects.size(); ++o) {
         const ObjectPart& part = set.objects[o];
-        if (!part.movable) continue;
         std::vector<ClusterPatch> own;
-        for (std::uint32_t i = 0; i < part.patches.count && clustered; ++i)
+        for (std::uint32_t i = 0; i < part.patches.count && meshed > flatPatches; ++i)
             own.push_back({part.patches.first + i, part.shape.patches[i].position,
                            part.shape.patches[i].normal, areas_[part.patches.first + i]});
-        familyOf_[o] = std::uint32_t(families_.size());
         clusterRanges_[o].first = count();
         addFamily(own);
         clusterRanges_[o].count = count() - clusterRanges_[o].first;
     }
+    for (std::size_t p = meshed; p < patches; ++p) placePatch(std::uint32_t(p)); // with parents
     for (std::uint32_t s = 0; s < count(); ++s)
-        if (parents_[s] == Clusters::kNone) roots_.push_back(s);
+        if (parents_[s] == Clusters::kNone && (s < meshed || s >= patches)) roots_.push_back(s);
     firstChild_.assign(count() - patches + 1, 0);
+    const auto isChild = [&](std::uint32_t s) {
+        return parents_[s] != Clusters::kNone && (s < meshed || s >= patches);
+    };
     for (std::uint32_t s = 0; s < count(); ++s)
-        if (parents_[s] != Clusters::kNone) ++firstChild_[parents_[s] - patches + 1];
+        if (isChild(s)) ++firstChild_[parents_[s] - patches + 1];
     for (std::size_t c = 1; c < firstChild_.size(); ++c) firstChild_[c] += firstChild_[c - 1];
     children_.resize(firstChild_.back());
     std::vector<std::uint32_t> next(firstChild_.begin(), firstChild_.end() - 1);
     for (std::uint32_t s = 0; s < count(); ++s)
-        if (parents_[s] != Clusters::kNone) children_[next[parents_[s] - patches]++] = s;
+        if (isChild(s)) children_[next[parents_[s] - patches]++] = s;
 }
 
 void IndirectSenders::addFamily(std::span<const ClusterPatch> patches) {
@@ -129,13 +120,28 @@ void IndirectSenders::listQuarters(const Family& family) {
 std::vector<SenderLight> IndirectSenders::average(const std::vector<glm::dvec3>& values) const {
     std::vector<glm::dvec3> mean(values);
     mean.resize(count());
-    const auto give = [&](std::uint32_t s) {
-        if (parents_[s] != Clusters::kNone) mean[parents_[s]] += double(areas_[s]) * mean[s];
+    std::vector<double> areas(count()); // of what is there of a cluster
+    const auto give = [&](std::uint32_t s, double area) {
+        if (parents_[s] == Clusters::kNone) return;
+        mean[parents_[s]] += area * mean[s];
+        areas[parents_[s]] += area;
     };
-    for (std::uint32_t p = 0; p < patchCount(); ++p) give(p);
+    for (std::uint32_t p = 0; p < patchCount(); ++p) {
+        if (p >= set_.parts.firstPatch && !set_.parts.used.empty()) break;
+        if (const auto parted = set_.parts.of.find(p); parted != set_.parts.of.end()) {
+            glm::dvec3 sum(0);
+            double area = 0;
+            for (const std::uint32_t part : parted->second) {
+                sum += double(areas_[part]) * values[part];
+                area += double(areas_[part]);
+            }
+            mean[p] = sum / area;
+        }
+        give(p, double(areas_[p]));
+    }
     for (std::uint32_t c = count(); c-- > patchCount();) { // those within others come later
-        mean[c] /= double(areas_[c]);
-        give(c);
+        mean[c] /= areas[c];
+        give(c, areas[c]);
     }
     std::vector<SenderLight> light(count());
     for (std::uint32_t p = 0; p < patchCount(); ++p) light[p].fill(values[p]);
@@ -148,22 +154,27 @@ std::vector<SenderLight> IndirectSenders::average(const std::vector<glm::dvec3>&
 }
 
 void IndirectSenders::place(ObjectId object) {
-    placePatches(set_.objects[object.value].patches);
-    if (set_.objects[object.value].movable) placeClusters(families_[familyOf_[object.value]]);
+    const Range patches = set_.objects[object.value].patches;
+    parallelFor(patches.count, 256, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) placePatch(patches.first + std::uint32_t(i));
+    });
+    placeClusters(families_[object.value]);
 }
 
-void IndirectSenders::placePatches(Range patches) {
-    parallelFor(patches.count, 256, [&](std::size_t first, std::size_t last) {
-        for (std::size_t p = patches.first + first; p < patches.first + last; ++p) {
-            const Patch& patch = set_.patches[p];
-            samplePatch(set_, patch, samples_.data() + p * kPatchSamples);
-            boxes_[p] = {};
-            for (std::uint32_t c = 0; c < patch.cornerCount; ++c)
-                boxes_[p].add(set_.corners[patch.firstCorner + c]);
-            for (std::size_t k = 0; k < kPatchSamples; ++k)
-                boxes_[p].add(samples_[p * kPatchSamples + k]);
-        }
-    });
+void IndirectSenders::placePatch(std::uint32_t p) {
+    const Patch& patch = set_.patches[p];
+    const std::uint32_t whole = set_.wholeOf(p);
+    const bool there = patch.elementCount > 0;
+    boxes_[p] = {};
+    keys_[p] = there ? addressOfPatch(set_, p) : 0;
+    areas_[p] = there ? patch.area : 0;
+    objects_[p] = patch.object;
+    if (whole != p) parents_[p] = there ? parents_[whole] : Clusters::kNone;
+    if (!there) return;
+    samplePatch(set_, patch, samples_.data() + p * kPatchSamples);
+    for (std::uint32_t c = 0; c < patch.cornerCount; ++c)
+        boxes_[p].add(set_.corners[patch.firstCorner + c]);
+    for (std::size_t k = 0; k < kPatchSamples; ++k) boxes_[p].add(samples_[p * kPatchSamples + k]);
 }
 
 void IndirectSenders::placeClusters(const Family& family) {
@@ -215,7 +226,7 @@ PatchSender IndirectSenders::sender(std::uint32_t index) const {
         sender.outline = std::span(set_.corners).subspan(patch.firstCorner, patch.cornerCount);
         return sender;
     }
-    const Family& family = families_[familyOf_[objects_[index].value]];
+    const Family& family = families_[objects_[index].value];
     const std::size_t count = family.clusters.clusters()[index - family.first].partCount;
     sender.parts = std::span(parts_).subspan((index - patchCount()) * kPatchSamples, count);
     return sender;
@@ -242,6 +253,7 @@ std::vector<std::uint32_t> IndirectSenders::matched(const IndirectSenders& other
     std::vector<std::uint32_t> match(count(), ObjectId::kNone);
     parallelFor(count(), 256, [&](std::size_t first, std::size_t last) {
         for (auto s = std::uint32_t(first); s < last; ++s) {
+            if (areas_[s] == 0) continue; // a patch that nobody has
             const auto [from, to] = named.equal_range(keys_[s]);
             const auto found = std::find_if(
                 from, to, [&](const auto& o) { return sendsLike(s, others, o.second); });

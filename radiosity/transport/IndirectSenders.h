@@ -19,8 +19,9 @@ namespace penumbra {
 /// of receivers takes light from the largest clusters that appear small from where it is, and from
 /// single patches close by: it is *linked* to them, and to no two that have a patch in common.
 ///
-/// Which clusters there are, and what is linked, depends on the fixed part of the scene and on each
-/// movable object in a frame of its own, and on where they stand: never on how they came there.
+/// Which clusters there are depends on each object in a frame of its own, what is linked on where
+/// they stand: never on how they came there. Clusters are of patches as the mesh has them; one that
+/// is parted does not send, its parts do in its place, and clusters send the mean of these.
 class IndirectSenders {
 public:
     /// `set` must outlive this. \param flatPatches if there are no more patches than these,
@@ -29,13 +30,12 @@ public:
 
     std::uint32_t count() const { return std::uint32_t(boxes_.size()); }
     std::uint32_t patchCount() const { return std::uint32_t(set_.patches.size()); }
-    /// What is an object's: `patches` or `clusters`. Those of the fixed part have clusters in
-    /// common, fixedClusters().
     Range clustersOf(ObjectId object) const { return clusterRanges_[object.value]; }
-    Range fixedClusters() const { return fixedClusters_; }
 
     /// An object was posed anew.
     void place(ObjectId object);
+    /// A patch was parted otherwise, handed out or given back.
+    void placePatch(std::uint32_t patch);
 
     PatchSender sender(std::uint32_t index) const;
     /// Of every sender the one among others that sends just alike to whatever receives,
@@ -43,13 +43,16 @@ public:
     std::vector<std::uint32_t> matched(const IndirectSenders& others) const;
     /// Around outline and samples [m, world].
     const Bounds& box(std::uint32_t index) const { return boxes_[index]; }
-    /// Whose it is; of a cluster of the fixed part any object of that.
+    /// Whose it is.
     ObjectId object(std::uint32_t index) const { return objects_[index]; }
-    bool present(std::uint32_t index) const { return set_.objects[objects_[index].value].present; }
+    bool present(std::uint32_t index) const {
+        return index < patchCount() ? set_.sends(index)
+                                    : set_.objects[objects_[index].value].present;
+    }
     float area(std::uint32_t index) const { return areas_[index]; }
     /// The cluster that has this sender, Clusters::kNone if none.
     std::uint32_t parent(std::uint32_t index) const { return parents_[index]; }
-    /// Means over the quarters of every sender. \param values one a patch
+    /// Means over the quarters of every sender that is there. \param values one a patch
     std::vector<SenderLight> average(const std::vector<glm::dvec3>& values) const;
 
     /// Whether receivers in a box take light from a sender itself, and not from a part of it, nor
@@ -80,10 +83,8 @@ private:
     }
 
     const PatchSet& set_;
-    std::vector<Family> families_;        ///< the fixed part's, then those of the movable objects
-    std::vector<std::uint32_t> familyOf_; ///< one an object
-    std::vector<Range> clusterRanges_;    ///< one an object
-    Range fixedClusters_;
+    std::vector<Family> families_;      ///< one an object
+    std::vector<Range> clusterRanges_;  ///< one an object
     std::vector<Bounds> boxes_;
     std::vector<std::uint32_t> keys_, parents_;
     std::vector<float> areas_;
@@ -108,7 +109,11 @@ void IndirectSenders::forEachLinked(const Bounds& receivers, const Visit& visit)
     while (!open.empty()) {
         const std::uint32_t s = open.back();
         open.pop_back();
-        if (isEnough(s, receivers)) {
+        if (s < patchCount()) {
+            set_.forEachPart(s, visit);
+            continue;
+        }
+        if (isFar(s, receivers)) {
             visit(s);
             continue;
         }

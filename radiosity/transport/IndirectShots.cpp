@@ -173,7 +173,7 @@ void IndirectLight::serveBlock(std::uint32_t b, PatchRowBuilder& builder, std::s
             builder.build(senders_.sender(s), receiversOf(s, b), block);
             if (kept_[s]) {
                 bytes += block.bytes();
-                RowTable::listBlockers(set_, s, b, block, notes);
+                RowTable::listBlockers(s, b, block, notes);
             }
         }
         const bool fresh = shot.fresh[i];

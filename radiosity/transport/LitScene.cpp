@@ -32,22 +32,11 @@ void LitScene::rebuild(const PlacedScene& scene) {
     pieces_ = piecesOf(scene);
 }
 
-namespace {
-
-/// Of its object's frame, or of the world's in the fixed part.
-template <class T>
-const glm::dmat4& frameOf(const Placed<T>& placed, const PlacedScene& scene) {
-    return scene.objects[placed.object.value].movable ? placed.toObject : placed.toWorld;
-}
-
-} // namespace
-
 LitScene::Pieces LitScene::piecesOf(const PlacedScene& scene) {
     Pieces pieces;
     const auto add = [&](const auto& placed) {
         pieces[scene.objects[placed.object.value].path].push_back(
-            {placed.node, placed.node->weak_from_this().lock(), placed.path,
-             frameOf(placed, scene)});
+            {placed.node, placed.node->weak_from_this().lock(), placed.path, placed.toObject});
     };
     for (const auto& mesh : scene.meshes) add(mesh);
     for (const auto& light : scene.lights) add(light);
@@ -71,7 +60,7 @@ bool LitScene::samePieces(const PlacedScene& now) const {
         if (seen == pieces->size()) return false;
         const Piece& piece = (*pieces)[seen++];
         return piece.node == placed.node && piece.path == placed.path &&
-               piece.frame == frameOf(placed, now);
+               piece.frame == placed.toObject;
     };
     return std::all_of(now.meshes.begin(), now.meshes.end(), isNext) &&
            std::all_of(now.lights.begin(), now.lights.end(), isNext) &&
@@ -79,18 +68,13 @@ bool LitScene::samePieces(const PlacedScene& now) const {
                        [](const Matched& m) { return m.seen == m.pieces->size(); });
 }
 
-/// Whether the scene is made of the same pieces; movable objects may be missing.
+/// Whether the scene is made of the same pieces; objects may be missing.
 bool LitScene::sameStructure(const PlacedScene& now, const ObjectsByPath& objects) const {
     if (!samePieces(now)) return false;
     for (const ObjectPart& part : built().patches.objects) {
         const auto found = objects.find(part.path);
-        if (found == objects.end()) {
-            if (!part.movable) return false;
-            continue;
-        }
-        const Object& object = *found->second;
-        if (object.movable != part.movable) return false;
-        if (part.movable && placementOf(object.toWorld).stretch != part.stretch) return false;
+        if (found == objects.end()) continue;
+        if (placementOf(found->second->toWorld).stretch != part.stretch) return false;
     }
     return true;
 }
@@ -138,7 +122,6 @@ std::vector<ObjectId> LitScene::followObjects(const ObjectsByPath& objects, Scen
     std::vector<ObjectId> replaced;
     for (std::uint32_t o = 0; o < set.objects.size(); ++o) {
         ObjectPart& part = set.objects[o];
-        if (!part.movable) continue;
         const auto found = objects.find(part.path);
         const bool wasRemoved = std::exchange(part.removed, found == objects.end());
         const bool present = !part.removed && found->second->visible;
@@ -150,8 +133,10 @@ std::vector<ObjectId> LitScene::followObjects(const ObjectsByPath& objects, Scen
     PosedPatches::Change moved = meshed_->posed.pose(wanted);
     change.objects = std::move(moved.objects);
     change.vertices = std::move(moved.covered.vertices);
-    change.nodes = std::move(moved.covered.nodes);
     change.patches = std::move(moved.covered.patches);
+    change.nodes = std::move(moved.covered.parted.nodes);
+    change.senders = std::move(moved.covered.parted.patches);
+    change.parted = std::move(moved.covered.parted.wholes);
     return replaced;
 }
 
@@ -166,7 +151,8 @@ LitScene::Followed LitScene::follow(const PlacedScene& now) {
     }
     const std::vector<ObjectId> replaced = followObjects(objects, followed.change);
     solver().apply(followed.change);
-    if (built().enclosures.changed(built().patches, replaced, built().enclosuresLit)) {
+    if (meshed_->posed.exhausted() ||
+        built().enclosures.changed(built().patches, replaced, built().enclosuresLit)) {
         rebuild(now);
         followed = {true, {}};
     }

@@ -18,10 +18,9 @@ namespace penumbra {
 
 /// Everything that is computed from a scene graph: patches, rays, what covers what, and light.
 ///
-/// Movable objects (Transform::movable()) that are moved, hidden, shown or removed, and colours and
-/// luminances that change are taken in by follow() at a cost that goes with the change. Edits of
-/// the fixed part, of geometry or of scale, things that are added, and a light that gets into or
-/// out of something closed mesh the scene anew.
+/// Objects that are moved, hidden, shown or removed, and colours and luminances that change are
+/// taken in by follow() at a cost that goes with the change. Edits of geometry or of scale, things
+/// that are added, and a light that gets into or out of something closed mesh the scene anew.
 class LitScene {
 public:
     /// Meshes; solves nothing yet. Keeps meshes and lights alive until the next follow(), if they
@@ -62,7 +61,7 @@ private:
         const void* node = nullptr;
         std::shared_ptr<const Node> kept; ///< it, with its materials, though the scene may drop it
         std::string path;
-        glm::dmat4 frame{1.0}; ///< in its object's frame; in the world's for the fixed part
+        glm::dmat4 frame{1.0}; ///< in its object's frame
     };
     using Pieces = std::unordered_map<std::string, std::vector<Piece>>; ///< by object
     using ObjectsByPath = std::unordered_map<std::string_view, const Object*>;

@@ -58,8 +58,7 @@ bool sameRays(const RayMesh& a, const RayMesh& b) {
 
 bool sameObject(const PatchSet& before, std::uint32_t was, const PatchSet& now, std::uint32_t is) {
     const ObjectPart &a = before.objects[was], &b = now.objects[is];
-    return a.present == b.present && a.movable == b.movable &&
-           sameRays(before.rayMeshes[was], now.rayMeshes[is]);
+    return a.present == b.present && sameRays(before.rayMeshes[was], now.rayMeshes[is]);
 }
 
 bool sameShape(const Emitter& a, const Emitter& b) {
@@ -191,7 +190,7 @@ void keepGone(const PatchSet& before, PatchSet& now, bool all) {
         ObjectPart left;
         left.path = part.path;
         left.key = part.key;
-        left.movable = left.removed = true;
+        left.removed = true;
         left.present = false;
         gone.push_back(std::move(left));
     }

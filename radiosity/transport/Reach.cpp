@@ -13,14 +13,12 @@ constexpr std::size_t kRays = 16;
 } // namespace
 
 Reach::Reach(const PatchSet& set) : set_(&set), seen_(set.nodes.size() * kRays, Element::kNone) {
-    const DrawnSurface surface(set, DrawnSurface::Which::fixed);
+    const DrawnSurface surface(set);
     const HemisphereRays rays(kRays);
     parallelFor(set.nodes.size(), 256, [&](std::size_t first, std::size_t last) {
         for (std::size_t n = first; n < last; ++n) {
             const Receiver& node = set.uncoveredNodes[n];
-            if (isPadding(node) ||
-                set.objects[set.nodeBlockObject[n / PatchSet::kBlock].value].movable)
-                continue;
+            if (isPadding(node)) continue;
             for (std::size_t r = 0; r < kRays; ++r) {
                 const auto hit =
                     surface.nearest(node.position, rays.direction(int(r), node.normal), 1e30f);
@@ -33,8 +31,7 @@ Reach::Reach(const PatchSet& set) : set_(&set), seen_(set.nodes.size() * kRays, 
 std::vector<std::uint64_t> Reach::spread(std::span<const std::uint8_t> lit) const {
     std::vector<std::uint8_t> bright(lit.begin(), lit.end()), reached(set_->nodes.size());
     for (std::size_t n = 0; n < reached.size(); ++n)
-        reached[n] = !isPadding(set_->uncoveredNodes[n]) &&
-                     set_->objects[set_->nodeBlockObject[n / PatchSet::kBlock].value].movable;
+        reached[n] = !isPadding(set_->nodes[n]);
     for (bool changed = true; changed;) {
         changed = false;
         for (std::size_t n = 0; n < reached.size(); ++n)

@@ -44,8 +44,6 @@ RowCarrying::RowCarrying(const PatchSet& before, const PatchSet& now, const Patc
     : before_(before), now_(now), match_(match), receivers_(receivers),
       changed_(now.objects.size()) {
     for (const ObjectId object : match.changed) changed_[object.value] = 1;
-    for (std::size_t o = 0; o < now.objects.size(); ++o)
-        noted_.push_back(now.objects[o].movable || changed_[o]);
     for (std::uint32_t b = 0; b < receivers.size() / kBlock; ++b) {
         const auto from = receivers.subspan(b * kBlock, kBlock);
         whole_.push_back(areBlock(from) ? from[0] / kBlock : PatchMatch::kNew);
@@ -88,7 +86,7 @@ std::vector<BlockMask> RowCarrying::carry(Place place, RowTable& before, const D
         if (invalid) again |= invalid(b, from);
         if (again != 0) anew.push_back({b, again});
         block.forEachBlocker([&](std::uint32_t object) {
-            if (noted_[object]) notes.push_back({place.row, b, object});
+            notes.push_back({place.row, b, object});
         });
     }
     now.noteAll(place.row, notes);

@@ -55,7 +55,6 @@ private:
     const PatchSet& now_;
     const PatchMatch& match_;
     std::span<const std::uint32_t> receivers_;
-    std::vector<std::uint8_t> noted_;   ///< one an object: as a blocker it is looked for
     std::vector<std::uint8_t> changed_; ///< likewise: it is not what it was
     std::vector<std::uint32_t> whole_;  ///< one a block: that which it was, or kNew
     std::vector<std::uint64_t> known_;  ///< one a block, bits: receivers that were there before

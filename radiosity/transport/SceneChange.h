@@ -13,13 +13,15 @@ struct SceneChange {
     std::vector<ObjectId> objects;       ///< posed anew, hidden or shown, with all that is theirs
     std::vector<std::uint32_t> vertices; ///< others that lie elsewhere
     std::vector<std::uint32_t> nodes;    ///< likewise
-    std::vector<std::uint32_t> patches;  ///< whose elements are lit at other points
+    std::vector<std::uint32_t> patches;  ///< of the mesh, whose elements are lit at other points
+    std::vector<std::uint32_t> senders;  ///< patches that send from elsewhere, or not, or begin to
+    std::vector<std::uint32_t> parted;   ///< of the mesh, which are parted otherwise, see Parting
     std::vector<std::uint32_t> emitters; ///< of another exitance
     bool colours = false;                ///< some reflectance or emission
 
     bool empty() const {
         return objects.empty() && vertices.empty() && nodes.empty() && patches.empty() &&
-               emitters.empty() && !colours;
+               emitters.empty() && senders.empty() && parted.empty() && !colours;
     }
 };
 

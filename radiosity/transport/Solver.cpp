@@ -297,7 +297,7 @@ void Solver::light(std::span<const std::uint32_t> blocks, Lighting& lighting) co
 std::vector<Rgb> Solver::radiosity() const {
     std::vector<Rgb> radiosity;
     for (std::uint32_t p = 0; p < set_.patches.size(); ++p) {
-        const Rgb rho = patchReflectance(set_, p);
+        const Rgb rho = set_.sends(p) ? patchReflectance(set_, p) : Rgb();
         radiosity.push_back(indirect_ ? toRgb(indirect_->reflected(p))
                                       : rho * toRgb(direct_.patches()[p]));
     }
@@ -309,8 +309,7 @@ double Solver::litIlluminance() const {
     LitLevel level;
     for (std::uint32_t p = 0; p < set_.patches.size(); ++p) {
         const Patch& patch = set_.patches[p];
-        const bool reflects = maxChannel(patchReflectance(set_, p)) > 0;
-        if (!reflects || !set_.objects[patch.object.value].present) continue;
+        if (!set_.sends(p) || !(maxChannel(patchReflectance(set_, p)) > 0)) continue;
         glm::dvec3 h = direct_.patches()[p];
         if (indirect_) h += interpolateNodes<glm::dvec3>(patch, 0.5f, 0.5f, nodes);
         level.add(std::max({h.r, h.g, h.b}), patch.area);

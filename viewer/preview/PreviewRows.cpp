@@ -109,7 +109,9 @@ PreviewRows::Slot PreviewRows::makeSlot(const PreviewLighting& light, const Scen
         if (place.visible)
             slot.things.push_back(transformed(surfaces_[o].geometry()->bounds(), place.toWorld));
     }
-    stage_->pose(*of);
+    std::vector<std::uint32_t> moving;
+    for (const auto& [object, pose] : slot.poses) moving.push_back(object);
+    stage_->pose(*of, moving);
     slot.touched = stage_->touched();
     return slot;
 }

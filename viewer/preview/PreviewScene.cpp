@@ -11,20 +11,9 @@ namespace penumbra {
 
 PreviewScene::PreviewScene(PatchSet set)
     : set_(std::move(set)), posed_(set_), aside_(raysThrough(set_)), poses_(set_.objects.size()),
-      asideAs_(set_.objects.size()) {
+      asideAs_(set_.objects.size()), touches_(set_.objects.size()) {
     for (std::uint32_t o = 0; o < set_.objects.size(); ++o)
         asidePoses_.push_back({{o}, set_.objects[o].pose, set_.objects[o].present});
-}
-
-/// Has a thing of the fixed part be moved. Radiosity will mesh the scene anew; until then what the
-/// rest of the fixed part made of it stays.
-void PreviewScene::free(std::uint32_t object) {
-    ObjectPart& part = set_.objects[object];
-    part.movable = true;
-    const auto first = set_.vertices.begin() + part.vertices.first;
-    part.shape.vertices.assign(first, first + part.vertices.count);
-    part.shape.patches.resize(part.patches.count);
-    part.shape.rayVertices = set_.rayMeshes[object].vertices;
 }
 
 /// What has another pose than in `places`, which follow.
@@ -35,18 +24,20 @@ std::vector<PosedPatches::ObjectPose> PreviewScene::follow(ObjectStates& states,
     for (std::uint32_t o = 0; o < count; ++o) {
         const SceneState::ObjectState& place = sceneState.objects[o];
         if (states[o] == place) continue;
-        const bool known = std::exchange(states[o], place).has_value();
-        if (!set_.objects[o].movable) {
-            if (!known) continue; // it is where it was when it was meshed
-            free(o);
-        }
+        states[o] = place;
         wanted.push_back({{o}, placementOf(place.toWorld).pose, place.visible});
     }
     return wanted;
 }
 
-void PreviewScene::pose(const SceneState& sceneState) {
-    posed_.pose(follow(poses_, sceneState));
+void PreviewScene::pose(const SceneState& sceneState, std::span<const std::uint32_t> moving) {
+    const bool first = std::none_of(poses_.begin(), poses_.end(),
+                                    [](const auto& state) { return state.has_value(); });
+    posed_.pose(follow(poses_, sceneState), !first);
+    std::vector<ObjectId> unknown;
+    for (const std::uint32_t object : moving)
+        if (!std::exchange(touches_[object], std::uint8_t(1))) unknown.push_back({object});
+    posed_.findContacts(unknown);
 }
 
 const RayScene& PreviewScene::raysAt(const SceneState& sceneState) {
@@ -78,7 +69,6 @@ Receiver PreviewScene::receiver(std::uint32_t object, std::size_t vertex) const 
 
 Receiver PreviewScene::receiver(std::uint32_t object, std::size_t vertex, const Pose& pose) const {
     const ObjectPart& part = set_.objects[object];
-    if (!part.movable) return receiver(object, vertex);
     return placedReceiver(part.shape.vertices[vertex].receiver, pose, set_.skin);
 }
 

@@ -28,8 +28,10 @@ public:
     /// \param set see RadiosityNode::patches()
     explicit PreviewScene(PatchSet set);
 
-    /// Poses things as in this scene state; costs what changes.
-    void pose(const SceneState& sceneState);
+    /// Poses things as in this scene state; costs what changes. What they touch is found around
+    /// those that move, now or at any time before: elsewhere it stays as radiosity has it.
+    /// \param moving objects
+    void pose(const SceneState& sceneState, std::span<const std::uint32_t> moving);
 
     const RayScene& rays() const { return posed_.rays(); }
     /// Rays through things as they are in another scene state; what they touch there is not
@@ -55,7 +57,6 @@ public:
 private:
     using ObjectPose = PosedPatches::ObjectPose;
     using ObjectStates = std::vector<std::optional<SceneState::ObjectState>>;
-    void free(std::uint32_t object);
     std::vector<ObjectPose> follow(ObjectStates& states, const SceneState& sceneState);
 
     PatchSet set_;
@@ -63,6 +64,7 @@ private:
     RayScene aside_;                     ///< of raysAt()
     std::vector<ObjectPose> asidePoses_; ///< of what is in it, by object
     ObjectStates poses_, asideAs_;       ///< what was asked for last
+    std::vector<std::uint8_t> touches_;  ///< 1: what the object touches is known
 };
 
 } // namespace penumbra

@@ -32,11 +32,14 @@ LightPublisher::LightPublisher(LitScene& scene)
     const PatchSet& set = scene.patches();
     for (std::uint32_t v = 0; v < set.vertices.size(); ++v) {
         const std::uint32_t patch = set.vertexCoordinates[v].patch;
-        if (patch == Element::kNone) continue;
-        std::vector<std::uint32_t>& blocks = patchBlocks_[patch];
-        if (std::find(blocks.rbegin(), blocks.rend(), v / kBlock) == blocks.rend())
-            blocks.push_back(v / kBlock);
+        if (patch != Element::kNone) noteBlock(set.wholeOf(patch), v / kBlock);
     }
+}
+
+/// A block has a vertex that is lit by the nodes of a patch of the mesh, or of its parts.
+void LightPublisher::noteBlock(std::uint32_t patch, std::uint32_t block) {
+    std::vector<std::uint32_t>& blocks = patchBlocks_[patch];
+    if (std::find(blocks.rbegin(), blocks.rend(), block) == blocks.rend()) blocks.push_back(block);
 }
 
 std::uint32_t LightPublisher::blockCount() const {
@@ -72,11 +75,10 @@ void LightPublisher::follow(const SceneChange& change) {
     for (std::uint32_t vertex : change.vertices) {
         touch(vertex / kBlock);
         const std::uint32_t patch = scene_.patches().vertexCoordinates[vertex].patch;
-        if (patch == Element::kNone) continue;
-        std::vector<std::uint32_t>& blocks = patchBlocks_[patch];
-        if (std::find(blocks.begin(), blocks.end(), vertex / kBlock) == blocks.end())
-            blocks.push_back(vertex / kBlock);
+        if (patch != Element::kNone) noteBlock(scene_.patches().wholeOf(patch), vertex / kBlock);
     }
+    for (std::uint32_t patch : change.parted)
+        for (std::uint32_t block : patchBlocks_[patch]) touch(block);
 }
 
 void LightPublisher::setPreviewLights(std::uint32_t serial, const std::vector<std::string>& paths) {
@@ -149,7 +151,8 @@ void LightPublisher::nodesChanged(bool exact) {
             !(patch.hasCornerNodes &&
               std::any_of(patch.cornerNodes.begin(), patch.cornerNodes.end(), changed)))
             continue;
-        for (std::uint32_t block : patchBlocks_[p]) touch(block);
+        if (!set.sends(p)) continue;
+        for (std::uint32_t block : patchBlocks_[set.wholeOf(p)]) touch(block);
     }
     nodes_ = now;
 }
@@ -205,7 +208,9 @@ void LightPublisher::markPatches(std::vector<DirtyStatus>& work) const {
         if (!isOpen(patch.centreNode) &&
             !(patch.hasCornerNodes && std::ranges::any_of(patch.cornerNodes, isOpen)))
             continue;
-        for (std::uint32_t block : patchBlocks_[p]) work[block].kind = DirtyStatus::Kind::patches;
+        if (!set.sends(p)) continue;
+        for (std::uint32_t block : patchBlocks_[set.wholeOf(p)])
+            work[block].kind = DirtyStatus::Kind::patches;
     }
 }
 

@@ -53,6 +53,7 @@ public:
     void publishDirty(std::uint32_t question);
 
 private:
+    void noteBlock(std::uint32_t patch, std::uint32_t block);
     void markPatches(std::vector<DirtyStatus>& work) const;
     void touch(std::uint32_t block);
     void touchStale(std::uint32_t block);
@@ -73,7 +74,7 @@ private:
     LitScene& scene_;
     std::unique_ptr<StoreWriter> store_;
     std::vector<std::uint32_t> elementNumber_;            ///< see numberElements()
-    std::vector<std::vector<std::uint32_t>> patchBlocks_; ///< blocks lit by the nodes of a patch
+    std::vector<std::vector<std::uint32_t>> patchBlocks_; ///< by patches of the mesh
     std::vector<glm::dvec3> nodes_;                       ///< illuminance that is published [lux]
     std::vector<Rgb> detail_; ///< what fine shadows added when it was settled last [lux]
     std::uint32_t previewSet_ = 0;

@@ -38,13 +38,11 @@ void writeHead(ByteWriter& out, const LitScene& scene, const SceneReplica& graph
     out.list(materials);
 }
 
-/// Movable objects in their stretched frames, where they never change; the others in the world.
-void writeVertices(ByteWriter& out, const PatchSet& set, const ObjectPart& part,
-                   std::uint32_t count) {
+/// In the object's stretched frame, where they never change.
+void writeVertices(ByteWriter& out, const ObjectPart& part, std::uint32_t count) {
     std::vector<glm::vec3> positions(count), normals(count), receivers(count);
     for (std::uint32_t i = 0; i < part.vertices.count; ++i) {
-        const Vertex& vertex =
-            part.movable ? part.shape.vertices[i] : set.vertices[part.vertices.first + i];
+        const Vertex& vertex = part.shape.vertices[i];
         positions[i] = vertex.position;
         normals[i] = vertex.receiver.normal;
         receivers[i] = vertex.receiver.position;
@@ -74,21 +72,20 @@ void writeElements(ByteWriter& out, const PatchSet& set, std::uint32_t object,
 }
 
 void writeRays(ByteWriter& out, const ObjectPart& part, const RayMesh& rays) {
-    out.list(part.movable ? part.shape.rayVertices : rays.vertices);
+    out.list(part.shape.rayVertices);
     out.list(rays.triangles);
     out.list(rays.solid);
 }
 
 void writeEmitters(ByteWriter& out, const LitScene& scene, const SceneReplica& graph,
                    const ObjectPart& part) {
-    const PatchSet& set = scene.patches();
     std::vector<std::uint32_t> meshes; // the others are lights
     for (std::uint32_t i = 0; i < part.emitters.count; ++i)
         if (scene.built().emitterSources[part.emitters.first + i].material) meshes.push_back(i);
     out.put(std::uint64_t(meshes.size()));
     for (const std::uint32_t i : meshes) {
         const std::uint32_t e = part.emitters.first + i;
-        const Emitter& emitter = part.movable ? part.shape.emitters[i] : set.emitters[e];
+        const Emitter& emitter = part.shape.emitters[i];
         out.text(emitter.path);
         out.put(graph.numberOf(scene.built().emitterSources[e].material));
         out.put(emitter.texture);
@@ -112,8 +109,7 @@ std::vector<LitMeshEmitter> readEmitters(ByteReader& in) {
 
 } // namespace
 
-std::vector<std::byte> describeMesh(const LitScene& scene, const SceneReplica& graph,
-                                    std::span<const glm::dmat4> toWorld) {
+std::vector<std::byte> describeMesh(const LitScene& scene, const SceneReplica& graph) {
     const PatchSet& set = scene.patches();
     std::vector<std::vector<std::uint32_t>> elements(set.objects.size());
     for (std::uint32_t e = 0; e < set.elements.size(); ++e)
@@ -123,12 +119,11 @@ std::vector<std::byte> describeMesh(const LitScene& scene, const SceneReplica& g
     for (std::uint32_t o = 0; o < set.objects.size(); ++o) {
         const ObjectPart& part = set.objects[o];
         out.text(part.path);
-        out.put(inverseOrOne(part.movable ? glm::dmat4(part.stretch) : toWorld[o]));
+        out.put(inverseOrOne(glm::dmat4(part.stretch)));
         out.put(part.vertices.first / kBlock);
-        out.put(std::uint32_t(part.movable));
         out.put(std::uint32_t(part.present));
         const std::uint32_t blocks = (part.vertices.count + kBlock - 1) / kBlock;
-        writeVertices(out, set, part, blocks * kBlock);
+        writeVertices(out, part, blocks * kBlock);
         writeElements(out, set, o, elements[o]);
         writeRays(out, part, set.rayMeshes[o]);
         writeEmitters(out, scene, graph, part);
@@ -157,7 +152,6 @@ std::optional<LitMeshObject> LitMeshReader::next() {
     object.path = reader_.text();
     object.toObject = reader_.get<glm::dmat4>();
     object.firstBlock = reader_.get<std::uint32_t>();
-    object.movable = reader_.get<std::uint32_t>();
     object.present = reader_.get<std::uint32_t>();
     object.positions = reader_.list<glm::vec3>();
     object.normals = reader_.list<glm::vec3>();

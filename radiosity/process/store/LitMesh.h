@@ -30,9 +30,8 @@ struct LitMeshEmitter {
 /// lies at the origin.
 struct LitMeshObject {
     std::string path;
-    glm::dmat4 toObject{1.0}; ///< of the frame of these vertices to the object's own
+    glm::dmat4 toObject{1.0}; ///< of the stretched frame (see Pose.h) to the object's own
     std::uint32_t firstBlock = 0;
-    std::uint32_t movable = 0; ///< 1: vertices and rays are in the stretched frame, see Pose.h
     std::uint32_t present = 0; ///< 0: was hidden when it was meshed
     std::vector<glm::vec3> positions, normals;
     std::vector<glm::vec3> receivers; ///< where vertices take their light, see Vertex
@@ -58,9 +57,8 @@ struct LitMeshHead {
     std::vector<LitMeshMaterial> materials;
 };
 
-/// The mesh of a scene as it was built. \param toWorld frames of the objects when it was, one each
-std::vector<std::byte> describeMesh(const LitScene& scene, const SceneReplica& graph,
-                                    std::span<const glm::dmat4> toWorld);
+/// The mesh of a scene as it was built, each object in its stretched frame.
+std::vector<std::byte> describeMesh(const LitScene& scene, const SceneReplica& graph);
 
 /// Reads a mesh object by object, so that nobody has to wait for all of it.
 class LitMeshReader {

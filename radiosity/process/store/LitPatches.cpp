@@ -22,7 +22,6 @@ void addVertices(const LitMeshObject& object, std::uint32_t index, PatchSet& set
     for (std::uint32_t i = 0; i < part.vertices.count; ++i)
         set.vertices[part.vertices.first + i] = {object.positions[i],
                                                  {object.receivers[i], object.normals[i]}};
-    if (!part.movable) return;
     const auto first = set.vertices.begin() + part.vertices.first;
     part.shape.vertices.assign(first, first + part.vertices.count);
 }
@@ -58,18 +57,17 @@ void addElements(const LitMeshObject& object, std::uint32_t index, PatchSet& set
         ++set.patches.back().elementCount;
     }
     set.elementObject.resize(set.elements.size(), {index});
-    if (part.movable) part.shape.patches.resize(part.patches.count);
+    part.shape.patches.resize(part.patches.count);
 }
 
 void addObject(LitMeshObject object, PatchSet& set) {
     const auto index = std::uint32_t(set.objects.size());
     ObjectPart& part = set.objects.emplace_back();
-    part.movable = object.movable != 0;
-    part.present = !part.movable && object.present != 0;
+    part.present = false; // until it is told where it stands
     addVertices(object, index, set);
     addElements(object, index, set);
     part.path = std::move(object.path);
-    if (part.movable) part.shape.rayVertices = object.rays.vertices;
+    part.shape.rayVertices = object.rays.vertices;
     set.rayMeshes.push_back(std::move(object.rays));
 }
 
