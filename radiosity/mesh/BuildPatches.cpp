@@ -290,10 +290,12 @@ void addEmitters(const Surface& surface, const Tessellation& tessellation, Built
     }
 }
 
-/// Notes the faces that may hide a room from the next.
+/// Notes the faces that may hide a room from the next, in the frame of their object.
+/// \pre surfaces come object by object
 void addWalls(const Surface& surface, PatchSet& set) {
     if (surface.mesh.subdivided()) return;
-    return; // walls: merged from their branch
+    ObjectPart& part = set.objects[surface.object.value];
+    if (part.walls.count == 0) part.walls.first = std::uint32_t(set.walls.size());
     const double least = 4.0 * set.patchSize * set.patchSize; // [m^2]
     for (const SurfaceFace& face : surface.mesh.faces) {
         const auto corners = surface.mesh.cornersOf(face);
@@ -309,7 +311,10 @@ void addWalls(const Surface& surface, PatchSet& set) {
                 const float height = glm::dot(wall.normal, corner - wall.outline[0]);
                 return std::abs(height) <= roundingAt(reach);
             });
-        if (flat) set.walls.push_back(std::move(wall));
+        if (!flat) continue;
+        part.shape.walls.push_back(wall);
+        set.walls.push_back(std::move(wall));
+        ++part.walls.count;
     }
 }
 

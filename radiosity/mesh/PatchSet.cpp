@@ -129,6 +129,12 @@ void placeObject(PatchSet& set, ObjectId object, const Pose& pose) {
         emitter = placedEmitter(shape.emitters[i], pose);
         emitter.exitance = exitance; // it may have been dimmed since
     }
+    for (std::uint32_t i = 0; i < part.walls.count; ++i) {
+        Wall& wall = set.walls[part.walls.first + i];
+        wall.normal = pose.direction(shape.walls[i].normal);
+        for (std::size_t k = 0; k < wall.outline.size(); ++k)
+            wall.outline[k] = pose.point(shape.walls[i].outline[k]);
+    }
     RayMesh& rays = set.rayMeshes[object.value];
     for (std::size_t i = 0; i < rays.vertices.size(); ++i)
         rays.vertices[i] = pose.point(shape.rayVertices[i]);

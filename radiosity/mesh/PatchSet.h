@@ -101,6 +101,13 @@ struct Range {
     bool contains(std::uint32_t index) const { return index - first < count; }
 };
 
+/// A large convex face, see Walls.h.
+struct Wall {
+    ObjectId object;
+    glm::vec3 normal{};             ///< unit
+    std::vector<glm::vec3> outline; ///< counter-clockwise around the normal [m]
+};
+
 /// Geometry of an object in its own stretched frame (see Pose.h), in the order of its ranges.
 struct ObjectShape {
     std::vector<Vertex> vertices;
@@ -108,6 +115,7 @@ struct ObjectShape {
     std::vector<Receiver> nodes;
     std::vector<Receiver> patches; ///< centres and normals
     std::vector<Emitter> emitters;
+    std::vector<Wall> walls;
     std::vector<glm::vec3> rayVertices;
 };
 
@@ -119,15 +127,8 @@ struct ObjectPart {
     bool removed = false;  ///< hidden because it is not in the scene any more
     Pose pose;
     glm::dmat3 stretch{1.0};
-    Range vertices, elements, patches, nodes, corners, emitters;
+    Range vertices, elements, patches, nodes, corners, emitters, walls;
     ObjectShape shape;
-};
-
-/// A large convex face, see Walls.h.
-struct Wall {
-    ObjectId object;
-    glm::vec3 normal{};             ///< unit
-    std::vector<glm::vec3> outline; ///< counter-clockwise around the normal [m, world]
 };
 
 /// What textures say of elements and patches, found once, when the scene is meshed. All of it is
@@ -191,7 +192,7 @@ struct PatchSet {
     SurfaceTextures textures;
     std::vector<Emitter> emitters;
     std::vector<ObjectPart> objects;
-    std::vector<Wall> walls;
+    std::vector<Wall> walls;             ///< in the world, object by object
     std::vector<RayMesh> rayMeshes;      ///< one an object
     std::vector<ObjectId> elementObject; ///< one an element
     Bounds bounds;

@@ -6,11 +6,12 @@ namespace penumbra {
 
 void write(ByteWriter& out, const LightingTask& task, const SceneSnapshot& scene) {
     // Named one by one: an option that is new does not compile before it is sent.
-    const auto& [patchSize, elementSize] = task.meshing;
+    const auto& [patchSize, elementSize, backdropArea] = task.meshing;
     const auto& [samples, residual, directOnly, policy, detail, mostShots, rowMemory, flatPatches] =
         task.solving;
     out.put(patchSize);
     out.put(elementSize);
+    out.put(backdropArea);
     out.put(std::int32_t(samples));
     out.put(residual);
     out.put(std::uint8_t(directOnly));
@@ -31,6 +32,7 @@ std::optional<LightingTask> readLightingTask(ByteReader& in) {
     LightingTask task;
     task.meshing.patchSize = size();
     task.meshing.elementSize = size();
+    task.meshing.backdropArea = in.get<double>(); // infinity: there are none
     task.solving.samples = in.get<std::int32_t>();
     task.solving.residual = in.get<double>();
     task.solving.directOnly = in.get<std::uint8_t>() != 0;
@@ -40,7 +42,7 @@ std::optional<LightingTask> readLightingTask(ByteReader& in) {
     task.solving.mostShots = in.get<std::uint64_t>();
     task.solving.rowMemory = in.get<std::uint64_t>();
     task.solving.flatPatches = in.get<std::uint64_t>();
-    if (task.solving.samples < 1 || task.solving.samples > 64 ||
+    if (!(task.meshing.backdropArea >= 0) || task.solving.samples < 1 || task.solving.samples > 64 ||
         !std::isfinite(task.solving.residual) || task.solving.residual < 0 ||
         policy > std::uint8_t(PolicyKind::random))
         return std::nullopt;

@@ -160,12 +160,15 @@ int EmitterRowBuilder::update(const EmitterSender& sender, const ReceiverBlock& 
     for (std::size_t r = 0; r < drafts.size(); ++r) {
         RowBlock::Draft& draft = drafts[r];
         if (!(receivers.some >> r & 1)) continue;
+        const bool before = draft.formFactor > 0, wanted = receivers.wanted >> r & 1;
         if (anew >> r & 1) {
-            const bool before = draft.formFactor > 0, wanted = receivers.wanted >> r & 1;
             draft.begin(wanted ? sender.formFactor(receivers.receivers[r]) : 0.0f);
             if (draft.formFactor > 0) evaluate(sender, receivers.receivers[r], draft);
             changed += before || draft.formFactor > 0;
-        } else if (draft.formFactor > 0) {
+        } else if (before && !wanted) {
+            draft.begin(0);
+            ++changed;
+        } else if (before) {
             changed += retest(sender, receivers.receivers[r], moved, draft);
         }
     }

@@ -21,7 +21,7 @@ class EmitterRowBuilder {
 public:
     explicit EmitterRowBuilder(const RayScene& rays) : rays_(rays), drafts_(RowBlock::kSize) {}
 
-    /// Brings some entries of a block up to date.
+    /// Brings some entries of a block up to date. What is not wanted has none then.
     /// \param anew bits: entries to be evaluated anew
     /// \return the number of entries that are not what they were
     int update(const EmitterSender& sender, const ReceiverBlock& receivers, std::uint64_t anew,

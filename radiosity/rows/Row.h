@@ -150,6 +150,8 @@ public:
     };
     Entry entry(int receiver) const;
 
+    /// Bits: receivers that have an entry.
+    std::uint64_t present() const { return bytes_ ? at<std::uint64_t>(0) : 0; }
     int entryCount() const { return std::popcount(present()); }
     /// Bytes it takes, what the allocator adds left out.
     std::size_t bytes() const { return sizeof *this + size(); }
@@ -177,7 +179,6 @@ private:
         std::memcpy(&value, bytes_.get() + offset, sizeof value);
         return value;
     }
-    std::uint64_t present() const { return bytes_ ? at<std::uint64_t>(0) : 0; }
     std::uint64_t visible() const { return bytes_ ? at<std::uint64_t>(kVisible) : 0; }
     std::uint64_t seen() const {
         return present() == visible() ? visible() : at<std::uint64_t>(kSeen);

@@ -4,6 +4,8 @@
 #include "radiosity/rows/EmitterRowBuilder.h"
 #include "radiosity/rows/PatchRowBuilder.h"
 
+#include <vector>
+
 namespace penumbra {
 
 /// Builds and updates blocks of rows; one a thread. An updated block is the same as a block built
@@ -20,6 +22,10 @@ struct RowBuilder {
 
     EmitterRowBuilder emitters; ///< direct light
     PatchRowBuilder patches;    ///< indirect light
+
+    /// Whose walls hide some of the block that is being updated from its sender altogether. Whoever
+    /// updates it says so, whoever has it updated takes them.
+    std::vector<ObjectId> hiders;
 };
 
 } // namespace penumbra

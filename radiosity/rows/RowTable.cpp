@@ -29,19 +29,62 @@ void RowTable::listBlockers(std::uint32_t row, std::uint32_t block, const RowBlo
     entries.forEachBlocker([&](std::uint32_t object) { notes.push_back({row, block, object}); });
 }
 
-void RowTable::noteAll(std::uint32_t row, std::span<const BlockerNote> notes) {
-    std::vector<std::uint64_t>& list = blockers_[row];
-    for (const auto& note : notes) list.push_back(std::uint64_t(note.object) << 32 | note.block);
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
+/// Run by run of the same row: few one by one, many in one go.
+void RowTable::insert(std::vector<Keys>& lists, std::span<const BlockerNote> notes) {
+    constexpr std::size_t kFew = 8;
+    for (std::size_t first = 0, end = 0; first < notes.size(); first = end) {
+        const std::uint32_t row = notes[first].row;
+        while (end < notes.size() && notes[end].row == row) ++end;
+        Keys& list = lists[row];
+        const std::size_t before = list.size();
+        for (const auto& note : notes.subspan(first, end - first)) {
+            const std::uint64_t key = std::uint64_t(note.object) << 32 | note.block;
+            if (end - first > kFew) {
+                list.push_back(key);
+                continue;
+            }
+            const auto place = std::lower_bound(list.begin(), list.end(), key);
+            if (place == list.end() || *place != key) list.insert(place, key);
+        }
+        if (end - first <= kFew) continue;
+        const auto middle = list.begin() + std::ptrdiff_t(before);
+        std::sort(middle, list.end());
+        std::inplace_merge(list.begin(), middle, list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+    }
 }
 
-void RowTable::note(std::span<const BlockerNote> notes) {
-    for (const auto& [row, block, object] : notes) {
-        std::vector<std::uint64_t>& list = blockers_[row];
-        const std::uint64_t key = std::uint64_t(object) << 32 | block;
-        const auto place = std::lower_bound(list.begin(), list.end(), key);
-        if (place == list.end() || *place != key) list.insert(place, key);
+std::vector<RowTable::BlockerNote> RowTable::hiders(std::uint32_t row) const {
+    std::vector<BlockerNote> notes;
+    for (const std::uint64_t key : hiders_[row])
+        notes.push_back({row, std::uint32_t(key), std::uint32_t(key >> 32)});
+    std::stable_sort(notes.begin(), notes.end(),
+                     [](const BlockerNote& a, const BlockerNote& b) { return a.block < b.block; });
+    return notes;
+}
+
+/// Calls visit(block) for those of some blocks at which a list has an object.
+template <class Visit>
+void RowTable::forEachOf(const Keys& list, std::uint32_t object, Blocks blocks, Visit visit) {
+    const std::uint64_t first = std::uint64_t(object) << 32 | blocks.first;
+    for (auto key = std::lower_bound(list.begin(), list.end(), first);
+         key != list.end() && *key >> 32 == object && std::uint32_t(*key) < blocks.end; ++key)
+        visit(std::uint32_t(*key));
+}
+
+void RowTable::forgetHiders(std::size_t row, ObjectId object, const PendingChange& change,
+                            Blocks blocks) {
+    Keys& list = hiders_[row];
+    if (change.moves(object.value)) {
+        std::erase_if(list, [&](std::uint64_t key) {
+            return std::uint32_t(key) >= blocks.first && std::uint32_t(key) < blocks.end;
+        });
+        return;
+    }
+    for (const MovedObject& m : change.moved) {
+        const std::uint64_t at = std::uint64_t(m.object) << 32;
+        const auto first = std::lower_bound(list.begin(), list.end(), at | blocks.first);
+        list.erase(first, std::lower_bound(first, list.end(), at | blocks.end));
     }
 }
 
@@ -61,12 +104,13 @@ std::vector<BlockMask> RowTable::concerned(std::size_t row, const Bounds& sender
         [](const BlockMask& mask, std::uint32_t first) { return mask.block < first; });
     for (auto mask = anew; mask != change.receivers.end() && mask->block < blocks.end; ++mask)
         if (entries.has(mask->block)) masks.push_back(*mask);
-    const std::vector<std::uint64_t>& list = blockers_[row];
     for (const MovedObject& m : change.moved) {
-        const std::uint64_t first = std::uint64_t(m.object) << 32 | blocks.first;
-        for (auto key = std::lower_bound(list.begin(), list.end(), first);
-             key != list.end() && *key >> 32 == m.object && isOne(std::uint32_t(*key)); ++key)
-            masks.push_back({std::uint32_t(*key), 0});
+        forEachOf(blockers_[row], m.object, blocks, [&](std::uint32_t b) {
+            masks.push_back({b, 0});
+        });
+        forEachOf(hiders_[row], m.object, blocks, [&](std::uint32_t b) {
+            if (entries.has(b)) masks.push_back({b, ~entries[b].present()});
+        });
         if (m.present) crossed(entries, blocks, sender, m.box, 0, masks);
     }
     for (const Bounds& region : change.regions)

@@ -32,12 +32,13 @@ struct PendingChange {
 
 /// All emitters onto the vertices, or all patches onto the nodes.
 ///
-/// What an edit changes in a row is found without reading its entries: old shadows by a list of
-/// the blocks in which each object is a recorded blocker, new ones by the shafts between
-/// the sender and a hierarchy of the blocks.
+/// What an edit changes in a row is found without reading its entries: old shadows by lists of the
+/// blocks in which each object is a recorded blocker, or has a wall that hides receivers
+/// altogether (Walls), new ones by the shafts between the sender and a hierarchy of the blocks.
 class RowTable {
 public:
-    explicit RowTable(std::size_t rows = 0) : rows_(rows), known_(rows), blockers_(rows) {}
+    explicit RowTable(std::size_t rows = 0)
+        : rows_(rows), known_(rows), blockers_(rows), hiders_(rows) {}
 
     std::size_t size() const { return rows_.size(); }
     Row& operator[](std::size_t row) { return rows_[row]; }
@@ -59,9 +60,11 @@ public:
     static void listBlockers(std::uint32_t row, std::uint32_t block, const RowBlock& entries,
                              std::vector<BlockerNote>& notes);
     /// Remembers them. Notes may repeat themselves.
-    void note(std::span<const BlockerNote> notes);
-    /// Many of one row at once.
-    void noteAll(std::uint32_t row, std::span<const BlockerNote> notes);
+    void note(std::span<const BlockerNote> notes) { insert(blockers_, notes); }
+    /// Remembers objects with a wall that hides receivers of a block, which have no entry.
+    void noteHiders(std::span<const BlockerNote> notes) { insert(hiders_, notes); }
+    /// Of a row: by block.
+    std::vector<BlockerNote> hiders(std::uint32_t row) const;
 
     /// Some blocks of a row, first ... end - 1.
     struct Blocks {
@@ -72,14 +75,20 @@ public:
     /// \param object the sender's
     std::vector<BlockMask> concerned(std::size_t row, const Bounds& sender, ObjectId object,
                                      const PendingChange& change, Blocks blocks) const;
+    /// Forgets who hid receivers of them before a change: they are evaluated anew.
+    void forgetHiders(std::size_t row, ObjectId object, const PendingChange& change, Blocks blocks);
 
 private:
+    using Keys = std::vector<std::uint64_t>; ///< object << 32 | block, sorted
+    static void insert(std::vector<Keys>& lists, std::span<const BlockerNote> notes);
+    template <class Visit>
+    static void forEachOf(const Keys& list, std::uint32_t object, Blocks blocks, Visit visit);
     void crossed(const Row& row, Blocks blocks, const Bounds& sender, const Bounds& box,
                  std::uint64_t receivers, std::vector<BlockMask>& masks) const;
 
     std::vector<Row> rows_;
     std::vector<std::uint32_t> known_;
-    std::vector<std::vector<std::uint64_t>> blockers_; ///< object << 32 | block, sorted, a row
+    std::vector<Keys> blockers_, hiders_; ///< a row each
     BoundsTree blocks_;
 };
 

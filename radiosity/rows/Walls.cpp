@@ -29,28 +29,35 @@ float lowest(const Heights& heights) {
 
 } // namespace
 
-Walls::Walls(const PatchSet& set) : skin_(set.skin) {
-    std::vector<Bounds> boxes;
-    for (const Wall& wall : set.walls) {
-        Sides sides{wall.object, {wall.normal, glm::dot(wall.normal, wall.outline[0])}, {}, 0};
-        Bounds box;
-        for (std::size_t i = 0; i < wall.outline.size(); ++i) {
-            const glm::vec3 from = wall.outline[i];
-            const glm::vec3 along = wall.outline[(i + 1) % wall.outline.size()] - from;
-            if (along == glm::vec3(0)) continue;
-            const glm::vec3 inwards = glm::normalize(glm::cross(wall.normal, along));
-            sides.edges.push_back({inwards, glm::dot(inwards, from)});
-            box.add(from);
-        }
-        sides.farthest = magnitude(box);
-        walls_.push_back(std::move(sides));
-        boxes.push_back(box);
+Walls::Walls(const PatchSet& set) : set_(set), walls_(set.walls.size()) {
+    boxes_.assign(std::vector<Bounds>(walls_.size()));
+    for (std::uint32_t o = 0; o < set.objects.size(); ++o) place({o});
+}
+
+Walls::Sides Walls::sidesOf(const Wall& wall) {
+    Sides sides{wall.object, {wall.normal, glm::dot(wall.normal, wall.outline[0])}, {}, {}};
+    for (std::size_t i = 0; i < wall.outline.size(); ++i) {
+        const glm::vec3 from = wall.outline[i];
+        const glm::vec3 along = wall.outline[(i + 1) % wall.outline.size()] - from;
+        if (along == glm::vec3(0)) continue;
+        const glm::vec3 inwards = glm::normalize(glm::cross(wall.normal, along));
+        sides.edges.push_back({inwards, glm::dot(inwards, from)});
+        sides.box.add(from);
     }
-    boxes_.assign(std::move(boxes));
+    return sides;
+}
+
+void Walls::place(ObjectId object) {
+    const ObjectPart& part = set_.objects[object.value];
+    for (std::uint32_t i = part.walls.first; i < part.walls.end(); ++i) {
+        walls_[i] = sidesOf(set_.walls[i]);
+        boxes_.set(i, part.present ? walls_[i].box : Bounds());
+    }
 }
 
 bool Walls::hides(const Sides& wall, const Bounds& a, const Bounds& b) const {
-    const float margin = clearanceAt(skin_, std::max({wall.farthest, magnitude(a), magnitude(b)}));
+    const float margin =
+        clearanceAt(set_.skin, std::max({magnitude(wall.box), magnitude(a), magnitude(b)}));
     Heights ha = heightsOf(a, wall.plane), hb = heightsOf(b, wall.plane);
     const float sign = ha[0] > 0 ? 1.0f : -1.0f;
     for (std::size_t i = 0; i < 8; ++i) ha[i] *= sign, hb[i] *= -sign;
@@ -76,6 +83,24 @@ ObjectId Walls::between(const Bounds& a, const Bounds& b) const {
                      if (!found.valid() && hides(walls_[i], a, b)) found = walls_[i].object;
                  });
     return found;
+}
+
+ObjectId Walls::between(const Bounds& a, const Bounds& b,
+                        std::span<const MovedObject> objects) const {
+    if (a.empty() || b.empty()) return {};
+    for (const MovedObject& object : objects) {
+        const Range own = set_.objects[object.object].walls;
+        if (own.count == 0 || !object.present || !shaftMeets(a, b, object.box)) continue;
+        for (std::uint32_t i = own.first; i < own.end(); ++i)
+            if (!boxes_[i].empty() && hides(walls_[i], a, b)) return walls_[i].object;
+    }
+    return {};
+}
+
+bool Walls::areAmong(std::span<const MovedObject> objects) const {
+    return std::ranges::any_of(objects, [&](const MovedObject& object) {
+        return object.present && set_.objects[object.object].walls.count > 0;
+    });
 }
 
 } // namespace penumbra

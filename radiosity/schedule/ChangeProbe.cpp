@@ -64,8 +64,9 @@ ExpectedFactors ChangeProbe::at(const EmitterSender& sender, const ReceiverBlock
         const Receiver& receiver = receivers.receivers[r];
         if (!(receivers.some >> r & 1) || (isPadding(receiver) && !(anew >> r & 1))) continue;
         float& rays = expected.rays[r];
-        const bool dirty = anew >> r & 1 ? probeAnew(sender, receivers, r, rays)
-                                         : probeStored(sender, receiver, r, moved, rays);
+        const bool stays = !(anew >> r & 1) && receivers.wanted >> r & 1;
+        const bool dirty = stays ? probeStored(sender, receiver, r, moved, rays)
+                                 : probeAnew(sender, receivers, r, rays);
         expected.dirty |= std::uint64_t(dirty) << r;
     }
     trace(alone_, moved);

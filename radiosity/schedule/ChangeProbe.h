@@ -25,6 +25,7 @@ namespace penumbra {
 /// - the samples that a moved object hid are visible if one of them is found to meet none of them:
 ///   what else may hide it is not searched for;
 /// - the samples that something else hides stay hidden;
+/// - an entry that is not wanted any more goes;
 /// - an entry that is to be evaluated anew has its form factor. A sample that was visible, one that
 ///   was not, and one of an entry that was not there, each of one receiver in eight, are traced
 ///   against the whole scene, and tell how many stay so. So the probe finds what goes dark, what
@@ -48,6 +49,9 @@ public:
     ExpectedFactors at(const EmitterSender& sender, const ReceiverBlock& receivers,
                        std::uint64_t anew, std::span<const MovedObject> moved,
                        const RowBlock& block);
+
+    /// See RowBuilder::hiders: of the block that is being probed.
+    std::vector<ObjectId> hiders;
 
     /// Rays since the last call.
     RayCount takeRayCount() { return std::exchange(rayCount_, {}); }

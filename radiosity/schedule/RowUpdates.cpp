@@ -39,6 +39,13 @@ float factorBound(const RowUpdates::RowFacts& sender, const Bounds& receivers) {
                : 1.0f;
 }
 
+/// Moves who hides receivers of a block to the notes.
+void takeHiders(std::vector<ObjectId>& hiders, const DirtyBlock& item,
+                std::vector<RowTable::BlockerNote>& notes) {
+    for (const ObjectId object : hiders) notes.push_back({item.row, item.block, object.value});
+    hiders.clear();
+}
+
 } // namespace
 
 RowUpdates::RowUpdates(const PatchSet& set, const RayScene& rays, RowTable& table,
@@ -129,30 +136,32 @@ bool RowUpdates::nextSearch(Search& search, const Facts& facts) {
     return true;
 }
 
-/// Whether a block that has no entries will have none, for its sender is behind a wall.
-/// \param objects that moved, once it is known whether all of them is behind it
-bool RowUpdates::hidden(const Search& search, const BlockMask& mask,
-                        std::map<std::uint32_t, bool>& objects) const {
+/// Who hides a block that has no entries from its sender, so that it will have none.
+/// \param objects that moved, once it is known who hides all of them
+ObjectId RowUpdates::hidden(const Search& search, const BlockMask& mask,
+                            std::map<std::uint32_t, ObjectId>& objects) const {
     const std::uint32_t object = blockObjects_[mask.block].value;
     const auto moved = std::find_if(search.change->moved.begin(), search.change->moved.end(),
                                     [&](const MovedObject& m) { return m.object == object; });
     if (moved != search.change->moved.end()) {
-        const auto [known, isNew] = objects.try_emplace(object, false);
-        if (isNew) known->second = search.facts.hidden(moved->box);
-        if (known->second) return true;
+        const auto [known, isNew] = objects.try_emplace(object);
+        const float hover = hoverAt(set_.skin, magnitude(moved->box)); // receivers are off surfaces
+        if (isNew) known->second = search.facts.hidden(grown(moved->box, 2 * hover));
+        if (known->second.valid()) return known->second;
     }
     return search.facts.hidden(table_.blocks()[mask.block]);
 }
 
 void RowUpdates::find(Search& search) const {
-    std::map<std::uint32_t, bool> objects;
+    std::map<std::uint32_t, ObjectId> objects;
     for (const BlockMask& mask : table_.concerned(search.row, search.facts.box, search.facts.object,
                                                   *search.change, search.blocks)) {
         const bool empty = table_[search.row][mask.block].entryCount() == 0;
         if (empty && mask.receivers == 0) continue;
-        if (empty && search.facts.hidden && hidden(search, mask, objects)) {
-            search.hidden.push_back(mask.block);
-            continue;
+        if (empty && search.facts.hidden) {
+            const ObjectId by = hidden(search, mask, objects);
+            if (by.valid()) search.hidden.push_back({search.row, mask.block, by.value});
+            if (by.valid()) continue;
         }
         search.found.push_back(
             {search.row, mask.block, mask.receivers, table_.edits(search.row), 0});
@@ -175,7 +184,9 @@ void RowUpdates::find(std::size_t effort, const Facts& facts) {
         });
         for (const Search& one : searches) {
             dirty_.mark(one.row, one.found);
-            hidden_.insert(hidden_.end(), one.hidden.begin(), one.hidden.end());
+            table_.forgetHiders(one.row, one.facts.object, *one.change, one.blocks);
+            table_.noteHiders(one.hidden);
+            for (const auto& note : one.hidden) hidden_.push_back(note.block);
             if (one.last) table_.edits(one.row) = edits_;
             cost += cost::kRowSearch + cost::kRowFind * (one.found.size() + one.hidden.size());
         }
@@ -205,10 +216,15 @@ std::size_t RowUpdates::probe(const Expect& expect) {
     constexpr std::size_t kGrain = 8;
     while (probes_.size() < kMostProbes / kGrain) probes_.emplace_back(rayScene_);
     std::vector<ExpectedFactors> expected(unseen_.size());
+    std::vector<std::vector<RowTable::BlockerNote>> hiders(probes_.size());
     parallelFor(unseen_.size(), kGrain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            expected[i] = expect(probes_[first / kGrain], unseen_[i], movedSince(unseen_[i].since));
+        ChangeProbe& probe = probes_[first / kGrain];
+        for (std::size_t i = first; i < last; ++i) {
+            expected[i] = expect(probe, unseen_[i], movedSince(unseen_[i].since));
+            takeHiders(probe.hiders, unseen_[i], hiders[first / kGrain]);
+        }
     });
+    for (const auto& some : hiders) table_.noteHiders(some); // there may be nothing to be done
     for (std::size_t i = 0; i < unseen_.size(); ++i)
         dirty_.expect(unseen_[i].row, unseen_[i].block, expected[i]);
     for (ChangeProbe& probe : probes_) rays_ += probe.takeRayCount();
@@ -291,12 +307,14 @@ std::span<const DirtyBlock> RowUpdates::work(std::size_t effort, double enough, 
     for (std::size_t round = 0; round < tasks.size(); round += builders_.size()) {
         const std::size_t count = std::min(tasks.size() - round, builders_.size());
         std::vector<std::uint64_t> changed(builders_.size());
-        std::vector<std::vector<RowTable::BlockerNote>> notes(builders_.size());
+        std::vector<std::vector<RowTable::BlockerNote>> notes(builders_.size()),
+            hiders(builders_.size());
         parallelFor(count, 1, [&](std::size_t task, std::size_t) {
             RowBuilder& builder = builders_[task];
             for (std::size_t i = tasks[round + task].first; i < tasks[round + task].end(); ++i) {
                 const DirtyBlock& item = items[i];
                 const int entries = update(builder, item, movedSince(item.since), i);
+                takeHiders(builder.hiders, item, hiders[task]);
                 if (entries == 0) continue;
                 changed[task] += std::uint64_t(entries);
                 RowTable::listBlockers(item.row, item.block, table_[item.row][item.block],
@@ -305,6 +323,7 @@ std::span<const DirtyBlock> RowUpdates::work(std::size_t effort, double enough, 
         });
         for (std::uint64_t n : changed) entriesChanged_ += n;
         for (const auto& some : notes) table_.note(some);
+        for (const auto& some : hiders) table_.noteHiders(some);
     }
     for (RowBuilder& builder : builders_) rays_ += builder.takeRayCount();
     blocksVisited_ += items.size();

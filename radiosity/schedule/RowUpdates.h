@@ -46,8 +46,9 @@ public:
         ObjectId object;
         float area = 0;               ///< of the sender [m^2]
         glm::vec3 centre{}, normal{}; ///< of a planar sender; else the normal is zero
-        /// Whether it can never reach anything within a box [m, world], if that is known.
-        std::function<bool(const Bounds& box)> hidden = {};
+        /// Who hides it altogether from all that is within a box [m, world]; invalid: nobody is
+        /// known to. Empty: nobody ever does.
+        std::function<ObjectId(const Bounds& box)> hidden = {};
     };
     using Facts = std::function<RowFacts(std::uint32_t row)>;
     /// Updates one block; returns the number of entries that changed. `moved`: all that may have
@@ -111,10 +112,10 @@ private:
         RowTable::Blocks blocks;
         std::size_t most = 0; ///< that may be found
         std::vector<DirtyBlock> found;
-        std::vector<std::uint32_t> hidden; ///< blocks
+        std::vector<RowTable::BlockerNote> hidden; ///< blocks, and who hides them
     };
-    bool hidden(const Search& search, const BlockMask& mask,
-                std::map<std::uint32_t, bool>& objects) const;
+    ObjectId hidden(const Search& search, const BlockMask& mask,
+                    std::map<std::uint32_t, ObjectId>& objects) const;
     bool nextSearch(Search& search, const Facts& facts);
     void find(Search& search) const;
     float factorBound(const DirtyBlock& item, const RowFacts& facts) const;

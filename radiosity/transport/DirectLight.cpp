@@ -113,38 +113,14 @@ std::vector<double> DirectLight::dirtyLight() const {
     return light;
 }
 
-void DirectLight::takeOver(DirectLight& before, const PatchMatch& match) {
-    if (!before.described_) before.describeReceivers();
-    describeReceivers();
-    before.updates_.findAll([&](std::uint32_t row) { return before.factsOf(row); });
-    const RowCarrying carrying(before.set_, set_, match, match.vertices);
-    const std::vector<std::uint8_t> walls = carrying.oldWalls();
-    std::vector<std::vector<BlockMask>> anew(table_.size());
-    parallelFor(table_.size(), 1, [&](std::size_t e, std::size_t) {
-        const std::uint32_t was = match.emitters[e];
-        if (was == PatchMatch::kNew) return;
-        EntryCarrier carrier = carrying.carrier();
-        const auto invalid = [&](std::uint32_t block, std::span<const std::uint32_t> from) {
-            if (walls.empty() && carrying.isWhole(block)) return std::uint64_t(0);
-            return hiddenOtherwise({std::uint32_t(e), block}, from, before, was, walls);
-        };
-        anew[e] = carrying.carry({std::uint32_t(e), was}, before.table_, before.updates_.dirty(),
-                                 invalid, carrier, table_);
-    });
-    for (std::uint32_t e = 0; e < table_.size(); ++e) {
-        if (match.emitters[e] == PatchMatch::kNew) continue;
-        updates_.setCurrent(e);
-        updates_.mark(
-            e, [&](std::uint32_t row) { return factsOf(row); }, anew[e]);
-    }
-    updates_.add(match.changed, carrying.unknown(), carrying.newWalls());
-    for (std::uint32_t b = 0; b < table_.blocks().size(); ++b) touchBlock(b);
-}
-
 /// Tells which wall hides vertices from an emitter, asked block by block.
 class DirectLight::Hiding {
 public:
     Hiding(const DirectLight& light, std::uint32_t emitter) : light_(light), emitter_(emitter) {}
+    std::uint32_t emitter() const { return emitter_; }
+    bool isPadding(std::uint32_t vertex) const {
+        return penumbra::isPadding(light_.receivers_[vertex]);
+    }
     ObjectId wallBefore(std::uint32_t vertex) {
         if (vertex >= light_.set_.firstPrivate || vertex / kBlock != block_)
             wall_ = light_.wallBefore(emitter_, vertex);
@@ -158,22 +134,74 @@ private:
     ObjectId wall_;
 };
 
+void DirectLight::takeOver(DirectLight& before, const PatchMatch& match) {
+    if (!before.described_) before.describeReceivers();
+    describeReceivers();
+    before.updates_.findAll([&](std::uint32_t row) { return before.factsOf(row); });
+    const RowCarrying carrying(set_, match, match.vertices);
+    std::vector<std::vector<BlockMask>> anew(table_.size());
+    parallelFor(table_.size(), 1, [&](std::size_t e, std::size_t) {
+        const std::uint32_t was = match.emitters[e];
+        if (was == PatchMatch::kNew) return;
+        const auto row = std::uint32_t(e);
+        EntryCarrier carrier = carrying.carrier();
+        std::vector<RowTable::BlockerNote> hiders;
+        const auto invalid = [&](std::uint32_t block, std::span<const std::uint32_t> from) {
+            if (hidesAlike(block, before, carrying)) return std::uint64_t(0);
+            return hiddenOtherwise({*this, row}, block, {before, was}, from, hiders);
+        };
+        anew[e] = carrying.carry({row, was}, before.table_, before.updates_.dirty(), invalid,
+                                 carrier, table_);
+        carryHiders(row, before, carrying, match, std::move(hiders));
+    });
+    for (std::uint32_t e = 0; e < table_.size(); ++e) {
+        if (match.emitters[e] == PatchMatch::kNew) continue;
+        updates_.setCurrent(e);
+        updates_.mark(
+            e, [&](std::uint32_t row) { return factsOf(row); }, anew[e]);
+    }
+    updates_.add(match.changed, carrying.unknown());
+    for (std::uint32_t b = 0; b < table_.blocks().size(); ++b) touchBlock(b);
+}
+
+/// Whether walls that are what they were hide the same of a block: it has the receivers that it
+/// had, and these are hidden as one, or one by one, as before.
+bool DirectLight::hidesAlike(std::uint32_t block, const DirectLight& before,
+                             const RowCarrying& carrying) const {
+    if (!carrying.isWhole(block)) return false;
+    return (block * kBlock < set_.firstPrivate) ==
+           (carrying.wasBlock(block) * kBlock < before.set_.firstPrivate);
+}
+
 /// Of the vertices of a block (bits) those that a wall hid and hides no more, or the other way
-/// round: because they are in the company of others, or because the wall is another.
-/// \param changed one an object before: 1 if it is a wall that may be another; empty: there is none
-std::uint64_t DirectLight::hiddenOtherwise(RowBlockPlace place, std::span<const std::uint32_t> from,
-                                           const DirectLight& before, std::uint32_t was,
-                                           const std::vector<std::uint8_t>& changed) const {
-    Hiding hid(before, was), hides(*this, place.row);
+/// round: because they are in the company of others. \param notes receives who hides any
+std::uint64_t DirectLight::hiddenOtherwise(Hiding hides, std::uint32_t block, Hiding hid,
+                                           std::span<const std::uint32_t> from,
+                                           std::vector<RowTable::BlockerNote>& notes) const {
     std::uint64_t otherwise = 0;
     for (std::uint32_t r = 0; r < kBlock; ++r) {
-        if (from[r] == PatchMatch::kNew || isPadding(before.receivers_[from[r]])) continue;
-        const ObjectId wall = hid.wallBefore(from[r]);
-        const bool holds = wall.valid() == hides.wallBefore(place.block * kBlock + r).valid() &&
-                           !(wall.valid() && !changed.empty() && changed[wall.value]);
-        if (!holds) otherwise |= std::uint64_t(1) << r;
+        if (from[r] == PatchMatch::kNew || hid.isPadding(from[r])) continue;
+        const ObjectId wall = hides.wallBefore(block * kBlock + r);
+        if (wall.valid() != hid.wallBefore(from[r]).valid()) otherwise |= std::uint64_t(1) << r;
+        if (wall.valid()) notes.push_back({hides.emitter(), block, wall.value});
     }
     return otherwise;
+}
+
+/// Remembers who hides what. \param notes of blocks that are not what they were
+void DirectLight::carryHiders(std::uint32_t row, const DirectLight& before,
+                              const RowCarrying& carrying, const PatchMatch& match,
+                              std::vector<RowTable::BlockerNote> notes) {
+    const auto were = before.table_.hiders(match.emitters[row]);
+    for (std::uint32_t b = 0; b < table_.blocks().size() && !were.empty(); ++b) {
+        if (!hidesAlike(b, before, carrying)) continue;
+        const std::uint32_t was = carrying.wasBlock(b);
+        auto note = std::lower_bound(were.begin(), were.end(), was,
+                                     [](const auto& n, std::uint32_t w) { return n.block < w; });
+        for (; note != were.end() && note->block == was; ++note)
+            notes.push_back({row, b, match.objects[note->object]});
+    }
+    table_.noteHiders(notes);
 }
 
 void DirectLight::apply(const SceneChange& change) {
@@ -193,6 +221,7 @@ void DirectLight::apply(const SceneChange& change) {
         const ObjectPart& part = set_.objects[object.value];
         for (std::uint32_t e = part.emitters.first; e < part.emitters.end(); ++e)
             emitters_[e] = sender(set_.emitters[e], samples_);
+        walls_.place(object);
         for (std::uint32_t p = part.patches.first; p < part.patches.end(); ++p)
             set_.forEachPart(p, [&](std::uint32_t each) { touchPatch(each); });
     }
@@ -235,7 +264,7 @@ RowUpdates::RowFacts DirectLight::factsOf(std::uint32_t row) const {
     RowUpdates::RowFacts known{true, emitters_[row].box(), emitter.object, {}, {}, {}};
     known.area = float(emitter.area);
     known.hidden = [this, row](const Bounds& box) {
-        return walls_.between(emitters_[row].box(), box).valid();
+        return walls_.between(emitters_[row].box(), box);
     };
     return known;
 }
@@ -244,21 +273,23 @@ bool DirectLight::update(std::size_t effort, double enough) {
     if (!described_) describeReceivers();
     if (updates_.done(enough)) return false;
     const auto facts = [&](std::uint32_t row) { return factsOf(row); };
-    const auto receiversFor = [&](const DirtyBlock& item) {
+    const auto receiversFor = [&](const DirtyBlock& item, std::span<const MovedObject> moved,
+                                  std::vector<ObjectId>& hiders) {
         const bool present = set_.objects[set_.emitters[item.row].object.value].present &&
                              set_.objects[set_.vertexBlockObject[item.block].value].present;
         ReceiverBlock receivers{receiversOf(item.block), 0, {}, item.receivers};
-        if (present && item.anew != 0) receivers.wanted = ~hidden(item.row, item.block, item.anew);
+        if (present) receivers.wanted = ~hidden(item, moved, hiders);
         return receivers;
     };
     const auto expect = [&](ChangeProbe& probe, const DirtyBlock& item,
                             std::span<const MovedObject> moved) {
-        return probe.at(emitters_[item.row], receiversFor(item), item.anew, moved,
+        const ReceiverBlock receivers = receiversFor(item, moved, probe.hiders);
+        return probe.at(emitters_[item.row], receivers, item.anew, moved,
                         table_[item.row][item.block]);
     };
     const auto update = [&](RowBuilder& builder, const DirtyBlock& item,
                             std::span<const MovedObject> moved, std::size_t) {
-        const ReceiverBlock receivers = receiversFor(item);
+        const ReceiverBlock receivers = receiversFor(item, moved, builder.hiders);
         return builder.emitters.update(emitters_[item.row], receivers, item.anew, moved,
                                        table_[item.row][item.block]);
     };
@@ -278,16 +309,27 @@ ObjectId DirectLight::wallBefore(std::uint32_t emitter, std::uint32_t vertex) co
     return walls_.between(emitters_[emitter].box(), receiver);
 }
 
-/// Which of some receivers of a block a wall hides from an emitter. Nothing that moves brings its
-/// light back, so that there need not be an entry.
-std::uint64_t DirectLight::hidden(std::uint32_t emitter, std::uint32_t block,
-                                  std::uint64_t which) const {
-    const std::uint32_t first = block * kBlock;
-    if (first < set_.firstPrivate) return wallBefore(emitter, first).valid() ? which : 0;
+/// Bits: receivers of a block that a wall hides from the emitter, so that there need not be an
+/// entry. An entry that is not evaluated anew was not hidden when it last was: only what moved
+/// since may hide it. \param hiders receives who does
+std::uint64_t DirectLight::hidden(const DirtyBlock& item, std::span<const MovedObject> moved,
+                                  std::vector<ObjectId>& hiders) const {
+    if (item.anew == 0 && !walls_.areAmong(moved)) return 0;
+    const Bounds& sender = emitters_[item.row].box();
+    const auto isHidden = [&](const Bounds& box, bool anew) {
+        const ObjectId wall =
+            anew ? walls_.between(sender, box) : walls_.between(sender, box, moved);
+        if (wall.valid() && (hiders.empty() || hiders.back() != wall)) hiders.push_back(wall);
+        return wall.valid();
+    };
+    const std::uint32_t first = item.block * kBlock;
+    if (first < set_.firstPrivate)
+        return isHidden(table_.blocks()[item.block], item.anew != 0) ? ~std::uint64_t(0) : 0;
     std::uint64_t found = 0;
-    for (const std::uint32_t r : bitsOf(which)) {
-        if (!isPadding(receivers_[first + r]) && wallBefore(emitter, first + r).valid())
-            found |= std::uint64_t(1) << r;
+    for (const std::uint32_t r : bitsOf(item.receivers)) {
+        if (isPadding(receivers_[first + r])) continue;
+        const Bounds point{receivers_[first + r].position, receivers_[first + r].position};
+        if (isHidden(point, (item.anew >> r & 1) != 0)) found |= std::uint64_t(1) << r;
     }
     return found;
 }

@@ -20,6 +20,8 @@
 
 namespace penumbra {
 
+class RowCarrying;
+
 /// The rows of the emitters, and the illuminance of vertices and patches that they make. Sums run
 /// over the emitters in their order: they depend on the rows and not on how these came about.
 class DirectLight {
@@ -85,12 +87,13 @@ public:
 private:
     RowUpdates::RowFacts factsOf(std::uint32_t row) const;
     class Hiding;
-    struct RowBlockPlace {
-        std::uint32_t row, block;
-    };
-    std::uint64_t hiddenOtherwise(RowBlockPlace place, std::span<const std::uint32_t> from,
-                                  const DirectLight& before, std::uint32_t was,
-                                  const std::vector<std::uint8_t>& changed) const;
+    bool hidesAlike(std::uint32_t block, const DirectLight& before,
+                    const RowCarrying& carrying) const;
+    std::uint64_t hiddenOtherwise(Hiding hides, std::uint32_t block, Hiding hid,
+                                  std::span<const std::uint32_t> from,
+                                  std::vector<RowTable::BlockerNote>& notes) const;
+    void carryHiders(std::uint32_t row, const DirectLight& before, const RowCarrying& carrying,
+                     const PatchMatch& match, std::vector<RowTable::BlockerNote> notes);
     std::span<const Receiver> receiversOf(std::size_t block) const;
     void placeReceivers(std::vector<BlockMask>& masks);
     void touchBlock(std::uint32_t block);
@@ -98,7 +101,8 @@ private:
     template <class Visit>
     void forEachPatch(std::uint32_t block, Visit visit) const;
     void describeReceivers();
-    std::uint64_t hidden(std::uint32_t emitter, std::uint32_t block, std::uint64_t which) const;
+    std::uint64_t hidden(const DirtyBlock& item, std::span<const MovedObject> moved,
+                         std::vector<ObjectId>& hiders) const;
     bool sumBlocks(std::size_t effort);
     bool averagePatches(std::size_t effort);
     void sumBlock(std::uint32_t block);

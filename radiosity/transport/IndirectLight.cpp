@@ -109,7 +109,7 @@ void IndirectLight::takeOver(IndirectLight& before, const PatchMatch& match) {
     describeReceivers();
     before.updates_.findAll([&](std::uint32_t s) { return before.factsOf(s); });
     takeReached(before, match);
-    const RowCarrying carrying(before.set_, set_, match, match.nodes);
+    const RowCarrying carrying(set_, match, match.nodes);
     const std::vector<std::uint32_t> was = before.keptFor(senders_, match);
     std::vector<std::vector<BlockMask>> anew(senders_.count());
     std::vector<std::size_t> bytes(senders_.count());

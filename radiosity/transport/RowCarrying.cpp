@@ -39,10 +39,9 @@ std::uint64_t amongBlocks(std::span<const std::uint32_t> receivers,
 
 } // namespace
 
-RowCarrying::RowCarrying(const PatchSet& before, const PatchSet& now, const PatchMatch& match,
+RowCarrying::RowCarrying(const PatchSet& now, const PatchMatch& match,
                          std::span<const std::uint32_t> receivers)
-    : before_(before), now_(now), match_(match), receivers_(receivers),
-      changed_(now.objects.size()) {
+    : match_(match), receivers_(receivers), changed_(now.objects.size()) {
     for (const ObjectId object : match.changed) changed_[object.value] = 1;
     for (std::uint32_t b = 0; b < receivers.size() / kBlock; ++b) {
         const auto from = receivers.subspan(b * kBlock, kBlock);
@@ -89,7 +88,7 @@ std::vector<BlockMask> RowCarrying::carry(Place place, RowTable& before, const D
             notes.push_back({place.row, b, object});
         });
     }
-    now.noteAll(place.row, notes);
+    now.note(notes);
     before[place.was].clear();
     return anew;
 }
@@ -99,28 +98,6 @@ std::vector<BlockMask> RowCarrying::unknown() const {
     for (std::uint32_t b = 0; b < receivers_.size() / kBlock; ++b)
         if (~known_[b] != 0) masks.push_back({b, ~known_[b]});
     return masks;
-}
-
-std::vector<Bounds> RowCarrying::newWalls() const {
-    std::vector<Bounds> walls;
-    for (const Wall& wall : now_.walls) {
-        if (!changed_[wall.object.value]) continue;
-        Bounds box;
-        for (const glm::vec3 corner : wall.outline) box.add(corner);
-        walls.push_back(grown(box, 2 * hoverAt(now_.skin, magnitude(box))));
-    }
-    return walls;
-}
-
-std::vector<std::uint8_t> RowCarrying::oldWalls() const {
-    std::vector<std::uint8_t> walls(before_.objects.size());
-    for (const Wall& wall : before_.walls) {
-        const std::uint32_t is = match_.objects[wall.object.value];
-        if (is == PatchMatch::kNew || changed_[is]) walls[wall.object.value] = 1;
-    }
-    if (std::none_of(walls.begin(), walls.end(), [](std::uint8_t w) { return w != 0; }))
-        walls.clear();
-    return walls;
 }
 
 } // namespace penumbra

@@ -15,11 +15,11 @@ namespace penumbra {
 
 /// Carries rows over to another meshing, on several threads if need be, and says which of their
 /// entries are to be evaluated anew. What changed in between is then an edit like any other: see
-/// unknown(), newWalls() and PatchMatch::changed, which go to RowUpdates::add().
+/// unknown() and PatchMatch::changed, which go to RowUpdates::add().
 class RowCarrying {
 public:
     /// \param receivers PatchMatch::vertices or nodes. All must outlive this.
-    RowCarrying(const PatchSet& before, const PatchSet& now, const PatchMatch& match,
+    RowCarrying(const PatchSet& now, const PatchMatch& match,
                 std::span<const std::uint32_t> receivers);
 
     /// A row and what it was called.
@@ -31,6 +31,8 @@ public:
         std::function<std::uint64_t(std::uint32_t block, std::span<const std::uint32_t> from)>;
     /// Whether a block has the receivers of one that was there before, in the same order.
     bool isWhole(std::uint32_t block) const { return whole_[block] != PatchMatch::kNew; }
+    /// Which one. \pre isWhole(block)
+    std::uint32_t wasBlock(std::uint32_t block) const { return whole_[block]; }
     EntryCarrier carrier() const { return EntryCarrier(match_.objects); }
     /// Fills the blocks that a row has.
     /// \param before, pending the rows before, which are used up, and what was dirty of them
@@ -42,17 +44,11 @@ public:
 
     /// Receivers that were not there before.
     std::vector<BlockMask> unknown() const;
-    /// Around the walls that were not there before [m, world]: what they hide needs no entry.
-    std::vector<Bounds> newWalls() const;
-    /// One an object before: 1 if it had walls, and is not what it was. Empty: there is none.
-    std::vector<std::uint8_t> oldWalls() const;
 
 private:
     std::uint64_t take(std::uint32_t block, Row& before, EntryCarrier& carrier,
                        RowBlock& now) const;
 
-    const PatchSet& before_;
-    const PatchSet& now_;
     const PatchMatch& match_;
     std::span<const std::uint32_t> receivers_;
     std::vector<std::uint8_t> changed_; ///< likewise: it is not what it was

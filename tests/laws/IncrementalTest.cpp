@@ -1,6 +1,7 @@
 // After any sequence of edits the settled light is that of the scene as it is, however it came
 // to be. `scripts/nightly` tries many more sequences.
 #include "tests/support/EditedScenes.h"
+#include "tests/support/EditedWalls.h"
 #include "tests/support/LitDifference.h"
 #include "tests/support/Refurnishing.h"
 
@@ -109,6 +110,42 @@ RC_GTEST_PROP(Incremental, EqualsFromScratchAfterThingsAreBroughtInResizedAndTak
     const std::string differs = differsAfterRefurnishing(followed, seed, *rc::gen::inRange(1, 9));
     if (!differs.empty())
         RC_FAIL("seed " + std::to_string(seed) + " after " + followed.said + "\n" + differs);
+}
+
+/// Partitions, the table and the room are moved, hidden, resized and taken out, besides other
+/// edits, settled or not. \return what differs
+std::string differsAfterMovedWalls(std::uint32_t seed, int edits) {
+    EditableRoom room(seed);
+    EditedWalls walls(room.scene(), seed);
+    SolverOptions solving = tight(seed);
+    solving.directOnly = seed % 3 != 0;
+    LitScene lit(placeScene(room.scene()), EditableRoom::meshing(), solving);
+    std::mt19937 random(seed);
+    std::string said;
+    for (; edits > 0; --edits) {
+        for (std::uint32_t more = 1 + random() % 2; more > 0; --more)
+            said += random() % 3 == 0 ? room.edit() : walls.edit();
+        lit.follow(placeScene(room.scene()));
+        if (random() % 3 == 0) lit.solver().settle();
+        for (std::uint32_t pieces = random() % 3 * (random() % 100); pieces > 0; --pieces)
+            lit.solver().step(1e-9);
+    }
+    lit.solver().settle();
+    LitScene scratch(placeScene(room.scene()), sizesOf(lit.patches()), solving);
+    scratch.solver().settle();
+    const std::string differs = difference(lit, scratch);
+    return differs.empty() ? differs
+                           : "seed " + std::to_string(seed) + " after " + said + "\n" + differs;
+}
+
+RC_GTEST_PROP(Incremental, EqualsFromScratchAfterWallsAreMoved, ()) {
+    const std::uint32_t seed = anySeed();
+    const std::string differs = differsAfterMovedWalls(seed, *rc::gen::inRange(1, 13));
+    if (!differs.empty()) RC_FAIL(differs);
+}
+
+TEST(Incremental, EqualsFromScratchWhereAWallHidesAThingButNotTheReceiversThatHoverOverIt) {
+    EXPECT_EQ(differsAfterMovedWalls(115473237, 4), "");
 }
 
 TEST(Incremental, EqualsFromScratchWhereAReceiverLiesInThePlaneOfASender) {

@@ -1,5 +1,7 @@
 #include "radiosity/rows/Walls.h"
 
+#include "radiosity/rays/Shaft.h"
+
 #include "tests/support/Scenes.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +55,65 @@ TEST(Walls, HideOnlyWhatNoRayReaches) {
     EXPECT_GT(hidden, 200);
 }
 
-TEST(Walls, AreNotThereWhereTheFixedPartIsSmall) {
+TEST(Walls, HideWhereTheirObjectIsAndOnlyIfItIsThere) {
+    BuiltPatches built = wall();
+    Walls walls(built.patches);
+    const Bounds low{{-0.2f, -0.2f, -0.6f}, {0.2f, 0.2f, -0.2f}},
+        middle{{-0.3f, -0.1f, 0.2f}, {0.3f, 0.2f, 0.3f}},
+        high{{-0.3f, -0.1f, 0.7f}, {0.3f, 0.2f, 0.9f}};
+    const auto expectHides = [&](bool belowMiddle, bool aboveMiddle, const char* what) {
+        EXPECT_EQ(walls.between(low, middle).valid(), belowMiddle) << what;
+        EXPECT_EQ(walls.between(middle, high).valid(), aboveMiddle) << what;
+        EXPECT_EQ(walls.between(low, high).valid(), belowMiddle || aboveMiddle) << what;
+        const MovedObject object{0, built.patches.objects[0].present, boundsOf(built.patches, {0})};
+        EXPECT_EQ(walls.between(low, high, std::span(&object, 1)), walls.between(low, high))
+            << what;
+        EXPECT_FALSE(walls.between(low, high, {}).valid()) << what;
+    };
+    expectHides(true, false, "as meshed");
+    placeObject(built.patches, {0}, placementOf(moved(0, 0, 0.5)).pose);
+    walls.place({0});
+    expectHides(false, true, "raised");
+    placeObject(built.patches, {0}, placementOf(moved(0, 3, 0.5)).pose);
+    walls.place({0});
+    expectHides(false, false, "to the side");
+    placeObject(built.patches, {0},
+                placementOf(glm::rotate(moved(0, 0, 0), 3.0, glm::dvec3(1, 0, 0))).pose);
+    walls.place({0});
+    expectHides(true, false, "nearly upside down");
+    built.patches.objects[0].present = false;
+    walls.place({0});
+    expectHides(false, false, "hidden");
+    built.patches.objects[0].present = true;
+    walls.place({0});
+    expectHides(true, false, "shown");
+}
+
+TEST(Walls, AreLaidOutObjectByObjectInTheirFrames) {
+    const glm::dmat4 pose = moved(7, 2, 1) * scaled(2);
+    const BuiltPatches built = meshed(
+        sceneOf({object("tile", floorData(0, 0.1f, 0, 0.1f, 0)),
+                 placed("box", pose,
+                        {std::make_shared<Mesh>("mesh", boxData({-1, -1, -1}, {1, 1, 1}, false))}),
+                 object("floor", floorData(-1, 1, -1, 1, 0))}),
+        {.patchSize = 0.5f});
+    const PatchSet& set = built.patches;
+    ASSERT_EQ(set.walls.size(), 7u);
+    for (std::uint32_t o = 0; o < set.objects.size(); ++o) {
+        const ObjectPart& part = set.objects[o];
+        EXPECT_EQ(part.walls.count, part.path == "/box" ? 6u : part.path == "/floor" ? 1u : 0u);
+        EXPECT_EQ(part.shape.walls.size(), part.walls.count);
+        for (std::uint32_t i = part.walls.first; i < part.walls.end(); ++i) {
+            EXPECT_EQ(set.walls[i].object.value, o);
+            for (const glm::vec3 corner : set.walls[i].outline)
+                EXPECT_TRUE(grown(boundsOf(set, {o}), 1e-5f).contains(corner));
+        }
+    }
+    EXPECT_NEAR(set.objects[1].shape.walls[0].outline[0].x, -2, 1e-6);
+    EXPECT_NEAR(set.walls[set.objects[1].walls.first].outline[0].x, 5, 1e-6);
+}
+
+TEST(Walls, AreNotThereWhereFacesAreSmall) {
     const BuiltPatches built =
         meshed(sceneOf({object("tile", floorData(0, 0.1f, 0, 0.1f, 0))}), {.patchSize = 0.5f});
     EXPECT_TRUE(built.patches.walls.empty());
