@@ -62,6 +62,8 @@ public:
     void note(std::span<const BlockerNote> notes);
     /// Many of one row at once.
     void noteAll(std::uint32_t row, std::span<const BlockerNote> notes);
+    /// Takes out all entries of a row, and all notes of it.
+    void clear(std::uint32_t row) { rows_[row].clear(), blockers_[row].clear(); }
 
     /// Some blocks of a row, first ... end - 1.
     struct Blocks {
