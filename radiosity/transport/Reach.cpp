@@ -12,11 +12,13 @@ namespace penumbra {
 
 namespace {
 
-/// Patch that a ray meets, Element::kNone: none that could light anything.
+/// Patch that a ray meets, Element::kNone: none that could light anything. What is covered is met
+/// by rays that run into the very seam between what covers it and what is beside it.
 std::uint32_t patchMet(const PatchSet& set, std::uint32_t hit) {
     if (hit == Element::kNone) return hit;
     const std::uint32_t element = hit & ~DetailRays::kAcross;
-    return element == NodeHits::kGone ? Element::kNone : set.elements[element].patch;
+    if (element == NodeHits::kGone || !set.receives(element)) return Element::kNone;
+    return set.elements[element].patch;
 }
 
 /// Which of some nodes see each patch, a list a patch.
