@@ -148,6 +148,7 @@ bool Coverage::parted(std::uint32_t vertex) const {
     for (std::uint32_t corner : fans_.at(vertex)) {
         const Element& element = shared_[corner / 4];
         if (element.patch == Element::kNone) continue;
+        if (!set_.objects[set_.elementObject[corner / 4].value].present) return false;
         const auto found = results_.find(corner / 4);
         if (found != results_.end() && (!found->second.free || found->second.moved[corner % 4]))
             return true;

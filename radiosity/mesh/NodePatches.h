@@ -10,15 +10,17 @@
 namespace penumbra {
 
 /// The patches of the mesh at every node, ascending. Of a node that was handed out (PatchParts) it
-/// is the one that it was handed out for.
+/// is the one that it was handed out for, if it is in use.
 class NodePatches {
 public:
     /// `set` must outlive this.
     explicit NodePatches(const PatchSet& set);
     std::span<const std::uint32_t> of(std::uint32_t node) const {
         const PatchParts& parts = set_->parts;
-        if (node + 1 >= first_.size())
-            return std::span(parts.nodePatch).subspan(node - parts.firstNode, 1);
+        if (node + 1 >= first_.size()) {
+            const auto at = std::span(parts.nodePatch).subspan(node - parts.firstNode, 1);
+            return at[0] != Element::kNone ? at : at.first(0);
+        }
         return std::span(patches_).subspan(first_[node], first_[node + 1] - first_[node]);
     }
 

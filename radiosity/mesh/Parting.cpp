@@ -66,10 +66,12 @@ Parting::Change Parting::update(std::span<const std::uint32_t> wholes) {
 /// \return false: nothing touches the patch, nor did anything before
 bool Parting::follow(std::uint32_t whole) {
     const std::uint32_t middle = set_.patches[whole].centreNode;
-    const bool was = own_.contains(whole) || set_.parts.of.contains(whole) ||
-                     dark_.contains(whole) ||
-                     !same(set_.nodes[middle], set_.uncoveredNodes[middle]);
-    if (!was && !touched(whole)) return false;
+    const bool isTouched = touched(whole);
+    if (!isTouched && !touched_.contains(whole)) return false;
+    if (isTouched)
+        touched_.insert(whole);
+    else
+        touched_.erase(whole);
     std::vector<Group> groups = groupsOf(whole);
     if (groups.empty())
         dark_.insert(whole);
@@ -240,7 +242,8 @@ void Parting::makePart(std::uint32_t slot, std::uint32_t whole, const Group& gro
     changed |= before.centre != patch.centre || before.normal != patch.normal ||
                before.area != patch.area || before.object != patch.object ||
                before.material != patch.material || before.elementCount != patch.elementCount ||
-               std::exchange(set_.parts.wholePatch[slot - set_.parts.firstPatch], whole) != whole;
+               set_.parts.wholePatch[slot - set_.parts.firstPatch] != whole;
+    set_.parts.wholePatch[slot - set_.parts.firstPatch] = whole;
     set_.patches[slot] = patch;
     for (const std::uint32_t e : group.elements) set_.elements[e].patch = slot;
     if (!set_.textures.patches.empty())

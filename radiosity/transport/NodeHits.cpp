@@ -172,10 +172,16 @@ GroupOutcome NodeHits::trace(std::uint32_t group) {
     for (std::uint32_t i = 0; i < kGroup; ++i) {
         const std::uint32_t n = group * kGroup + i;
         const Receiver& node = patches_.nodes[n];
-        if (isPadding(node) || !isThere(patches_.nodeBlockObject[n / PatchSet::kBlock])) continue;
+        const auto known = std::span(hits_).subspan(std::size_t(n) * kRays, kRays);
+        if (isPadding(node)) { // perhaps it was one that is not in use any more
+            std::ranges::fill(known, Element::kNone);
+            near_[n] = 0;
+            if (std::exchange(openness_[n], 0.0) != 0) outcome.changed |= 1u << i;
+            continue;
+        }
+        if (!isThere(patches_.nodeBlockObject[n / PatchSet::kBlock])) continue;
         DetailRays::Hits now;
         now.near = near_[n];
-        const auto known = std::span(hits_).subspan(std::size_t(n) * kRays, kRays);
         std::ranges::copy(known, now.elements.begin());
         const std::uint64_t which = dirty.anew >> i & 1
                                         ? DetailRays::kAllRays

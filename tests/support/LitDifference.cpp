@@ -55,21 +55,78 @@ void compareDirect(Comparison& with, const Row& a, const Row& b, const ObjectPar
     }
 }
 
-/// Rows of some senders onto the nodes of one object.
-void compareIndirect(Comparison& with, std::span<const Row> rowsA, std::span<const Row> rowsB,
-                     Range sendersA, Range sendersB, const ObjectPart& pa, const ObjectPart& pb,
-                     const std::string& sender) {
-    if (!with.expect(sendersA.count == sendersB.count, sender, ": not as many")) return;
-    for (std::uint32_t i = 0; i < sendersA.count; ++i) {
-        const Row &a = rowsA[sendersA.first + i], &b = rowsB[sendersB.first + i];
-        if (a.empty() || b.empty()) continue;
-        for (std::uint32_t n = 0; n < pa.nodes.count; ++n) {
-            const auto ea = entryOf(a, pa.nodes.first + n), eb = entryOf(b, pb.nodes.first + n);
-            with.expect(sameVisibility(ea, eb), sender, " ", i, " onto ", pa.path, " node ", n,
-                        ": ", ea.formFactor, " ", std::hex, ea.visible, " against ", eb.formFactor,
-                        " ", eb.visible, std::dec);
+/// Things of one object in both scenes.
+struct Pair {
+    std::uint32_t a = 0, b = 0;
+};
+
+/// The nodes of an object: those of its mesh, then those that were handed out, by address.
+std::vector<Pair> nodePairs(Comparison& with, const ObjectPart& pa, const ObjectPart& pb) {
+    std::vector<Pair> pairs;
+    for (std::uint32_t i = 0; i < pa.nodes.count; ++i)
+        pairs.push_back({pa.nodes.first + i, pb.nodes.first + i});
+    const auto handedOut = [](const PatchSet& set, const ObjectPart& part) {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> nodes;
+        for (std::uint32_t i = 0; i < set.parts.nodePatch.size(); ++i)
+            if (const std::uint32_t whole = set.parts.nodePatch[i]; part.patches.contains(whole))
+                nodes[{whole - part.patches.first, set.parts.nodeAddress[i]}] =
+                    set.parts.firstNode + i;
+        return nodes;
+    };
+    const auto ofA = handedOut(with.a, pa), ofB = handedOut(with.b, pb);
+    with.expect(ofA.size() == ofB.size(), pa.path, " has ", ofA.size(), " nodes of its own against ",
+                ofB.size());
+    for (const auto& [key, node] : ofA) {
+        const auto other = ofB.find(key);
+        if (with.expect(other != ofB.end(), pa.path, " patch ", key.first,
+                        " has another node of its own"))
+            pairs.push_back({node, other->second});
+    }
+    return pairs;
+}
+
+/// The patches of an object, and the parts of those that are parted.
+std::vector<Pair> patchPairs(Comparison& with, const ObjectPart& pa, const ObjectPart& pb) {
+    std::vector<Pair> pairs;
+    for (std::uint32_t i = 0; i < pa.patches.count; ++i) {
+        std::vector<std::uint32_t> ofA, ofB;
+        with.a.forEachPart(pa.patches.first + i, [&](std::uint32_t p) { ofA.push_back(p); });
+        with.b.forEachPart(pb.patches.first + i, [&](std::uint32_t p) { ofB.push_back(p); });
+        if (!with.expect(ofA.size() == ofB.size(), pa.path, " patch ", i, " has ", ofA.size(),
+                         " parts against ", ofB.size()))
+            continue;
+        for (std::size_t k = 0; k < ofA.size(); ++k) {
+            const Patch &a = with.a.patches[ofA[k]], &b = with.b.patches[ofB[k]];
+            with.expect(a.centre == b.centre && a.area == b.area &&
+                            a.elementCount == b.elementCount &&
+                            a.hasCornerNodes == b.hasCornerNodes,
+                        pa.path, " patch ", i, " part ", k, " is another");
+            pairs.push_back({ofA[k], ofB[k]});
         }
     }
+    return pairs;
+}
+
+void compareIndirect(Comparison& with, std::span<const Row> rowsA, std::span<const Row> rowsB,
+                     std::span<const Pair> senders, std::span<const Pair> nodes,
+                     const std::string& sender, const std::string& receiver) {
+    for (const Pair& s : senders) {
+        const Row &a = rowsA[s.a], &b = rowsB[s.b];
+        if (a.empty() || b.empty()) continue;
+        for (const Pair& node : nodes) {
+            const auto ea = entryOf(a, node.a), eb = entryOf(b, node.b);
+            with.expect(sameVisibility(ea, eb), sender, " ", s.a, " onto ", receiver, " node ",
+                        node.a, ": ", ea.formFactor, " ", std::hex, ea.visible, " against ",
+                        eb.formFactor, " ", eb.visible, std::dec);
+        }
+    }
+}
+
+std::vector<Pair> pairsOf(Range a, Range b) {
+    std::vector<Pair> pairs;
+    for (std::uint32_t i = 0; i < std::min(a.count, b.count); ++i)
+        pairs.push_back({a.first + i, b.first + i});
+    return pairs;
 }
 
 /// What the elements of one scene are in the other; their indices, Element::kNone if in none.
@@ -95,16 +152,19 @@ bool sameHits(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b
 }
 
 /// What is seen from the nodes of an object, and whether light gets there.
-void compareNodes(Comparison& with, const Solver& a, const Solver& b, const ObjectPart& pa,
-                  const ObjectPart& pb, const std::vector<std::uint32_t>& elements) {
+void compareNodes(Comparison& with, const Solver& a, const Solver& b, const std::string& path,
+                  std::span<const Pair> nodes, const std::vector<std::uint32_t>& elements) {
     const NodeHits &hitsA = *a.nodeHits(), &hitsB = *b.nodeHits();
-    for (std::uint32_t i = 0; i < pa.nodes.count; ++i) {
-        const std::uint32_t na = pa.nodes.first + i, nb = pb.nodes.first + i;
+    for (const auto& [na, nb] : nodes) {
+        with.expect(with.a.nodes[na].position == with.b.nodes[nb].position &&
+                        with.a.nodes[na].normal == with.b.nodes[nb].normal,
+                    path, " node ", na, " lies elsewhere");
+        if (isPadding(with.a.nodes[na])) continue; // nobody asks what it saw
         with.expect(hitsA.openness(na) == hitsB.openness(nb) &&
                         sameHits(hitsA.hits(na), hitsB.hits(nb), elements),
-                    pa.path, " node ", i, " sees other things: ", hitsA.openness(na), " against ",
+                    path, " node ", na, " sees other things: ", hitsA.openness(na), " against ",
                     hitsB.openness(nb));
-        with.expect(a.indirect().reached(na) == b.indirect().reached(nb), pa.path, " node ", i,
+        with.expect(a.indirect().reached(na) == b.indirect().reached(nb), path, " node ", na,
                     " is reached in one only");
     }
 }
@@ -175,8 +235,9 @@ std::string difference(const LitScene& one, const LitScene& other) {
                 pa.path, " is meshed in another way") ||
             !pa.present)
             continue;
+        const std::vector<Pair> nodes = nodePairs(with, pa, pb);
         if (one.solver().nodeHits())
-            compareNodes(with, one.solver(), other.solver(), pa, pb, elements);
+            compareNodes(with, one.solver(), other.solver(), pa.path, nodes, elements);
         if (one.solver().detail())
             compareDetail(with, one.solver().detail()->hits(), other.solver().detail()->hits(), pa,
                           pb, elements);
@@ -189,22 +250,22 @@ std::string difference(const LitScene& one, const LitScene& other) {
             if (rowsA.empty()) continue;
             const IndirectSenders &sendersA = one.solver().indirect().senders(),
                                   &sendersB = other.solver().indirect().senders();
-            compareIndirect(with, rowsA, rowsB, sa.patches, sb.patches, pa, pb, sa.path + " patch");
+            compareIndirect(with, rowsA, rowsB, patchPairs(with, sa, sb), nodes, sa.path + " patch",
+                            pa.path);
             const ObjectId objectA{std::uint32_t(&sa - with.a.objects.data())},
                 objectB{std::uint32_t(&sb - with.b.objects.data())};
-            compareIndirect(with, rowsA, rowsB, sendersA.clustersOf(objectA),
-                            sendersB.clustersOf(objectB), pa, pb, sa.path + " cluster");
-            if (&sa == with.a.objects.data())
-                compareIndirect(with, rowsA, rowsB, sendersA.fixedClusters(),
-                                sendersB.fixedClusters(), pa, pb, "fixed cluster");
+            compareIndirect(with, rowsA, rowsB,
+                            pairsOf(sendersA.clustersOf(objectA), sendersB.clustersOf(objectB)),
+                            nodes, sa.path + " cluster", pa.path);
         }
     }
     for (const ObjectPart& pa : with.a.objects) { // what follows from the rest comes last
         if (with.differences > 0 || parts.count(pa.path) == 0) continue;
         const ObjectPart& pb = *parts[pa.path];
-        for (std::uint32_t p = 0; with.differences == 0 && p < pa.patches.count; ++p) {
-            const Rgb a = ra[pa.patches.first + p], b = rb[pb.patches.first + p];
-            with.expect(maxChannel(absolute(a - b)) <= allowed, pa.path, " patch ", p, " sends ",
+        for (const Pair& p : patchPairs(with, pa, pb)) {
+            if (with.differences > 0) break;
+            const Rgb a = ra[p.a], b = rb[p.b];
+            with.expect(maxChannel(absolute(a - b)) <= allowed, pa.path, " patch ", p.a, " sends ",
                         a.g, " against ", b.g, " of +-", allowed);
         }
         if (with.differences == 0 && pa.present)

@@ -31,7 +31,7 @@ public:
     /// Poses things as in this scene state; costs what changes. What they touch is found around
     /// those that move, now or at any time before: elsewhere it stays as radiosity has it.
     /// \param moving objects
-    void pose(const SceneState& sceneState, std::span<const std::uint32_t> moving);
+    void pose(const SceneState& sceneState, std::span<const std::uint32_t> moving = {});
 
     const RayScene& rays() const { return posed_.rays(); }
     /// Rays through things as they are in another scene state; what they touch there is not
