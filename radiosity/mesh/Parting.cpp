@@ -101,7 +101,7 @@ bool Parting::follow(std::uint32_t whole) {
     placeVertices(whole, groups, patches);
     before_ = std::exchange(own_[whole], {});
     for (std::size_t i = 0; i < groups.size(); ++i) placeNodes(whole, patches[i], groups[i]);
-    if (patches.empty() || patches[0] != whole) setNode(middle, {});
+    if (groups.empty() || patches[0] != whole) setNode(middle, {});
     giveBackNodes(whole);
     return true;
 }
