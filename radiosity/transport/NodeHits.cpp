@@ -38,7 +38,8 @@ double openness(std::uint64_t near) {
 } // namespace
 
 std::uint32_t renamedHit(std::uint32_t hit, const std::vector<std::uint32_t>& elements) {
-    if (hit == Element::kNone) return hit;
+    // What rays of hidden things met may be gone for long.
+    if (hit == Element::kNone || hit == NodeHits::kGone) return hit;
     const std::uint32_t now = elements[hit & ~DetailRays::kAcross];
     return now == NodeHits::kGone ? now : now | (hit & DetailRays::kAcross);
 }
