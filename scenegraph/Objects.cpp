@@ -89,8 +89,7 @@ private:
     ObjectId currentObject() {
         if (!pending_.id.valid()) {
             pending_.id.value = std::uint32_t(out_.objects.size());
-            out_.objects.push_back(
-                {pending_.path, pending_.toWorld, true, pending_.hidden == 0});
+            out_.objects.push_back({pending_.path, pending_.toWorld, true, pending_.hidden == 0});
         }
         return pending_.id;
     }
