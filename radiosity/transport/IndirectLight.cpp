@@ -28,8 +28,8 @@ IndirectLight::IndirectLight(const PatchSet& set, const RayScene& rays, const Di
       updates_(set, rays, table_, set.nodeBlockObject,
                {.visit = cost::kIndirectVisit, .entry = cost::kIndirectEntry}),
       sendersReached_(senders_.count()), nodes_(set.nodes.size()), rowSums_(set.nodes.size()),
-      sent_(senders_.count()), residuals_(senders_.count()),
-      colours_(senders_.count()), known_(senders_.count()), kept_(senders_.count()) {
+      sent_(senders_.count()), residuals_(senders_.count()), colours_(senders_.count()),
+      known_(senders_.count()), kept_(senders_.count()) {
     for (std::uint32_t n = 0; n < set.nodes.size(); ++n) nodeKeys_.push_back(addressOfNode(set, n));
     for (std::uint32_t p = 0; p < senders_.patchCount(); ++p) planar_.push_back(isPlanar(p));
     std::vector<BlockMask> all;

@@ -41,6 +41,8 @@ Value IndirectLight::mean(const Patch& patch, AtNode atNode) const {
 glm::dvec3 IndirectLight::reflected(std::uint32_t index) const {
     const Patch& patch = set_.patches[index];
     if (!senders_.present(index)) return glm::dvec3(0);
+    // What its nodes still hold then is deferred work: it is right for it to send nothing.
+    if (index < reach_.patches.size() && !reach_.patches[index]) return glm::dvec3(0);
     const auto indirect = mean<glm::dvec3>(patch, [&](std::uint32_t n) { return node(n); });
     return toDouble(patchReflectance(set_, index)) * (direct_.patches()[index] + indirect);
 }

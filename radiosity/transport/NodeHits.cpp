@@ -38,7 +38,8 @@ double openness(std::uint64_t near) {
 } // namespace
 
 std::uint32_t renamedHit(std::uint32_t hit, const std::vector<std::uint32_t>& elements) {
-    if (hit == Element::kNone) return hit;
+    // What rays of hidden things met may be gone for long.
+    if (hit == Element::kNone || hit == NodeHits::kGone) return hit;
     const std::uint32_t now = elements[hit & ~DetailRays::kAcross];
     return now == NodeHits::kGone ? now : now | (hit & DetailRays::kAcross);
 }
@@ -183,10 +184,9 @@ GroupOutcome NodeHits::trace(std::uint32_t group) {
         DetailRays::Hits now;
         now.near = near_[n];
         std::ranges::copy(known, now.elements.begin());
-        const std::uint64_t which = dirty.anew >> i & 1
-                                        ? DetailRays::kAllRays
-                                        : rays_.affected(node, DetailRays::kAllRays, known, moved,
-                                                         kFar);
+        const std::uint64_t which =
+            dirty.anew >> i & 1 ? DetailRays::kAllRays
+                                : rays_.affected(node, DetailRays::kAllRays, known, moved, kFar);
         outcome.rays += std::uint64_t(rays_.follow(node, which, false, now));
         outcome.ways.add(now.ways);
         outcome.differs |= !std::ranges::equal(known, now.elements);
