@@ -43,6 +43,31 @@ struct Watchers {
     }
 };
 
+bool hasNode(const Patch& patch, std::uint32_t n) {
+    return patch.centreNode == n ||
+           (patch.hasCornerNodes &&
+            std::ranges::find(patch.cornerNodes, n) != patch.cornerNodes.end());
+}
+
+/// From patch to patch. \param found patches that light was found to get to, used up
+void spread(const PatchSet& set, const Watchers& watchers, std::vector<std::uint32_t>& found,
+            std::vector<std::uint8_t>& reachedNodes, std::vector<std::uint8_t>& reachedPatches) {
+    const NodePatches patchesOf(set);
+    while (!found.empty()) {
+        const std::uint32_t next = found.back();
+        found.pop_back();
+        for (const std::uint32_t n : watchers.of(next)) {
+            if (std::exchange(reachedNodes[n], std::uint8_t(1))) continue;
+            for (const std::uint32_t whole : patchesOf.of(n))
+                set.forEachPart(whole, [&](std::uint32_t p) {
+                    if (hasNode(set.patches[p], n) && set.sends(p) &&
+                        !std::exchange(reachedPatches[p], std::uint8_t(1)))
+                        found.push_back(p);
+                });
+        }
+    }
+}
+
 } // namespace
 
 Reach findReach(const PatchSet& set, const NodeHits& hits, std::span<const std::uint8_t> lit) {
@@ -63,15 +88,9 @@ Reach findReach(const PatchSet& set, const NodeHits& hits, std::span<const std::
     for (std::uint32_t n = 0; n < reached.size(); ++n)
         if (!reached[n] && counts(n)) others.push_back(n);
 
-    // The others, from patch to patch: each is listed once, when light is found to get to it.
+    // The others: each is listed once, when light is found to get to it.
     Reach reach;
     reach.patches.assign(lit.begin(), lit.end());
-    const auto has = [&](std::uint32_t p, std::uint32_t n) {
-        const Patch& patch = set.patches[p];
-        return patch.centreNode == n ||
-               (patch.hasCornerNodes && std::ranges::find(patch.cornerNodes, n) !=
-                                            patch.cornerNodes.end());
-    };
     std::vector<std::uint32_t> found;
     for (std::uint32_t p = 0; p < set.patches.size(); ++p) {
         if (!set.sends(p)) {
@@ -85,23 +104,8 @@ Reach findReach(const PatchSet& set, const NodeHits& hits, std::span<const std::
             continue;
         if (!std::exchange(reach.patches[p], std::uint8_t(1))) found.push_back(p);
     }
-    if (!found.empty() && !others.empty()) {
-        const Watchers watchers(set, hits, others);
-        const NodePatches patchesOf(set);
-        while (!found.empty()) {
-            const std::uint32_t next = found.back();
-            found.pop_back();
-            for (const std::uint32_t n : watchers.of(next)) {
-                if (std::exchange(reached[n], std::uint8_t(1))) continue;
-                for (const std::uint32_t whole : patchesOf.of(n))
-                    set.forEachPart(whole, [&](std::uint32_t p) {
-                        if (has(p, n) && set.sends(p) &&
-                            !std::exchange(reach.patches[p], std::uint8_t(1)))
-                            found.push_back(p);
-                    });
-            }
-        }
-    }
+    if (!found.empty() && !others.empty())
+        spread(set, {set, hits, others}, found, reached, reach.patches);
 
     reach.nodes.resize((reached.size() + 63) / 64);
     for (std::size_t n = 0; n < reached.size(); ++n)
