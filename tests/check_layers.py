@@ -11,7 +11,8 @@ USES = {
     "scenegraph": ["base"],
     "importance": ["scenegraph"],
     "radiosity/rays": ["scenegraph"],
-    "radiosity/mesh": ["radiosity/rays"],
+    "radiosity/surface": ["radiosity/rays"],
+    "radiosity/mesh": ["radiosity/surface"],
     "radiosity/rows": ["radiosity/mesh"],
     "radiosity/schedule": ["radiosity/rows", "importance"],
     "radiosity/transport": ["radiosity/schedule"],
@@ -43,7 +44,7 @@ USES = {
 # Third-party headers (by how their path begins) that a room, or some, keep to themselves, in their .cpp files.
 HOME = {
     "tbb/": "base", "oneapi/": "base", "boost/": "radiosity/process", "embree": "radiosity/rays",
-    "opensubdiv/": "radiosity/mesh",
+    "opensubdiv/": "radiosity/surface",
     "OpenEXR/": "io/image", "OpenImageIO/": "io/image", "Imf": "io/image", "Imath": "io/image", "png.h": "io/image",
     "epoxy/": "viewer", "EGL/": "viewer", "GL/": "viewer", "GLFW/": "viewer",
     "imgui": "viewer/panels", "backends/imgui": "viewer/panels",

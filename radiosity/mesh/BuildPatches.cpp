@@ -4,9 +4,9 @@
 #include "radiosity/mesh/Contact.h"
 #include "radiosity/mesh/LightShapes.h"
 #include "radiosity/mesh/PatchAssembly.h"
-#include "radiosity/mesh/SurfaceMesh.h"
-#include "radiosity/mesh/Tessellation.h"
 #include "radiosity/rays/Margins.h"
+#include "radiosity/surface/SurfaceMesh.h"
+#include "radiosity/surface/Tessellation.h"
 #include "scenegraph/Backdrops.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Mesh.h"
@@ -368,8 +368,7 @@ void refuseTooMuch(const PatchSet& set, const std::vector<Surface>& surfaces) {
 constexpr float kRoomPatch = 0.5f;
 
 /// Fills in what follows from the scene, and marks its backdrops.
-MeshingOptions resolved(MeshingOptions sizes, const PatchSet& set,
-                        std::vector<Surface>& surfaces) {
+MeshingOptions resolved(MeshingOptions sizes, const PatchSet& set, std::vector<Surface>& surfaces) {
     if (!(sizes.backdropArea > 0)) sizes.backdropArea = findBackdropArea(surfaces, set);
     for (Surface& surface : surfaces) surface.backdrop = surface.area >= sizes.backdropArea;
     const SceneArea area = areaOf(surfaces);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "radiosity/mesh/PatchSet.h"
-#include "radiosity/mesh/SurfaceMesh.h"
+#include "radiosity/surface/SurfaceMesh.h"
 
 #include <cstdint>
 #include <span>

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "radiosity/mesh/PatchSet.h"
-#include "radiosity/mesh/SurfaceMesh.h"
-#include "radiosity/mesh/Tessellation.h"
 #include "radiosity/rays/RayScene.h"
+#include "radiosity/surface/SurfaceMesh.h"
+#include "radiosity/surface/Tessellation.h"
 
 #include <array>
 #include <cstdint>

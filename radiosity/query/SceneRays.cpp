@@ -1,7 +1,7 @@
 #include "radiosity/query/SceneRays.h"
 
-#include "radiosity/mesh/FaceTriangles.h"
 #include "radiosity/mesh/LightShapes.h"
+#include "radiosity/surface/FaceTriangles.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Mesh.h"
 

@@ -3,7 +3,7 @@
 
 #include "base/Bounds.h"
 #include "base/Rgb.h"
-#include "radiosity/mesh/FaceTriangles.h"
+#include "radiosity/surface/FaceTriangles.h"
 #include "scenegraph/Node.h"
 #include "viewer/gl/GlObject.h"
 #include "viewer/preview/DrawList.h"

@@ -1,7 +1,7 @@
 #include "viewer/gl/UnlitGeometry.h"
 
 #include "radiosity/mesh/LightShapes.h"
-#include "radiosity/mesh/SurfaceMesh.h"
+#include "radiosity/surface/SurfaceMesh.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Mesh.h"
 #include "viewer/gl/Shaders.h"

@@ -1,7 +1,7 @@
 // Meshes and lights in the memory of the graphics card, before they are lit.
 #pragma once
 
-#include "radiosity/mesh/FaceTriangles.h"
+#include "radiosity/surface/FaceTriangles.h"
 #include "scenegraph/Node.h"
 #include "viewer/gl/GeometryCache.h"
 #include "viewer/gl/GlObject.h"

@@ -1,8 +1,8 @@
 // Surfaces cut into cells (patches to be) and facets (elements to be), by OpenSubdiv's Bfr.
 #pragma once
 
-#include "radiosity/mesh/LimitSurface.h"
-#include "radiosity/mesh/SurfaceMesh.h"
+#include "radiosity/surface/LimitSurface.h"
+#include "radiosity/surface/SurfaceMesh.h"
 
 #include <glm/glm.hpp>
 

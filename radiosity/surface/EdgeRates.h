@@ -1,8 +1,8 @@
 // Into how many parts the edges of a mesh's faces are cut.
 #pragma once
 
-#include "radiosity/mesh/LimitSurface.h"
-#include "radiosity/mesh/SurfaceMesh.h"
+#include "radiosity/surface/LimitSurface.h"
+#include "radiosity/surface/SurfaceMesh.h"
 
 #include <cstdint>
 #include <span>

@@ -1,7 +1,7 @@
 // After G. H. Meisters, "Polygons have ears", American Mathematical Monthly 82(6), 1975.
-#include "radiosity/mesh/Triangulate.h"
+#include "radiosity/surface/Triangulate.h"
 
-#include "radiosity/mesh/SurfaceMesh.h"
+#include "radiosity/surface/SurfaceMesh.h"
 
 #include <cmath>
 #include <numbers>

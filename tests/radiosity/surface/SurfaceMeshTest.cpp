@@ -1,5 +1,5 @@
 // Which faces are used, and which of their sides there are.
-#include "radiosity/mesh/SurfaceMesh.h"
+#include "radiosity/surface/SurfaceMesh.h"
 #include "tests/support/Scenes.h"
 
 #include <gtest/gtest.h>

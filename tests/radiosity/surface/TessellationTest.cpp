@@ -1,6 +1,6 @@
 // Surfaces in cells and facets: no cracks, the right area, the right limit.
-#include "radiosity/mesh/Tessellation.h"
-#include "radiosity/mesh/EdgeRates.h"
+#include "radiosity/surface/Tessellation.h"
+#include "radiosity/surface/EdgeRates.h"
 #include "tests/support/Scenes.h"
 
 #include <glm/gtc/quaternion.hpp>

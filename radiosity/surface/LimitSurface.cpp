@@ -1,4 +1,4 @@
-#include "radiosity/mesh/LimitSurface.h"
+#include "radiosity/surface/LimitSurface.h"
 
 #include <opensubdiv/bfr/refinerSurfaceFactory.h>
 #include <opensubdiv/bfr/surface.h>

@@ -1,7 +1,7 @@
 // The surface that a mesh describes, face by face: OpenSubdiv's limit surface, or the polygons.
 #pragma once
 
-#include "radiosity/mesh/SurfaceMesh.h"
+#include "radiosity/surface/SurfaceMesh.h"
 
 #include <glm/glm.hpp>
 

@@ -1,4 +1,4 @@
-#include "radiosity/mesh/EdgeRates.h"
+#include "radiosity/surface/EdgeRates.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include "radiosity/mesh/SurfaceMesh.h"
+#include "radiosity/surface/SurfaceMesh.h"
 
-#include "radiosity/mesh/Triangulate.h"
 #include "radiosity/rays/Traceable.h"
+#include "radiosity/surface/Triangulate.h"
 
 #include <algorithm>
 #include <cmath>

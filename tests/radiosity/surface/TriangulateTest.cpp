@@ -1,7 +1,7 @@
 // Polygons in triangles: the same area, nothing twice.
-#include "radiosity/mesh/Triangulate.h"
+#include "radiosity/surface/Triangulate.h"
 #include "radiosity/mesh/LightShapes.h"
-#include "radiosity/mesh/SurfaceMesh.h"
+#include "radiosity/surface/SurfaceMesh.h"
 #include "tests/scenegraph/RandomParts.h"
 
 #include <gtest/gtest.h>

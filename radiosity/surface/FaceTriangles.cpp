@@ -1,6 +1,6 @@
-#include "radiosity/mesh/FaceTriangles.h"
+#include "radiosity/surface/FaceTriangles.h"
 
-#include "radiosity/mesh/Triangulate.h"
+#include "radiosity/surface/Triangulate.h"
 #include "scenegraph/Mesh.h"
 
 #include <algorithm>

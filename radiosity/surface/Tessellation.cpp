@@ -1,6 +1,6 @@
-#include "radiosity/mesh/Tessellation.h"
+#include "radiosity/surface/Tessellation.h"
 
-#include "radiosity/mesh/EdgeRates.h"
+#include "radiosity/surface/EdgeRates.h"
 
 #include <algorithm>
 #include <cmath>
