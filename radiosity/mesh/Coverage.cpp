@@ -28,7 +28,7 @@ Coverage::Coverage(PatchSet& set, const RayScene& rays)
         if (set_.objects[set_.elementObject[e].value].present) all.push_back(e);
     Change change;
     refresh(std::move(all), change);
-    if (!set_.nodes.empty()) parting_.emplace(set_, change.patches);
+    if (!set_.nodes.empty()) parting_.emplace(set_, fans_, change.patches);
 }
 
 void Coverage::orderElements() {

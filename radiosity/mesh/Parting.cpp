@@ -38,8 +38,8 @@ std::span<std::uint32_t> elementsOf(PatchSet& set, std::uint32_t patch) {
 
 } // namespace
 
-Parting::Parting(PatchSet& set, std::span<const std::uint32_t> wholes)
-    : set_(set), nodePatches_(set) {
+Parting::Parting(PatchSet& set, const Fans& fans, std::span<const std::uint32_t> wholes)
+    : set_(set), fans_(fans), nodePatches_(set) {
     PatchParts& parts = set_.parts;
     parts.firstPatch = std::uint32_t(set_.patches.size());
     parts.firstNode = std::uint32_t(set_.nodes.size());
@@ -57,7 +57,10 @@ Parting::Change Parting::update(std::span<const std::uint32_t> wholes) {
     change_ = {};
     for (const std::uint32_t whole : wholes)
         if (follow(whole)) change_.wholes.push_back(whole);
-    for (const std::uint32_t whole : change_.wholes) findUnusedNodes(whole);
+    for (const std::uint32_t whole : change_.wholes) {
+        findUnusedNodes(whole);
+        placeVertices(whole);
+    }
     makeUnique(change_.patches);
     makeUnique(change_.nodes);
     return std::move(change_);
@@ -77,6 +80,7 @@ bool Parting::follow(std::uint32_t whole) {
         dark_.insert(whole);
     else
         dark_.erase(whole);
+    for (const std::uint32_t e : elementsOf(set_, whole)) set_.elements[e].patch = whole;
     const std::vector<std::uint32_t> patches = takeParts(whole, groups.size());
     if (patches.size() < groups.size()) { // there was no room: nothing parts it
         for (std::size_t i = 1; i < groups.size(); ++i)
@@ -98,7 +102,6 @@ bool Parting::follow(std::uint32_t whole) {
             if (set_.covered[e]) order.push_back(e);
         std::copy(order.begin(), order.end(), run.begin());
     }
-    placeVertices(whole, groups, patches);
     before_ = std::exchange(own_[whole], {});
     for (std::size_t i = 0; i < groups.size(); ++i) placeNodes(whole, patches[i], groups[i]);
     if (groups.empty() || patches[0] != whole) setNode(middle, {});
@@ -108,8 +111,7 @@ bool Parting::follow(std::uint32_t whole) {
 
 bool Parting::touched(std::uint32_t whole) const {
     const Patch& patch = set_.patches[whole];
-    const auto run =
-        std::span(set_.patchElements).subspan(patch.firstElement, patch.elementCount);
+    const auto run = std::span(set_.patchElements).subspan(patch.firstElement, patch.elementCount);
     return std::any_of(run.begin(), run.end(), [&](std::uint32_t e) {
         const auto& v = set_.elements[e].vertices;
         return set_.covered[e] || std::any_of(v.begin(), v.end(), [&](std::uint32_t vertex) {
@@ -190,7 +192,6 @@ std::vector<std::uint32_t> Parting::takeParts(std::uint32_t whole, std::size_t c
     if (count < 2 || !room) {
         giveBackParts(whole, 0);
         if (!std::exchange(parts.used[whole], 1)) change_.patches.push_back(whole);
-        for (const std::uint32_t e : elementsOf(set_, whole)) set_.elements[e].patch = whole;
         return {whole};
     }
     giveBackParts(whole, count);
@@ -244,6 +245,7 @@ void Parting::makePart(std::uint32_t slot, std::uint32_t whole, const Group& gro
                before.material != patch.material || before.elementCount != patch.elementCount ||
                set_.parts.wholePatch[slot - set_.parts.firstPatch] != whole;
     set_.parts.wholePatch[slot - set_.parts.firstPatch] = whole;
+    spans_[slot - set_.parts.firstPatch] = group.spans;
     set_.patches[slot] = patch;
     for (const std::uint32_t e : group.elements) set_.elements[e].patch = slot;
     if (!set_.textures.patches.empty())
@@ -251,27 +253,43 @@ void Parting::makePart(std::uint32_t slot, std::uint32_t whole, const Group& gro
     if (changed) change_.patches.push_back(slot);
 }
 
-/// Where vertices lie in the patches of which they are corners now. A shared vertex is of the patch
-/// that had it first.
-void Parting::placeVertices(std::uint32_t whole, std::span<const Group> groups,
-                            std::span<const std::uint32_t> patches) {
-    const auto& base = set_.parts.vertexCoordinates;
+/// Where the vertices of a patch's elements lie in patches as they are now.
+void Parting::placeVertices(std::uint32_t whole) {
     for (const std::uint32_t e : elementsOf(set_, whole))
-        for (const std::uint32_t v : set_.uncoveredElements[e].vertices)
-            if (base[v].patch == whole) set_.vertexCoordinates[v] = base[v];
-    for (std::size_t i = 0; i < groups.size(); ++i) {
-        const glm::vec2 low = groups[i].spans.low;
-        const glm::vec2 size = glm::max(groups[i].spans.high - low, glm::vec2(1e-6f));
-        for (const std::uint32_t e : groups[i].elements)
-            for (std::size_t k = 0; k < 4; ++k) {
-                const std::uint32_t v = set_.elements[e].vertices[k];
-                if (v < set_.firstPrivate && (patches[i] == whole || base[v].patch != whole))
-                    continue;
-                const glm::vec2 st = glm::clamp(
-                    (set_.parts.elementCoordinates[e][k] - low) / size, 0.0f, 1.0f);
-                set_.vertexCoordinates[v] = {patches[i], st.x, st.y};
-            }
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::uint32_t v = set_.elements[e].vertices[k];
+            if (v >= set_.firstPrivate) set_.vertexCoordinates[v] = placeIn(whole, e, k);
+            const std::uint32_t shared = set_.uncoveredElements[e].vertices[k];
+            set_.vertexCoordinates[shared] = placeOf(shared);
+        }
+}
+
+PatchCoordinate Parting::placeIn(std::uint32_t whole, std::uint32_t element,
+                                 std::size_t corner) const {
+    const glm::vec2 st = glm::clamp(set_.parts.elementCoordinates[element][corner], 0.0f, 1.0f);
+    const std::uint32_t patch = set_.elements[element].patch;
+    if (patch == whole) return {whole, st.x, st.y};
+    const PatchRectangle& spans = spans_[patch - set_.parts.firstPatch];
+    const glm::vec2 size = glm::max(spans.high - spans.low, glm::vec2(1e-6f));
+    const glm::vec2 in = glm::clamp((st - spans.low) / size, 0.0f, 1.0f);
+    return {patch, in.x, in.y};
+}
+
+/// A shared vertex is of the patch that had it first, if that one has it still, or else of the
+/// first that has it: in none if nothing around it is lit.
+PatchCoordinate Parting::placeOf(std::uint32_t shared) const {
+    const PatchCoordinate& base = set_.parts.vertexCoordinates[shared];
+    PatchCoordinate found;
+    for (const std::uint32_t corner : fans_.at(shared)) {
+        const std::uint32_t e = corner / 4, k = corner % 4;
+        const std::uint32_t whole = set_.uncoveredElements[e].patch;
+        if (whole == kNone || set_.covered[e] || set_.elements[e].vertices[k] != shared) continue;
+        const bool first = whole == base.patch;
+        if (first && set_.elements[e].patch == whole) return base;
+        if (first || found.patch == kNone) found = placeIn(whole, e, k);
+        if (first) break;
     }
+    return found;
 }
 
 /// Nodes are where the mesh has them, unless something touches the elements there.
@@ -286,18 +304,24 @@ void Parting::placeNodes(std::uint32_t whole, std::uint32_t patch, const Group& 
     }
     for (std::size_t c = 0; c < 4 && at.hasCornerNodes; ++c) {
         const std::uint32_t v = places.vertices[c];
-        const std::uint32_t shared = v < set_.firstPrivate ? set_.parts.vertexNode[v] : kNone;
-        at.cornerNodes[c] = shared != kNone
-                                ? shared
-                                : ownNode(whole, places.corners[c], set_.vertices[v].receiver);
+        const std::uint32_t shared = sharedNode(whole, v);
+        at.cornerNodes[c] =
+            shared != kNone ? shared : ownNode(whole, places.corners[c], set_.vertices[v].receiver);
     }
+}
+
+/// The node that the mesh has at a vertex, as one of the patch's, or kNone.
+std::uint32_t Parting::sharedNode(std::uint32_t whole, std::uint32_t vertex) const {
+    if (vertex >= set_.firstPrivate || !set_.patches[whole].hasCornerNodes) return kNone;
+    const auto& nodes = set_.parts.cornerNodes[whole];
+    const std::uint32_t node = set_.parts.vertexNode[vertex];
+    return std::find(nodes.begin(), nodes.end(), node) != nodes.end() ? node : kNone;
 }
 
 /// The middle node's own place, bit for bit, if nothing touches the element that it is in.
 Receiver Parting::middleOf(std::uint32_t whole, const NodePlaces& places) const {
     const Patch& patch = set_.patches[whole];
-    const auto all =
-        std::span(set_.patchElements).subspan(patch.firstElement, patch.elementCount);
+    const auto all = std::span(set_.patchElements).subspan(patch.firstElement, patch.elementCount);
     const std::uint32_t e = places.centreElement;
     const bool free = findNodePlaces(set_, patch, all, kWhole).centreElement == e &&
                       set_.elements[e].vertices == set_.uncoveredElements[e].vertices;
@@ -358,8 +382,9 @@ bool Parting::usesNode(std::uint32_t whole, std::uint32_t node) const {
     bool uses = false;
     set_.forEachPart(whole, [&](std::uint32_t p) {
         const Patch& patch = set_.patches[p];
-        uses |= patch.hasCornerNodes && std::find(patch.cornerNodes.begin(), patch.cornerNodes.end(),
-                                                  node) != patch.cornerNodes.end();
+        uses |= patch.hasCornerNodes &&
+                std::find(patch.cornerNodes.begin(), patch.cornerNodes.end(), node) !=
+                    patch.cornerNodes.end();
     });
     return uses;
 }
@@ -385,6 +410,7 @@ void Parting::addPatch() {
     set_.patches.push_back(patch);
     set_.parts.used.push_back(0);
     set_.parts.wholePatch.push_back(kNone);
+    spans_.emplace_back();
     if (!set_.textures.patches.empty()) set_.textures.patches.push_back(Rgb(1));
     freePatches_.push_back(slot);
 }

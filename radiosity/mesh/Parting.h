@@ -1,6 +1,7 @@
 // Patches that other things cut through, and nodes at which they stand.
 #pragma once
 
+#include "radiosity/mesh/Contact.h"
 #include "radiosity/mesh/NodePatches.h"
 #include "radiosity/mesh/PatchGeometry.h"
 #include "radiosity/mesh/PatchSet.h"
@@ -23,8 +24,8 @@ namespace penumbra {
 class Parting {
 public:
     /// Hands out as many patches and nodes as there are needed now, and makes room for more.
-    /// \param wholes patches that contacts concern
-    Parting(PatchSet& set, std::span<const std::uint32_t> wholes);
+    /// \param fans of the mesh without contacts \param wholes patches that contacts concern
+    Parting(PatchSet& set, const Fans& fans, std::span<const std::uint32_t> wholes);
 
     struct Change {
         std::vector<std::uint32_t> patches; ///< that send from elsewhere, or not, or begin to
@@ -55,9 +56,11 @@ private:
     std::vector<std::uint32_t> takeParts(std::uint32_t whole, std::size_t count);
     void giveBackParts(std::uint32_t whole, std::size_t left);
     void makePart(std::uint32_t slot, std::uint32_t whole, const Group& group, std::uint32_t first);
-    void placeVertices(std::uint32_t whole, std::span<const Group> groups,
-                       std::span<const std::uint32_t> patches);
+    void placeVertices(std::uint32_t whole);
+    PatchCoordinate placeIn(std::uint32_t whole, std::uint32_t element, std::size_t corner) const;
+    PatchCoordinate placeOf(std::uint32_t shared) const;
     void placeNodes(std::uint32_t whole, std::uint32_t patch, const Group& group);
+    std::uint32_t sharedNode(std::uint32_t whole, std::uint32_t vertex) const;
     Receiver middleOf(std::uint32_t whole, const NodePlaces& places) const;
     std::uint32_t ownNode(std::uint32_t whole, std::uint64_t key, const Receiver& place);
     void giveBackNodes(std::uint32_t whole);
@@ -69,7 +72,9 @@ private:
     std::uint32_t takeNode(std::uint32_t whole);
 
     PatchSet& set_;
+    const Fans& fans_;
     NodePatches nodePatches_;
+    std::vector<PatchRectangle> spans_; ///< of each patch that is handed out
     std::vector<std::uint32_t> freePatches_, freeBlocks_;
     /// Free nodes of the blocks that are in use, by the block that the middles of their patches
     /// are in.

@@ -29,7 +29,8 @@ struct Reached {
             bright[p] = set.objects[set.patches[p].object.value].path == lit;
         reach = findReach(set, hits, bright);
     }
-    /// Share of an object's nodes that can be reached, of those for which `which` is true.
+    /// Share of an object's nodes that can be reached, of those for which `which` is true and that
+    /// nothing covers.
     template <class Which>
     double share(const std::string& path, const Which& which) const {
         std::size_t nodes = 0, reached = 0;
@@ -42,7 +43,7 @@ struct Reached {
                 reached += reach.node(n);
             }
         }
-        return double(reached) / double(nodes);
+        return nodes > 0 ? double(reached) / double(nodes) : 0;
     }
     /// The same, but for what stands on something.
     double share(const std::string& path) const {
@@ -106,7 +107,10 @@ TEST(Reach, IsTheLeastSetThatIsClosed) {
         }
         std::mt19937 random(seed);
         std::vector<std::uint8_t> some(set.patches.size());
-        for (int i = 0; i < 3; ++i) some[random() % some.size()] = 1;
+        for (int i = 0; i < 3; ++i) {
+            const std::size_t p = random() % set.parts.firstPatch;
+            some[p] = set.sends(std::uint32_t(p));
+        }
         std::vector<std::uint8_t> bright = some, reached(set.nodes.size());
         const auto isReached = [&](std::uint32_t n) { return reached[n] != 0; };
         for (bool changed = true; changed;) {
@@ -120,7 +124,7 @@ TEST(Reach, IsTheLeastSetThatIsClosed) {
                 }
             for (std::uint32_t p = 0; p < bright.size(); ++p) {
                 const Patch& patch = set.patches[p];
-                if (bright[p] ||
+                if (bright[p] || !set.sends(p) ||
                     !(isReached(patch.centreNode) ||
                       (patch.hasCornerNodes && std::ranges::any_of(patch.cornerNodes, isReached))))
                     continue;
