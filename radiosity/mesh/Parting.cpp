@@ -76,10 +76,6 @@ bool Parting::follow(std::uint32_t whole) {
     else
         touched_.erase(whole);
     std::vector<Group> groups = groupsOf(whole);
-    if (groups.empty())
-        dark_.insert(whole);
-    else
-        dark_.erase(whole);
     for (const std::uint32_t e : elementsOf(set_, whole)) set_.elements[e].patch = whole;
     const std::vector<std::uint32_t> patches = takeParts(whole, groups.size());
     if (patches.size() < groups.size()) { // there was no room: nothing parts it
@@ -180,8 +176,8 @@ std::vector<Parting::Group> Parting::groupsOf(std::uint32_t whole) const {
     return groups;
 }
 
-/// The patches of so many groups: the whole patch itself if there is one only, or none, or if there
-/// is no room for more.
+/// The patches of so many groups: the whole patch itself if there is one only, or if there is no
+/// room for more. Without any it sends nothing.
 std::vector<std::uint32_t> Parting::takeParts(std::uint32_t whole, std::size_t count) {
     PatchParts& parts = set_.parts;
     const auto parted = parts.of.find(whole);
@@ -191,7 +187,8 @@ std::vector<std::uint32_t> Parting::takeParts(std::uint32_t whole, std::size_t c
     exhausted_ |= !room;
     if (count < 2 || !room) {
         giveBackParts(whole, 0);
-        if (!std::exchange(parts.used[whole], 1)) change_.patches.push_back(whole);
+        const std::uint8_t used = count > 0;
+        if (std::exchange(parts.used[whole], used) != used) change_.patches.push_back(whole);
         return {whole};
     }
     giveBackParts(whole, count);
@@ -378,11 +375,10 @@ void Parting::setNode(std::uint32_t node, const Receiver& place) {
 }
 
 bool Parting::usesNode(std::uint32_t whole, std::uint32_t node) const {
-    if (dark_.contains(whole)) return false;
     bool uses = false;
     set_.forEachPart(whole, [&](std::uint32_t p) {
         const Patch& patch = set_.patches[p];
-        uses |= patch.hasCornerNodes &&
+        uses |= set_.parts.used[p] && patch.hasCornerNodes &&
                 std::find(patch.cornerNodes.begin(), patch.cornerNodes.end(), node) !=
                     patch.cornerNodes.end();
     });

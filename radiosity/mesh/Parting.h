@@ -82,7 +82,6 @@ private:
     std::unordered_map<std::uint32_t, OwnNodes> own_; ///< by whole patch
     OwnNodes before_;                                 ///< of the one that is followed now
     std::unordered_set<std::uint32_t> touched_;       ///< whole patches that anything touches
-    std::unordered_set<std::uint32_t> dark_;          ///< those covered all over
     bool growing_ = true, exhausted_ = false;
     Change change_;
 };

@@ -148,7 +148,8 @@ struct SurfaceTextures {
 struct PatchParts {
     std::uint32_t firstPatch = 0; ///< the first patch that is handed out
     std::uint32_t firstNode = 0;  ///< the first node that is
-    /// 1: a patch that sends and receives; 0: a parted one, or one that nobody has.
+    /// 1: a patch that sends and receives; 0: a parted one, one that is covered all over, or one
+    /// that nobody has.
     std::vector<std::uint8_t> used;
     std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> of; ///< of each parted patch
     std::vector<std::uint32_t> wholePatch; ///< of each patch that is handed out, or kNone
