@@ -62,7 +62,7 @@ void furnish(benchmark::State& state, const char* layer, const char* path,
         const Cost move = room.follow();
         const auto another = std::make_shared<Transform>("another");
         for (const NodePtr& child : thing->children()) another->add(child);
-        another->setMovable(true);
+        another->setBeginsObject(true);
         another->setMatrix(aside(-0.4) * home);
         room.scene().root->add(another);
         const Cost add = room.follow();

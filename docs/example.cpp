@@ -15,7 +15,6 @@ using namespace penumbra;
 int main(int argc, char** argv) try {
     const LoadedScene loaded = loadUsdScene(argc > 1 ? argv[1] : "scenes/cornell.usda");
     auto shelf = std::make_shared<Transform>("shelf"); // something of our own that moves
-    shelf->setMovable(true);
     MeshData board;
     board.points = {{0.1, 0.1, 0}, {0.3, 0.1, 0}, {0.3, 0.3, 0}, {0.1, 0.3, 0}};
     board.faceVertexCounts = {4};

@@ -13,7 +13,6 @@ NodePtr copyOfOne(const NodePtr& node, const std::string& name) {
     if (const auto* transform = dynamic_cast<const Transform*>(node.get())) {
         auto copy = std::make_shared<Transform>(name);
         copy->setMatrix(transform->matrix());
-        copy->setMovable(transform->movable());
         copy->setBeginsObject(transform->beginsObject());
         return copy;
     }

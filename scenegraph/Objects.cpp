@@ -40,16 +40,15 @@ public:
         hidden_ -= !node.visible();
     }
     void visit(const Transform& transform) override {
-        const bool object =
+        const bool begins =
             transform.beginsObject() || (depth_ == 0 && HoldsGeometry::test(transform));
-        const bool begins = transform.movable() || (object && !pending_.movable);
         const glm::dmat4 outerFrame = toObject_;
         if (!begins) {
             toObject_ = toObject_ * transform.matrix();
             Visitor::visit(transform);
         } else {
             const Pending outer = pending_;
-            pending_ = {path(), toWorld() * transform.matrix(), transform.movable(), hidden_, {}};
+            pending_ = {path(), toWorld() * transform.matrix(), hidden_, {}};
             toObject_ = glm::dmat4(1.0);
             ++depth_;
             Visitor::visit(transform);
@@ -78,8 +77,7 @@ private:
     struct Pending {
         std::string path = "/";
         glm::dmat4 toWorld{1.0};
-        bool movable = false; ///< only what is movable begins an object within it
-        int hidden = 0;       ///< hiding switches above it
+        int hidden = 0; ///< hiding switches above it
         ObjectId id;
     };
 

@@ -17,8 +17,7 @@ class Light;
 class Camera;
 
 /// A rigid piece of the scene: one Transform with what is below it, until the next Transform that
-/// is movable, or begins an object in what is not. What is below none of them belongs to the object
-/// at the root, path "/".
+/// begins an object. What is below none of them belongs to the object at the root, path "/".
 struct Object {
     std::string path;        ///< of the transform that begins it
     glm::dmat4 toWorld{1.0}; ///< its frame
@@ -44,7 +43,7 @@ struct PlacedScene {
     Bounds bounds; ///< of visible meshes and lights [m, world]
 };
 
-/// Lists a scene. An object begins at a Transform that is movable or said to begin one and,
+/// Lists a scene. An object begins at a Transform that says so, within another object as well, and,
 /// outside of any object, at a Transform that directly holds a mesh or a light (through plain
 /// groups, not through further Transforms). Objects without geometry are not listed, nor is what a
 /// Switch hides, except for whole objects: they are listed as not visible, since they may come

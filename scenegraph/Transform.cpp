@@ -13,12 +13,6 @@ void Transform::setMatrix(const glm::dmat4& matrix) {
     touch();
 }
 
-void Transform::setMovable(bool movable) {
-    if (movable == movable_) return;
-    movable_ = movable;
-    touch();
-}
-
 void Transform::setBeginsObject(bool begins) {
     if (begins == beginsObject_) return;
     beginsObject_ = begins;

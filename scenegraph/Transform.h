@@ -17,18 +17,12 @@ public:
     const glm::dmat4& matrix() const { return matrix_; }
     void setMatrix(const glm::dmat4& matrix);
 
-    /// Whether people or an animation move this by itself. A movable transform begins an object.
-    bool movable() const { return movable_; }
-    void setMovable(bool movable);
-
-    /// Whether it begins an object that does not move by itself: what people would pick up as one
-    /// thing.
+    /// Whether it begins an object: what people would pick up as one thing.
     bool beginsObject() const { return beginsObject_; }
     void setBeginsObject(bool begins);
 
 private:
     glm::dmat4 matrix_{1.0};
-    bool movable_ = false;
     bool beginsObject_ = false;
 };
 

@@ -25,12 +25,12 @@ def surface_area(scene):
 
 
 def stats(scenes):
-    print("| scene | objects | movable | polygons | lights | surface [m2] | bytes |")
+    print("| scene | objects | marked | polygons | lights | surface [m2] | bytes |")
     print("| --- | ---: | ---: | ---: | ---: | ---: | ---: |")
     for scene in scenes:
         lights = sum(len(o.lights) for o in scene.objects)
-        movable = sum(o.movable for o in scene.objects)
-        print(f"| `{scene.name}.usda` | {len(scene.objects)} | {movable} | {scene.polygons()} "
+        marked = sum(o.movable for o in scene.objects)
+        print(f"| `{scene.name}.usda` | {len(scene.objects)} | {marked} | {scene.polygons()} "
               f"| {lights} | {surface_area(scene):.1f} | {len(scene.text())} |")
 
 

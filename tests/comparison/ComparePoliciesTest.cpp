@@ -25,7 +25,7 @@ public:
     PushedBox() {
         scene_.root->add(object("room", boxData({-2, -2, 0}, {2, 2, 2.5f}, true)));
         scene_.root->add(ceilingLight({0, 0, 2.4f}, 0.6f, 0.6f, Rgb(300)));
-        box_ = movable(
+        box_ = objectOf(
             "box", {std::make_shared<Mesh>("mesh", boxData({-0.3f, -0.3f, 0}, {0.3f, 0.3f, 0.8f},
                                                            false, paint(Rgb(0.3f))))});
         scene_.root->add(box_);

@@ -16,9 +16,9 @@ struct PaintedRoom {
     std::shared_ptr<Light> off = std::make_shared<Light>("light", SphereShape{0.1f}, Rgb());
     Scene scene = sceneOf(
         {object("room", boxData({-1, -1, -1}, {1, 1, 1}, true, walls)),
-         movable("box",
-                 {std::make_shared<Mesh>(
-                     "mesh", boxData({-0.5f, -0.3f, -1}, {0.1f, 0.4f, -0.2f}, false, black))}),
+         objectOf("box",
+                  {std::make_shared<Mesh>(
+                      "mesh", boxData({-0.5f, -0.3f, -1}, {0.1f, 0.4f, -0.2f}, false, black))}),
          object("screen", floorData(0.3f, 0.9f, -0.5f, 0.5f, 0.1f)),
          object("panel", floorData(-0.9f, -0.6f, -0.5f, 0.5f, -0.9f, panel)),
          placed("lamp", moved(0, 0, 0.99), {light}), placed("off", moved(0.6, 0.6, -0.5), {off})});
@@ -121,7 +121,7 @@ Scene roomsInARow(int count, std::vector<std::shared_ptr<Transform>>& boxes) {
                                {std::make_shared<Light>("light", RectShape{0.6f, 0.4f}, Rgb(10))}));
         const auto box = std::make_shared<Mesh>(
             "mesh", boxData({x - 0.3f, -0.3f, -1}, {x + 0.1f, 0.4f, -0.4f}, false));
-        nodes.push_back(movable("box" + n, {box}));
+        nodes.push_back(objectOf("box" + n, {box}));
         boxes.push_back(std::dynamic_pointer_cast<Transform>(nodes.back()));
     }
     Scene scene;
@@ -179,7 +179,6 @@ TEST(EditCostOfRooms, WhatIsBroughtInResizedOrTakenOutCostsTheRaysOfAMove) {
         for (const bool isMovable : {true, false}) {
             const auto another = std::make_shared<Transform>(isMovable ? "another" : "fixed");
             for (const NodePtr& child : boxes.front()->children()) another->add(child);
-            another->setMovable(isMovable);
             another->setBeginsObject(true);
             another->setMatrix(moved(-0.3, 0.1, 0));
             scene.root->add(another);

@@ -15,9 +15,9 @@ constexpr SolverOptions kSolving{.directOnly = true};
 /// Two rooms of 2 m without a wall between them, a partition there that reaches beyond them on all
 /// sides, and a light in the first.
 struct TwoRooms {
-    std::shared_ptr<Transform> partition =
-        movable("partition", {std::make_shared<Mesh>("mesh", boxData({-0.05f, -1.3f, -1.3f},
-                                                                     {0.05f, 1.3f, 1.3f}, false))});
+    std::shared_ptr<Transform> partition = objectOf(
+        "partition", {std::make_shared<Mesh>(
+                         "mesh", boxData({-0.05f, -1.3f, -1.3f}, {0.05f, 1.3f, 1.3f}, false))});
     std::shared_ptr<Switch> choice = make<Switch>("choice", {partition});
     std::shared_ptr<Transform> panel = panelAt(-1.2);
     Scene scene = sceneOf({room("first", -2.1f, -0.1f, {0, 2, 3, 4, 5}), choice,
@@ -28,7 +28,7 @@ struct TwoRooms {
 
     static std::shared_ptr<Transform> panelAt(double x) {
         const auto panel =
-            movable("panel", {std::make_shared<Light>("light", RectShape{0.4f, 0.3f}, Rgb(10))});
+            objectOf("panel", {std::make_shared<Light>("light", RectShape{0.4f, 0.3f}, Rgb(10))});
         panel->setMatrix(moved(x, 0, 0.95));
         return panel;
     }
@@ -131,7 +131,7 @@ TEST(EditedWalls, HideWhatASecondOneHidesAsWell) {
     const auto second = std::make_shared<Transform>("another");
     for (const NodePtr& child : rooms.partition->children()) second->add(child);
     second->setMatrix(moved(0.4, 0, 0));
-    second->setMovable(true);
+    second->setBeginsObject(true);
     rooms.scene.root->add(second);
     rooms.follow(true);
     rooms.partition->setMatrix(moved(5, 0, 0));

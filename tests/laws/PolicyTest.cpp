@@ -59,7 +59,7 @@ TEST(Policies, WhatGoesDarkIsWorkAsWell) {
     scene.root->add(object("floor", floorData(-2, 2, -2, 2, 0)));
     scene.root->add(ceilingLight({0, 0, 3}, 1, 1, Rgb(100)));
     const auto plate =
-        movable("plate", {std::make_shared<Mesh>("mesh", floorData(-0.5f, 0.5f, -0.5f, 0.5f, 0))});
+        objectOf("plate", {std::make_shared<Mesh>("mesh", floorData(-0.5f, 0.5f, -0.5f, 0.5f, 0))});
     plate->setMatrix(moved(0, 0, 1));
     scene.root->add(plate);
     LitScene lit(placeScene(scene), {.patchSize = 0.5f, .elementSize = 0.125f},

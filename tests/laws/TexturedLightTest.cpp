@@ -9,7 +9,7 @@ namespace penumbra {
 
 namespace {
 
-/// A closed room with a light, its wall x = 0 of a material, and a movable board.
+/// A closed room with a light, its wall x = 0 of a material, and a board.
 Scene room(const std::shared_ptr<Material>& paper, double boardAt = 1.5) {
     MeshData box = boxData({0, 0, 0}, {4, 3, 2.5f}, true, paint(Rgb(0.5f)));
     box.materials.push_back(paper);
@@ -21,7 +21,7 @@ Scene room(const std::shared_ptr<Material>& paper, double boardAt = 1.5) {
     auto board = placed("board", moved(boardAt, 1, 0.8),
                         {std::make_shared<Mesh>("mesh", boxData({0, 0, 0}, {0.5f, 0.5f, 0.05f},
                                                                 false, paint(Rgb(0.4f))))});
-    board->setMovable(true);
+    board->setBeginsObject(true);
     return sceneOf({object("room", box), board, ceilingLight({2, 1.5f, 2.4f}, 1, 1, Rgb(1000))});
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 /// A room with a box that can be moved about on the floor.
 struct RoomWithABox {
-    std::shared_ptr<Transform> box = movable(
+    std::shared_ptr<Transform> box = objectOf(
         "box", {std::make_shared<Mesh>("mesh", boxData({-0.3f, -0.2f, 0}, {0.3f, 0.2f, 0.7f}, false,
                                                        paint({0.8f, 0.2f, 0.2f})))});
     Scene scene =

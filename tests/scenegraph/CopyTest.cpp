@@ -18,13 +18,13 @@ TEST(Copy, IsOfTheSameShapeAndEditedByItself) {
     const auto shade = make<Switch>("Shade", {square("Cone")});
     shade->setVisible(false);
     const auto desk =
-        movable("Desk", {top, fixture, shade, std::make_shared<Camera>("Eye", Lens{})});
+        objectOf("Desk", {top, fixture, shade, std::make_shared<Camera>("Eye", Lens{})});
     std::map<NodePtr, NodePtr> copies;
     const auto copy = std::dynamic_pointer_cast<Transform>(
         copyOf(desk, "Other", [&](const NodePtr& a, const NodePtr& b) { copies[a] = b; }));
     ASSERT_TRUE(copy);
     EXPECT_EQ(copy->name(), "Other");
-    EXPECT_TRUE(copy->movable());
+    EXPECT_TRUE(copy->beginsObject());
     ASSERT_EQ(copy->children().size(), 3u) << "but no camera";
     EXPECT_EQ(copy->children()[0], top) << "shared";
     EXPECT_NE(copies.at(fixture), fixture);

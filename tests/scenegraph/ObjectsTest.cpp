@@ -31,7 +31,6 @@ TEST(Objects, WhatStandsBesideAllTransformsBelongsToTheRoot) {
     const PlacedScene scene =
         placeScene(sceneOf({square("floor"), make("group", {square("wall")})}));
     EXPECT_THAT(ownersOfMeshes(scene), ElementsAre("/", "/"));
-    EXPECT_FALSE(scene.objects.at(0).movable);
     EXPECT_EQ(scene.objects.at(0).toWorld, glm::dmat4(1.0));
 }
 
@@ -54,20 +53,19 @@ TEST(Objects, ATransformThatHoldsOnlyTransformsBeginsNone) {
     EXPECT_EQ(scene.objects.at(1).toWorld, moved(7, 0, 0));
 }
 
-TEST(Objects, AMovableTransformBeginsAnObjectWhateverItHolds) {
-    const PlacedScene scene =
-        placeScene(sceneOf({movable("seat", {placed("part", moved(1, 0, 0), {square("cushion")}),
-                                             placed("part2", moved(2, 0, 0), {square("back")})})}));
+TEST(Objects, ATransformThatSaysSoBeginsOneWhateverItHolds) {
+    const PlacedScene scene = placeScene(
+        sceneOf({objectOf("seat", {placed("part", moved(1, 0, 0), {square("cushion")}),
+                                   placed("part2", moved(2, 0, 0), {square("back")})})}));
     EXPECT_THAT(ownersOfMeshes(scene), ElementsAre("/seat", "/seat"));
-    EXPECT_TRUE(scene.objects.at(0).movable);
     EXPECT_EQ(scene.meshes.at(1).toWorld, moved(2, 0, 0));
 }
 
-TEST(Objects, InsideAnObjectOnlyAMovableTransformBeginsAnother) {
+TEST(Objects, InsideAnObjectOnlyATransformThatSaysSoBeginsAnother) {
     const PlacedScene scene = placeScene(sceneOf({placed(
         "desk", moved(0, 0, 0),
         {square("top"), placed("leg", moved(1, 0, 0), {square("leg")}),
-         movable("drawer", {square("front"), placed("knob", moved(0, 0, 1), {square("knob")})}),
+         objectOf("drawer", {square("front"), placed("knob", moved(0, 0, 1), {square("knob")})}),
          square("back")})}));
     EXPECT_THAT(ownersOfMeshes(scene),
                 ElementsAre("/desk", "/desk", "/desk/drawer", "/desk/drawer", "/desk"));
@@ -75,13 +73,13 @@ TEST(Objects, InsideAnObjectOnlyAMovableTransformBeginsAnother) {
 
 TEST(Objects, AfterAnObjectTheRootGoesOn) {
     const PlacedScene scene =
-        placeScene(sceneOf({movable("seat", {square("cushion")}), square("floor")}));
+        placeScene(sceneOf({objectOf("seat", {square("cushion")}), square("floor")}));
     EXPECT_THAT(ownersOfMeshes(scene), ElementsAre("/seat", "/"));
 }
 
 TEST(Objects, WithoutGeometryAreNotListed) {
     const PlacedScene scene = placeScene(
-        sceneOf({movable("empty", {}), make("group", {}), movable("seat", {square("mesh")})}));
+        sceneOf({objectOf("empty", {}), make("group", {}), objectOf("seat", {square("mesh")})}));
     EXPECT_THAT(objectPaths(scene), ElementsAre("/seat"));
 }
 
@@ -96,7 +94,7 @@ TEST(Objects, HiddenThingsAreNotPlaced) {
 }
 
 TEST(Objects, AnInstanceIsAnObjectInEachOfItsPlaces) {
-    const auto chair = movable("chair", {square("seat")});
+    const auto chair = objectOf("chair", {square("seat")});
     const PlacedScene scene = placeScene(sceneOf(
         {placed("left", moved(-1, 0, 0), {chair}), placed("right", moved(1, 0, 0), {chair})}));
     EXPECT_THAT(objectPaths(scene), ElementsAre("/left/chair", "/right/chair"));

@@ -27,7 +27,7 @@ TEST(Revision, OfAGroupRisesAsChildrenComeAndGo) {
 }
 
 TEST(Revision, OfAParentDoesNotFollowItsChildren) {
-    const auto child = movable("child", {});
+    const auto child = objectOf("child", {});
     const auto parent = make("parent", {child});
     EXPECT_FALSE(raises(*parent, [&] { child->setMatrix(moved(1, 0, 0)); }));
 }
@@ -41,8 +41,8 @@ TEST(Revision, OfASwitchRisesWhenItTurns) {
 TEST(Revision, OfATransformRisesWhenItMoves) {
     Transform seat("seat");
     EXPECT_TRUE(raises(seat, [&] { seat.setMatrix(moved(1, 0, 0)); }));
-    EXPECT_TRUE(raises(seat, [&] { seat.setMovable(true); }));
-    EXPECT_FALSE(raises(seat, [&] { seat.setMovable(true); }));
+    EXPECT_TRUE(raises(seat, [&] { seat.setBeginsObject(true); }));
+    EXPECT_FALSE(raises(seat, [&] { seat.setBeginsObject(true); }));
 }
 
 TEST(Revision, OfALightRisesWhenItIsDimmed) {
@@ -67,7 +67,7 @@ TEST(Revision, OfLitGeometryRisesWithNewLight) {
 }
 
 TEST(Revision, StaysWhenTheSceneIsOnlyRead) {
-    const auto seat = movable("seat", {square("cushion")});
+    const auto seat = objectOf("seat", {square("cushion")});
     const Scene scene = sceneOf({seat});
     EXPECT_FALSE(raises(*seat, [&] { placeScene(scene); }));
 }

@@ -53,10 +53,10 @@ inline std::shared_ptr<Transform> placed(std::string name, const glm::dmat4& mat
     return transform;
 }
 
-inline std::shared_ptr<Transform> movable(std::string name,
-                                          std::initializer_list<NodePtr> children) {
+inline std::shared_ptr<Transform> objectOf(std::string name,
+                                           std::initializer_list<NodePtr> children) {
     auto transform = make<Transform>(std::move(name), children);
-    transform->setMovable(true);
+    transform->setBeginsObject(true);
     return transform;
 }
 

@@ -47,7 +47,7 @@ TEST(Visitor, ReachesEveryKindOfLeafInOrder) {
 }
 
 TEST(Visitor, PathNamesTheNodesBelowTheRoot) {
-    const Scene scene = sceneOf({make("World", {movable("Seat", {square("Cushion")})})});
+    const Scene scene = sceneOf({make("World", {objectOf("Seat", {square("Cushion")})})});
     EXPECT_THAT(walk(scene).paths, ElementsAre("/World/Seat/Cushion"));
 }
 

@@ -85,7 +85,7 @@ void EditableRoom::addThings() {
     addThing("bulb", {newLight(SphereShape{0.06f}, 60)}, glm::dvec3(0.06));
     emissive_.push_back(paint(Rgb(0.3f), {6, 4, 2}));
     addThing("glow", {block({0.3f, 0.2f, 0.1f}, emissive_.back())}, {0.15, 0.1, 0.05});
-    // Below frames that stretch: what is movable in them is rigid in the world all the same.
+    // Below frames that stretch: an object in them is rigid in the world all the same.
     addThing("halved", {block({0.75f, 0.5f, 0.5f}, newPaint())}, {0.1875, 0.125, 0.125},
              stretched(0.5, 0.5, 0.5));
     addThing("mirrored", {block({0.5f, 0.25f, 0.25f}, newPaint())}, {0.125, 0.125, 0.25},
@@ -94,7 +94,7 @@ void EditableRoom::addThings() {
 
 void EditableRoom::addThing(const std::string& name, std::initializer_list<NodePtr> content,
                             glm::dvec3 half, const glm::dmat4& frame) {
-    const auto thing = movable(name, content);
+    const auto thing = objectOf(name, content);
     const auto choice = make<Switch>(name + "Switch", {thing});
     things_.push_back({thing, choice, frame, half, {}, {}});
     if (frame == glm::dmat4(1.0))

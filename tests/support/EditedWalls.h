@@ -14,8 +14,7 @@
 namespace penumbra {
 
 /// Puts partitions into an EditableRoom, some of them hidden or not there at first, and moves,
-/// hides, shows, resizes, takes out and brings back these, the table and the room itself. Two
-/// partitions are movable, so that moves of them are followed.
+/// hides, shows, resizes, takes out and brings back these, the table and the room itself.
 class EditedWalls {
 public:
     EditedWalls(const Scene& scene, std::uint32_t seed);

@@ -33,7 +33,7 @@ struct LitRoom {
 
     RadiosityOptions options;
     std::shared_ptr<Material> wallPaint = paint(Rgb(0.6f, 0.5f, 0.4f));
-    std::shared_ptr<Transform> box = movable(
+    std::shared_ptr<Transform> box = objectOf(
         "box",
         {std::make_shared<Mesh>("mesh", boxData({-0.3f, -0.3f, 0}, {0.3f, 0.3f, 0.6f}, false))});
     std::shared_ptr<Light> light; ///< of 100 nit

@@ -46,11 +46,10 @@ std::string Refurnishing::add() {
     auto thing = std::make_shared<Transform>("added" + std::to_string(number));
     for (const NodePtr& node : content()) thing->add(node);
     thing->setMatrix(anywhere());
-    thing->setMovable(below(2) == 0);
     thing->setBeginsObject(below(2) == 0);
     scene_.root->add(thing);
     added_.push_back(thing);
-    return thing->name() + (thing->movable() ? " (movable)" : "") + " brought in; ";
+    return thing->name() + (thing->beginsObject() ? " (an object)" : "") + " brought in; ";
 }
 
 std::string Refurnishing::change(std::size_t which) {
@@ -69,8 +68,9 @@ std::string Refurnishing::change(std::size_t which) {
         thing.setMatrix(anywhere());
         return thing.name() + " placed; ";
     case 3:
-        thing.setMovable(!thing.movable());
-        return thing.name() + (thing.movable() ? " made movable; " : " fixed; ");
+        thing.setBeginsObject(!thing.beginsObject());
+        return thing.name() +
+               (thing.beginsObject() ? " said to be an object; " : " not said to be one; ");
     case 4:
         for (const NodePtr& node : std::vector(thing.children())) thing.remove(node);
         for (const NodePtr& node : content()) thing.add(node);

@@ -12,9 +12,9 @@
 
 namespace penumbra {
 
-/// Brings things into a room of 3 x 2.5 x 2 m and takes them out, fixed ones and movable ones:
-/// blocks, partitions, lights, hollow boxes around lights, blocks that shine; resizes, mirrors and
-/// moves them, gives them another mesh, lets them be moved or not.
+/// Brings things into a room of 3 x 2.5 x 2 m and takes them out: blocks,
+/// partitions, lights, hollow boxes around lights, blocks that shine; resizes, mirrors and moves
+/// them, gives them another mesh, says that they begin an object or not.
 class Refurnishing {
 public:
     Refurnishing(const Scene& scene, std::uint32_t seed) : scene_(scene), random_(seed) {}

@@ -39,7 +39,7 @@ private:
     static std::shared_ptr<Transform> thing(const std::string& name, const glm::dmat4& where,
                                             MeshData data) {
         auto node = placed(name, where, {std::make_shared<Mesh>("mesh", std::move(data))});
-        node->setMovable(true);
+        node->setBeginsObject(true);
         return node;
     }
 };

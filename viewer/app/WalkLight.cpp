@@ -46,7 +46,7 @@ void WalkLight::choosePreview() {
 /// Those of the selected thing: their rows are there when a drag begins.
 void WalkLight::chooseLights(const Walkthrough& walk) {
     const auto& selection = walk.selection();
-    if (!selection || !selection->movable()) return; // what was selected may be moved by undo
+    if (!selection || !selection->node) return; // what was selected may be moved by undo
     const PreviewMethod by = wantedMethod();
     if (lightsFor_ == selection->object && lightsOf_ == walk.revision() &&
         lightsLit_ == complete() && lightsBy_ == by)
@@ -74,7 +74,7 @@ void WalkLight::updatePreview(const Walkthrough& walk, const View& view) {
         const double begun = steadySeconds();
         preview_->update(blend_.preview(), shown, &view);
         if (!maps_) choice_.note(steadySeconds() - begun);
-    } else if (selection && selection->movable() && selection->object.value < objects.size()) {
+    } else if (selection && selection->node && selection->object.value < objects.size()) {
         preview_->rest(blend_.expecting(*node_, objects[selection->object.value].path), shown,
                        &view);
     } else {

@@ -81,8 +81,11 @@ void noteCopied(UsdAddresses& addresses, const NodePtr& node, const NodePtr& cop
     const std::string prim = primOf(addresses, node);
     if (prim.empty() || !isUsdPathWithin(prim, from)) return;
     const std::string place = movedUsdPath(prim, from, to);
-    if (const auto transform = std::dynamic_pointer_cast<Transform>(copy))
-        addresses.transforms.push_back({transform, place});
+    if (const auto transform = std::dynamic_pointer_cast<Transform>(copy)) {
+        const auto original =
+            std::ranges::find(addresses.transforms, node, &UsdAddresses::TransformAddress::node);
+        addresses.transforms.push_back({transform, place, false, original->apart});
+    }
     if (const auto light = std::dynamic_pointer_cast<Light>(copy))
         addresses.lights.push_back({light, nullptr, place});
 }
@@ -125,10 +128,10 @@ std::optional<Duplicate> duplicateOf(LoadedScene& loaded, const Selection& selec
         if (!leaf) return std::nullopt;
         copy = std::make_shared<Transform>(name);
         copy->add(std::move(leaf));
-        if (!prim.empty()) addresses.transforms.push_back({copy, copyPrim});
+        if (!prim.empty()) addresses.transforms.push_back({copy, copyPrim, false, false});
     }
     copy->setMatrix(place * copy->matrix());
-    copy->setMovable(true);
+    copy->setBeginsObject(true);
     if (!prim.empty())
         for (const auto& [one, other] : copied) noteCopied(addresses, one, other, prim, copyPrim);
     note(addresses, {parent, copy, copyPrim, prim});

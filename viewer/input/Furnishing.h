@@ -23,7 +23,7 @@ struct Duplicate {
     PresenceEdit edit; ///< that brings it in, beside the thing itself
     std::string path;  ///< that it will have
 };
-/// Makes one, movable, with a name of its own (Seat_copy, Seat_copy2, ...). It is written as a
+/// Makes one, an object with a name of its own (Seat_copy, Seat_copy2, ...). It is written as a
 /// reference to the prim of the thing.
 /// \param place of the copy in the frame above the thing, from that of the thing
 /// \return none: it is not there any more

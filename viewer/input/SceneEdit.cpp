@@ -11,9 +11,6 @@ namespace {
 void put(const MoveEdit& edit, const glm::dmat4& matrix) {
     if (edit.node->matrix() != matrix) edit.node->setMatrix(matrix);
 }
-void put(const LoosenEdit& edit, bool movable) {
-    if (edit.node->movable() != movable) edit.node->setMovable(movable);
-}
 void put(const LightEdit& edit, Rgb luminance) {
     if (edit.light->luminance() != luminance) edit.light->setLuminance(luminance);
 }
@@ -32,9 +29,6 @@ void put(const PresenceEdit& edit, bool present) {
 }
 
 const void* target(const MoveEdit& edit) {
-    return edit.node.get();
-}
-const void* target(const LoosenEdit& edit) {
     return edit.node.get();
 }
 const void* target(const LightEdit& edit) {
@@ -107,12 +101,9 @@ void EditHistory::note(const Step& step) {
 }
 
 bool EditHistory::edited() const {
-    const auto tells = [](const SceneEdit& edit) {
-        return !std::holds_alternative<LoosenEdit>(edit) && changes(edit);
-    };
     return std::any_of(
         steps_.begin(), steps_.begin() + std::ptrdiff_t(made_),
-        [&](const Step& step) { return std::any_of(step.begin(), step.end(), tells); });
+        [](const Step& step) { return std::any_of(step.begin(), step.end(), changes); });
 }
 
 std::vector<PresenceEdit> EditHistory::hidden() const {

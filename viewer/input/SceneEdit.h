@@ -19,11 +19,6 @@ struct MoveEdit {
     std::shared_ptr<Transform> node;
     glm::dmat4 before{1.0}, after{1.0}; ///< Transform::matrix()
 };
-/// A thing may be moved from now on, or no longer.
-struct LoosenEdit {
-    std::shared_ptr<Transform> node;
-    bool before = false, after = false;
-};
 /// A light is dimmed, switched or recoloured.
 struct LightEdit {
     std::shared_ptr<Light> light;
@@ -46,7 +41,7 @@ struct PresenceEdit {
     bool before = false, after = false;
     bool hides = false; ///< it goes to be shown again: a layer says that it is invisible
 };
-using SceneEdit = std::variant<MoveEdit, LoosenEdit, LightEdit, PaintEdit, PresenceEdit>;
+using SceneEdit = std::variant<MoveEdit, LightEdit, PaintEdit, PresenceEdit>;
 
 /// Brings the scene to the state after the edit, or back to that before.
 void apply(const SceneEdit& edit);
@@ -71,7 +66,7 @@ public:
     bool undo();
     bool redo();
     std::size_t undoable() const { return made_; }
-    /// Whether the scene is another one by these edits: more than what may be moved.
+    /// Whether the scene is another one by these edits.
     bool edited() const;
     /// How things went that are hidden now, the last one first.
     std::vector<PresenceEdit> hidden() const;

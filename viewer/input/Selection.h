@@ -19,11 +19,11 @@ struct Selection {
     std::string objectPath;                     ///< "/": what belongs to no object
     std::string path;                           ///< of the mesh or light that was clicked on
     glm::dvec3 position{0.0}, normal{0.0};      ///< where, when it was clicked [m, world]
-    std::shared_ptr<Transform> node;            ///< that begins the object; null: the rest
+    std::shared_ptr<Transform> node;            ///< that begins the object, and moves it with what
+                                                ///< is below; null: nothing does, it stays
     std::shared_ptr<Material> material;         ///< of the face; null: of a light
     std::vector<std::shared_ptr<Light>> lights; ///< all lights of the object
 
-    bool movable() const { return node && node->movable(); }
     /// Whether there is something to be dimmed: lights, or a surface that emits.
     bool emits() const { return !lights.empty() || (material && material->emissive()); }
 };

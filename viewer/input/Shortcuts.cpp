@@ -9,7 +9,7 @@ namespace {
 constexpr std::array kHelp = std::to_array<HelpLine>({
     {"Move", "W A S D", "ahead, left, back, right (Shift: run)"},
     {"Move", "E Q", "up, down (flying, or without gravity)"},
-    {"Move", "right mouse button", "look around; also the left one, beside what can be dragged"},
+    {"Move", "right mouse button", "look around; also the left one, on what is around you"},
     {"Move", "mouse wheel", "forward, back; sideways: turn"},
     {"Move", "middle button, Alt+left", "circle around what is under the pointer"},
     {"Move", "Shift+middle, Alt+middle", "shift the view (Alt+right: nearer, farther)"},
@@ -20,7 +20,7 @@ constexpr std::array kHelp = std::to_array<HelpLine>({
     {"Move", "Home", "the whole scene"},
     {"Move", "F", "what is selected"},
     {"Edit", "left mouse button", "select; drag along what the thing stands or hangs on"},
-    {"Edit", "...", "(what the file does not call movable: click on it first)"},
+    {"Edit", "...", "(what is around you, above or below: click on it first)"},
     {"Edit", "... with Shift", "up and down"},
     {"Edit", "... with Ctrl", "turn"},
     {"Edit", "arrows, Page up, down", "nudge what is selected by 1 cm (Shift: 10 cm)"},

@@ -16,15 +16,6 @@ namespace {
 constexpr double kReach = 1e6;     // of the search for what is under the pointer [m]
 constexpr double kClickPixels = 4; // less is no drag
 
-/// A move, after which the thing is movable if it was not.
-EditHistory::Step moveStep(const std::shared_ptr<Transform>& node, bool movable,
-                           const glm::dmat4& before, const glm::dmat4& after) {
-    EditHistory::Step step;
-    if (!movable) step.push_back(LoosenEdit{node, false, true});
-    step.push_back(MoveEdit{node, before, after});
-    return step;
-}
-
 } // namespace
 
 Walkthrough::Walkthrough(ReadyScene ready)
@@ -72,9 +63,18 @@ void Walkthrough::press(const ButtonEvent& button, glm::ivec2 picture) {
     pointerHeld_ = button.button == MouseButton::right && gesture == Gesture::look;
 }
 
-/// Selects what is under the pointer. \return whether it can be dragged: at once if the file says
-/// that it is movable; all else when it was selected before, so that nobody drags the floor away
-/// who wants to look around
+/// Whether the camera is in an object, above or below it: a room, its floor, its ceiling.
+bool Walkthrough::isAround(ObjectId object) const {
+    const Bounds box = rays_->bounds(object);
+    const glm::dvec3 up = glm::abs(rig_.compass().up), eye = rig_.pose().eye;
+    for (int axis = 0; axis < 3; ++axis)
+        if (up[axis] < 0.5 && (eye[axis] < box.lower[axis] || eye[axis] > box.upper[axis]))
+            return false;
+    return true;
+}
+
+/// Selects what is under the pointer. \return whether it is dragged now: what is around the camera
+/// only when it was selected before, so that nobody drags the floor away who wants to look around
 bool Walkthrough::takeHold(const ButtonEvent& button, glm::ivec2 picture) {
     const SightLine sight = sightAt(button.position, picture);
     const auto touch = rays_->touch(sight.origin, sight.direction, kReach);
@@ -83,15 +83,11 @@ bool Walkthrough::takeHold(const ButtonEvent& button, glm::ivec2 picture) {
     if (!touch) return false;
     selection_ = selectionOf(scene(), placed_, *touch);
     if (!selection_->node) return false;
-    if (!selection_->movable() && selection_->objectPath != before) return false;
+    if (isAround(touch->object) && selection_->objectPath != before) return false;
     const SupportPlane plane = supportOf(*rays_, touch->object, rig_.compass());
     const glm::dmat4& toWorld = placed_.objects[touch->object.value].toWorld;
-    held_ = Held{selection_->node,
-                 touch->object,
-                 selection_->node->matrix(),
-                 Drag(touch->position, toWorld, plane, rig_.compass()),
-                 button.position,
-                 selection_->movable()};
+    held_ = Held{selection_->node, touch->object, selection_->node->matrix(),
+                 Drag(touch->position, toWorld, plane, rig_.compass()), button.position};
     return true;
 }
 
@@ -99,7 +95,6 @@ void Walkthrough::dragTo(const MoveEvent& move, glm::ivec2 picture) {
     if (!held_->moving) {
         if (glm::distance(move.position, held_->from) < kClickPixels) return;
         held_->moving = true;
-        if (!held_->movable) loosenHeld();
         held_->drag.moved(sightAt(held_->from, picture), Drag::Mode::slide, 0);
     }
     const Modifiers modifiers = controls_.state().modifiers();
@@ -115,23 +110,15 @@ void Walkthrough::dragTo(const MoveEvent& move, glm::ivec2 picture) {
     changed();
 }
 
-/// What is dragged is movable from now on; objects may have other numbers then.
-void Walkthrough::loosenHeld() {
-    held_->node->setMovable(true);
-    changed();
-    held_->object = selection_->object;
-}
-
 /// \param keep false: it goes back to where it was
 void Walkthrough::letGo(bool keep) {
     if (!held_) return;
-    EditHistory::Step step =
-        moveStep(held_->node, held_->movable, held_->before, held_->node->matrix());
+    const MoveEdit move{held_->node, held_->before, held_->node->matrix()};
     held_.reset();
     if (keep)
-        history_.note(step);
+        history_.note({move});
     else
-        std::for_each(step.rbegin(), step.rend(), [](const SceneEdit& edit) { takeBack(edit); });
+        takeBack(move);
     changed();
 }
 
@@ -195,8 +182,8 @@ void Walkthrough::make(const EditHistory::Step& step) {
 
 void Walkthrough::place(const Selection& selection, const glm::dmat4& toWorld) {
     const glm::dmat4& now = placed_.objects[selection.object.value].toWorld;
-    make(moveStep(selection.node, selection.movable(), selection.node->matrix(),
-                  matrixFor(*selection.node, now, toWorld)));
+    make({MoveEdit{selection.node, selection.node->matrix(),
+                   matrixFor(*selection.node, now, toWorld)}});
 }
 
 /// The axis of the scene that comes nearest to what the camera calls right.

@@ -73,7 +73,6 @@ private:
         glm::dmat4 before{1.0}; ///< the node's matrix
         Drag drag;
         glm::dvec2 from{0.0}; ///< where the button went down [pixel]
-        bool movable = true;  ///< when the button went down
         bool moving = false;  ///< false: not far enough from there yet, it may be a click
     };
 
@@ -84,8 +83,8 @@ private:
     void press(const ButtonEvent& button, glm::ivec2 picture);
     void release(const ButtonEvent& button);
     bool takeHold(const ButtonEvent& button, glm::ivec2 picture);
+    bool isAround(ObjectId object) const;
     void dragTo(const MoveEvent& move, glm::ivec2 picture);
-    void loosenHeld();
     void letGo(bool keep);
     void place(const Selection& selection, const glm::dmat4& toWorld);
     void nudge(NudgeDirection way, double metres);

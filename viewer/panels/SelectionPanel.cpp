@@ -91,11 +91,6 @@ void drawSelectionPanel(PanelState& state) {
     }
     const Selection selection = *walk.selection(); // edits may change it
     ImGui::TextWrapped("%s", selection.path.c_str());
-    bool movable = selection.movable();
-    if (selection.node && ImGui::Checkbox("movable", &movable))
-        walk.make({LoosenEdit{selection.node, !movable, movable}});
-    if (selection.node && ImGui::IsItemHovered())
-        ImGui::SetTooltip("Whether it can be dragged; its light is then kept ready to follow");
     furnish(walk);
     editLights(walk, selection);
     if (selection.material) editPaint(walk, selection.material);

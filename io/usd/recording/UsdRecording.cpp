@@ -115,6 +115,7 @@ struct UsdRecording::Impl {
                    const std::set<std::string>& prims) const;
     void writePresences(UsdLayer& layer) const;
     void writePlaces(UsdLayer& layer) const;
+    void writeObjects(UsdLayer& layer) const;
     void writeLights(UsdLayer& layer) const;
     void writePaints(UsdLayer& layer) const;
     void writeCamera(UsdLayer& layer) const;
@@ -313,15 +314,38 @@ void UsdRecording::Impl::writePresences(UsdLayer& layer) const {
 
 void UsdRecording::Impl::writePlaces(UsdLayer& layer) const {
     for (const auto& [address, track, revision] : transforms) {
-        const bool held = (animated && address.node->movable()) || isOfCopy(address.prim);
+        const bool held = (animated && address.animated) || isOfCopy(address.prim);
         if ((!track.changes() && !held) || leftOut(address.prim)) continue;
-        UsdPrimSpec& prim = overAt(layer, address.prim);
-        if (address.node->movable()) addBool(prim, "penumbra:movable", true);
-        track.write(prim, false);
+        track.write(overAt(layer, address.prim), false);
     }
     if (timeless) return;
     for (const auto& [node, prim] : choices)
         addText(overAt(layer, prim), "token", "visibility", visibilityOf(node->visible()));
+}
+
+/// Where objects begin depends on where things are (UsdObjects). Those that stand elsewhere or have
+/// come, and those above and below them, are to be found again as they are; also those above what
+/// has gone.
+void UsdRecording::Impl::writeObjects(UsdLayer& layer) const {
+    std::vector<std::string> placed, gone;
+    for (const auto& [address, track, revision] : transforms)
+        if (track.changes()) placed.push_back(address.prim);
+    for (const auto& [address, track, revision] : presences)
+        if (track.visibility.changes() && !address.prim.empty())
+            (address.source.empty() ? gone : placed).push_back(address.prim);
+    for (const auto& [address, track, revision] : transforms) {
+        const std::string& prim = address.prim;
+        if (!address.node->beginsObject() || leftOut(prim)) continue;
+        const bool written =
+            std::ranges::any_of(placed,
+                                [&](const std::string& one) {
+                                    return isUsdPathWithin(prim, one) || isUsdPathWithin(one, prim);
+                                }) ||
+            std::ranges::any_of(gone, [&](const std::string& one) {
+                return one != prim && isUsdPathWithin(one, prim);
+            });
+        if (written) addBool(overAt(layer, prim), "penumbra:movable", !address.apart);
+    }
 }
 
 void UsdRecording::Impl::writeLights(UsdLayer& layer) const {
@@ -403,6 +427,7 @@ std::string UsdRecording::text(const std::filesystem::path& path) const {
     layer.subLayers.push_back({relativeAsset(impl_->file, path), {}, {}});
     impl_->writePresences(layer);
     impl_->writePlaces(layer);
+    impl_->writeObjects(layer);
     impl_->writeLights(layer);
     impl_->writePaints(layer);
     impl_->writeCamera(layer);

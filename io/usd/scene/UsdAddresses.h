@@ -18,6 +18,8 @@ struct UsdAddresses {
     struct TransformAddress {
         std::shared_ptr<Transform> node;
         std::string prim;
+        bool animated = false; ///< the file moves it
+        bool apart = false;    ///< its object is its own shapes: below it are objects by themselves
     };
     struct Choice {
         std::shared_ptr<Switch> node;

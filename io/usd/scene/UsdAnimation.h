@@ -10,8 +10,8 @@ namespace penumbra {
 /// What changes with time in a scene that was loaded from USD: transforms, visibility, the
 /// luminance of lights, the constants of materials, lenses. Geometry and sizes of lights are held.
 ///
-/// A prim whose visibility has time samples becomes a Switch of its name with a nameless, movable
-/// Transform below, so that it is one object that comes and goes.
+/// A prim whose visibility has time samples becomes a Switch of its name with a nameless Transform
+/// below that begins an object, so that it comes and goes as one.
 class UsdAnimation {
 public:
     virtual ~UsdAnimation() = default;

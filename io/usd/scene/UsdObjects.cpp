@@ -72,8 +72,10 @@ bool UsdObjects::needsTransform(const UsdPrim& prim) const {
            entries_[prim.parent].shapesHeld > kMostShapes;
 }
 
-void UsdObjects::addTransform(std::size_t prim, const std::shared_ptr<Transform>& transform) {
+void UsdObjects::addTransform(std::size_t prim, const std::shared_ptr<Transform>& transform,
+                              bool apart) {
     entries_[prim].transform = transform;
+    entries_[prim].apart = apart;
 }
 
 void UsdObjects::addInstance(std::size_t instancer, const std::shared_ptr<Transform>& transform) {
@@ -101,15 +103,17 @@ bool UsdObjects::isThing(const Entry& entry) const {
 }
 
 bool UsdObjects::isObject(const Entry& entry) const {
-    if (entry.transform->movable() || entry.shape) return true;
+    if (entry.apart) return false;
+    if (entry.transform->beginsObject() || entry.shape) return true;
     if (entry.partCount == parts_.size() && instances_.empty()) return false; // all of the scene
     return entry.model || (entry.shapesHeld > 0 && isThing(entry));
 }
 
-void UsdObjects::mark() {
+std::unordered_set<const Transform*> UsdObjects::mark() {
     std::stable_sort(parts_.begin(), parts_.end(),
                      [](const Part& a, const Part& b) { return a.order < b.order; });
     std::vector<std::uint8_t> inside(entries_.size(), 0); // an object
+    std::unordered_set<const Transform*> apart;
     for (std::size_t p = 1; p < entries_.size(); ++p) {
         const Entry& entry = entries_[p];
         inside[p] = inside[stage_.prims()[p].parent];
@@ -117,9 +121,11 @@ void UsdObjects::mark() {
         inside[p] = isObject(entry);
         const bool holds = entry.shapesHeld > 0 && entry.partCount > 0; // not prototypes alone
         if (inside[p] || holds) entry.transform->setBeginsObject(true);
+        if (!inside[p] && entry.transform->beginsObject()) apart.insert(entry.transform.get());
     }
     for (const Instance& instance : instances_)
         if (!inside[instance.instancer]) instance.transform->setBeginsObject(true);
+    return apart;
 }
 
 } // namespace penumbra

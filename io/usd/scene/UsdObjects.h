@@ -8,11 +8,12 @@
 #include <cstdint>
 #include <memory>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 namespace penumbra {
 
-/// Finds the objects of a stage that the file does not mark as movable itself. From the root
+/// Finds the objects of a stage that the file does not mark itself. From the root
 /// downwards the first rule that fits decides; nothing below an object is looked at again.
 ///
 /// 1. A smallest model is an object: `kind` is component or model, with no such prim below it. One
@@ -36,20 +37,24 @@ public:
     /// Whether a shape without a transform needs one, to be an object.
     bool needsTransform(const UsdPrim& prim) const;
 
-    void addTransform(std::size_t prim, const std::shared_ptr<Transform>& transform);
+    /// \param transform begins an object already if the file says so
+    /// \param apart     the file says that it is not one with what is below it: rule 4
+    void addTransform(std::size_t prim, const std::shared_ptr<Transform>& transform, bool apart);
     /// One of those that a PointInstancer makes, an object unless the instancer is within one.
     void addInstance(std::size_t instancer, const std::shared_ptr<Transform>& transform);
     /// \param box of the shape at a prim [m, world]
     void addShape(std::size_t prim, const Bounds& box);
 
     /// Marks the transforms that begin objects, when all have been added.
-    void mark();
+    /// \return those of them that are objects by rule 4
+    std::unordered_set<const Transform*> mark();
 
 private:
     struct Entry {
         std::shared_ptr<Transform> transform;
         std::uint32_t shapesHeld = 0; ///< children that are shapes
         bool shape = false;
+        bool apart = false;          ///< by the file
         bool model = false;          ///< a smallest one
         std::uint32_t order = 0;     ///< depth first: what is below it comes right after it
         std::uint32_t partCount = 0; ///< parts of it and of what is below it

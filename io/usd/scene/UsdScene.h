@@ -55,15 +55,20 @@ struct LoadedScene {
 ///
 /// Instances share nodes: all of a prototype's, and the meshes below instanceable prims of the same
 /// contents. A prototype stands where its instances are, and is drawn in place only if it is not
-/// below its instancer. Its own transform becomes part of the instances', unless it is movable.
+/// below its instancer. Its own transform becomes part of the instances', unless an object begins
+/// there.
 ///
 /// Each prim's first node carries its name, and what else comes of the prim has none, so that paths
 /// are those of the file: a mesh, light or camera with xformOps of its own becomes a Transform that
-/// holds a nameless node. What is
-/// inactive, invisible, abstract, only `over`, or of purpose proxy or guide is left out. A
-/// Transform is movable if its ops change with time or `bool penumbra:movable` says so. The default
-/// prim's `double penumbra:patchSize` and `penumbra:elementSize`, in units of the file, `double
-/// penumbra:residual`, and the tokens `penumbra:trigger` and `penumbra:order` become
+/// holds a nameless node. What is inactive, invisible, abstract, only `over`, or of purpose proxy
+/// or guide is left out.
+///
+/// An object begins at a prim that moves, comes or goes with time, or for which `bool
+/// penumbra:movable` is true; it is one with all that is below it. Where that is false, it is not
+/// one. Elsewhere UsdObjects finds the objects.
+///
+/// The default prim's `double penumbra:patchSize` and `penumbra:elementSize`, in units of the file,
+/// `double penumbra:residual`, and the tokens `penumbra:trigger` and `penumbra:order` become
 /// LoadedScene::asked.
 ///
 /// Throws SceneFileError if the file can't be read at all.

@@ -86,7 +86,9 @@ public:
         for (std::uint32_t i = 1; i < stage_.prims().size(); ++i) add(i);
         tracks_.addMaterials(materials_);
         notePaints();
-        objects_.mark();
+        const auto apart = objects_.mark();
+        for (auto& address : addresses_.transforms)
+            address.apart = apart.contains(address.node.get());
     }
 
 private:
@@ -105,7 +107,8 @@ private:
         Place place = handedDownTo(attributes, parent);
         if (prim.instance && parent.copy == 0) noteOriginal(index, place);
         const auto transform = makeTransform(attributes, parent, place);
-        if (transform && prototypesOpen_ == 0) objects_.addTransform(index, transform);
+        if (transform && prototypesOpen_ == 0)
+            objects_.addTransform(index, transform, !attributes.flag("penumbra:movable", true));
         const bool shares = transform || hasChildren(prim); // its path, with what holds it
         const NodePtr leaf =
             place.drawn ? makeLeaf(shares ? std::string() : prim.name, attributes, place) : nullptr;
@@ -201,13 +204,13 @@ private:
         takeRoot(prototype, *holder);
     }
 
-    // A prototype's own transform becomes the instance's, so that this is one object, unless it may
-    // change by itself.
+    // A prototype's own transform becomes the instance's, so that this is one object, unless the
+    // file says that one begins there.
     static void takeRoot(Prototype& prototype, const Group& holder) {
         prototype.nodes = holder.children();
         if (prototype.nodes.size() != 1) return;
         const auto transform = std::dynamic_pointer_cast<Transform>(prototype.nodes[0]);
-        if (!transform || transform->movable()) return;
+        if (!transform || transform->beginsObject()) return;
         prototype.toInstance = transform->matrix();
         prototype.nodes = transform->children();
     }
@@ -246,26 +249,26 @@ private:
     // Whether the animation hides it and shows it: it becomes a Switch.
     static bool comesAndGoes(const UsdPrim& prim) { return UsdStage::animated(prim, "visibility"); }
 
-    // A Transform if the prim has, or may get, a transform of its own; else null. What comes and
-    // goes is movable, for only movable objects can be hidden without meshing the scene anew.
+    // A Transform if the prim has, or may get, a transform of its own; else null. What the
+    // animation moves, hides or shows is an object: it does so as a whole.
     std::shared_ptr<Transform> makeTransform(const UsdAttributes& attributes, const Place& parent,
                                              Place& place) {
         const UsdPrim& prim = attributes.prim();
         UsdLocalTransform local;
         if (isXformable(prim.typeName)) local = usdLocalTransform(attributes, warnings_);
-        const bool movable =
+        const bool object =
             local.animated || comesAndGoes(prim) || attributes.flag("penumbra:movable", false);
         const bool structure = prim.typeName == "Xform";
-        if (!structure && !local.authored && !movable &&
+        if (!structure && !local.authored && !object &&
             !(prototypesOpen_ == 0 && isShape(prim.typeName) && objects_.needsTransform(prim)))
             return nullptr;
         if (local.resetsStack) local.matrix = relativeToParent(local, parent.toWorld);
         auto transform = std::make_shared<Transform>(comesAndGoes(prim) ? "" : prim.name);
         transform->setMatrix(local.matrix);
-        transform->setMovable(movable);
+        transform->setBeginsObject(object);
         place.toWorld = parent.toWorld * local.matrix;
         tracks_.addTransform(transform, prim, parent.toWorld);
-        addresses_.transforms.push_back({transform, prim.path});
+        addresses_.transforms.push_back({transform, prim.path, local.animated, false});
         return transform;
     }
 

@@ -24,7 +24,6 @@ public:
     void visit(const Transform& node) override {
         group(node, Kind::transform);
         out_.matrix = node.matrix();
-        out_.movable = node.movable();
         out_.beginsObject = node.beginsObject();
     }
     void visit(const Mesh& node) override {
@@ -84,7 +83,6 @@ std::uint32_t SceneDiff::enter(const NodePtr& node) {
     snapshot.kind = number == 0 ? Kind::group : seen.kind;
     snapshot.children = seen.children;
     snapshot.visible = seen.visible;
-    snapshot.movable = seen.movable;
     snapshot.beginsObject = seen.beginsObject;
     snapshot.matrix = seen.matrix;
     snapshot.shape = seen.shape;
@@ -130,8 +128,7 @@ void SceneDiff::diffNode(std::uint32_t number, Change& change) {
     const NodeSnapshot before = seen_[number];
     describe(number);
     const NodeSnapshot& now = seen_[number];
-    if (now.movable != before.movable || now.beginsObject != before.beginsObject) {
-        snapshot_.nodes[number].movable = now.movable;
+    if (now.beginsObject != before.beginsObject) {
         snapshot_.nodes[number].beginsObject = now.beginsObject;
         change.structure = true;
     }

@@ -41,7 +41,6 @@ NodePtr SceneReplica::makeNode(const NodeSnapshot& snapshot) const {
     case Kind::transform: {
         auto node = std::make_shared<Transform>(snapshot.name);
         node->setMatrix(snapshot.matrix);
-        node->setMovable(snapshot.movable);
         node->setBeginsObject(snapshot.beginsObject);
         return node;
     }

@@ -29,7 +29,6 @@ struct NodeSnapshot {
     std::string name;
     std::vector<std::uint32_t> children;  ///< of a group, a switch (choice) or a transform
     bool visible = true;                  ///< of a switch
-    bool movable = false;                 ///< of a transform
     bool beginsObject = false;            ///< of a transform
     glm::dmat4 matrix{1.0};               ///< of a transform
     LightShape shape;                     ///< of a light

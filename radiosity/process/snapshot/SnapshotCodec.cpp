@@ -123,7 +123,6 @@ void writeNode(ByteWriter& out, const NodeSnapshot& node) {
     switch (node.kind) {
     case Kind::transform:
         out.put(node.matrix);
-        out.put(std::uint8_t(node.movable));
         out.put(std::uint8_t(node.beginsObject));
         out.list(node.children);
         break;
@@ -161,7 +160,6 @@ NodeSnapshot readNode(ByteReader& in) {
     switch (node.kind) {
     case Kind::transform:
         node.matrix = in.get<glm::dmat4>();
-        node.movable = in.get<std::uint8_t>() != 0;
         node.beginsObject = in.get<std::uint8_t>() != 0;
         node.children = in.list<std::uint32_t>();
         break;

@@ -192,7 +192,7 @@ TEST(Contact, KeepsReceiversOutOfTheirOwnObjectAlongItsRidges) {
     // Pulled towards the middles of its elements, a receiver on a ridge sank by up to 0.2 mm, more
     // than it hovers: 220 vertices and nodes saw nothing but the inside.
     const BuiltPatches built =
-        meshed(sceneOf({movable("column", {std::make_shared<Mesh>("mesh", twistedColumn())})}),
+        meshed(sceneOf({objectOf("column", {std::make_shared<Mesh>("mesh", twistedColumn())})}),
                {.patchSize = 0.568f});
     const PatchSet& set = built.patches;
     const RayScene rays(set.rayMeshes, set.skin);

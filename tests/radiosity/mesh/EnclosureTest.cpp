@@ -18,9 +18,9 @@ NodePtr twoSidedBox() {
 
 /// A light and a closed box in a room; both can be moved.
 struct BoxAndLight {
-    std::shared_ptr<Transform> box = movable("box", {twoSidedBox()});
+    std::shared_ptr<Transform> box = objectOf("box", {twoSidedBox()});
     std::shared_ptr<Transform> light =
-        movable("lamp", {std::make_shared<Light>("light", RectShape{0.2f, 0.2f}, Rgb(10))});
+        objectOf("lamp", {std::make_shared<Light>("light", RectShape{0.2f, 0.2f}, Rgb(10))});
     Scene scene = sceneOf({object("room", boxData({-2, -2, -2}, {2, 2, 2}, true)), box, light});
 
     BoxAndLight() {

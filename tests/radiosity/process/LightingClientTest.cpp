@@ -29,8 +29,8 @@ TEST(LightingClient, ASceneStaysUntilItIsOpenedThoughAnEarlierOneIsTaken) {
     SteppedRoom stepped;
     RadiosityNode& node = *stepped.room.node;
     ASSERT_TRUE(stepped.settle()) << describe(node);
-    stepped.room.box->setMovable(false); // meshed anew, so the scene goes out once more
-    node.update();                       // and so it does; what the worker says is of the first one
+    stepped.room.box->setBeginsObject(false); // meshed anew, so the scene goes out once more
+    node.update(); // and so it does; what the worker says is of the first one
     stepped.link->step();
     node.update();
     EXPECT_EQ(node.state().restarts, 0u) << describe(node);
@@ -43,12 +43,12 @@ TEST(LightingClient, OfSeveralScenesOnTheirWayEachIsThere) {
     SteppedRoom stepped;
     RadiosityNode& node = *stepped.room.node;
     node.update(); // the first
-    for (const bool movable : {false, true, false}) {
-        stepped.room.box->setMovable(movable);
+    for (const bool begins : {false, true, false}) {
+        stepped.room.box->setBeginsObject(begins);
         node.update();
     }
     stepped.link->step(); // takes in all of them
-    stepped.room.box->setMovable(true);
+    stepped.room.box->setBeginsObject(true);
     node.update();
     ASSERT_TRUE(stepped.settle()) << describe(node);
     EXPECT_EQ(node.state().restarts, 0u) << describe(node);

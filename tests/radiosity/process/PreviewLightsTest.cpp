@@ -56,7 +56,7 @@ public:
 
     std::shared_ptr<Light> otherLight =
         std::make_shared<Light>("light", SphereShape{0.1f}, Rgb(700));
-    std::shared_ptr<Transform> other = movable("other", {otherLight});
+    std::shared_ptr<Transform> other = objectOf("other", {otherLight});
 
 private:
     std::unique_ptr<LightingLink> takeLink() {

@@ -26,7 +26,7 @@ struct DarkPlace {
         const PlacedScene all = placeScene(scene);
         return probeLight(all, SceneRays(all), at, {0, 0, 1});
     }
-    std::shared_ptr<Transform> board = movable("board", {square("top")});
+    std::shared_ptr<Transform> board = objectOf("board", {square("top")});
     Scene scene;
 };
 

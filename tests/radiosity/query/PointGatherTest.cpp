@@ -26,7 +26,7 @@ TEST(PointGather, HasTheClosedFormOfALightThatNothingHides) {
 
 TEST(PointGather, ALightThatIsHiddenGivesNoLight) {
     const auto light =
-        movable("lamp", {std::make_shared<Light>("light", SphereShape{0.1f}, Rgb(100))});
+        objectOf("lamp", {std::make_shared<Light>("light", SphereShape{0.1f}, Rgb(100))});
     light->setMatrix(moved(0, 0, 2));
     const auto choice = std::make_shared<Switch>("choice");
     choice->add(light);

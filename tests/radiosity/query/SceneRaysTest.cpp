@@ -11,7 +11,7 @@ namespace penumbra {
 
 namespace {
 
-/// A square floor, a movable square a metre above it, a light that faces down two metres above.
+/// A square floor, a square a metre above it, a light that faces down two metres above.
 struct Room {
     Room() {
         const auto up = [](double z) { return glm::translate(glm::dmat4(1.0), {0, 0, z}); };
@@ -23,7 +23,7 @@ struct Room {
     std::optional<Touch> down(double from, ObjectId except = {}) const {
         return SceneRays(placeScene(scene)).touch({0.2, 0.1, from}, {0, 0, -2}, 100, except);
     }
-    std::shared_ptr<Transform> seat = movable("seat", {square("cushion")});
+    std::shared_ptr<Transform> seat = objectOf("seat", {square("cushion")});
     Scene scene;
 };
 
@@ -66,7 +66,7 @@ TEST(SceneRays, PassByPointsThatAreNowhere) {
 
 TEST(SceneRays, FollowWhatIsMovedHiddenAndAdded) {
     Room room;
-    const auto visibility = make<Switch>("choice", {movable("box", {square("lid")})});
+    const auto visibility = make<Switch>("choice", {objectOf("box", {square("lid")})});
     room.scene.root->add(visibility);
     SceneRays rays(placeScene(room.scene));
     const auto pathBelow = [&](double z) {

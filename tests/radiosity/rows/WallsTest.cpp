@@ -15,7 +15,7 @@ namespace {
 /// A wall [-1, 1] x [-1, 1] in the plane z = 0, and its mesh.
 BuiltPatches wall() {
     return meshed(
-        sceneOf({movable("wall", {std::make_shared<Mesh>("mesh", floorData(-1, 1, -1, 1, 0))})}),
+        sceneOf({objectOf("wall", {std::make_shared<Mesh>("mesh", floorData(-1, 1, -1, 1, 0))})}),
         {.patchSize = 0.5f});
 }
 
@@ -93,7 +93,7 @@ TEST(Walls, HideWhereTheirObjectIsAndOnlyIfItIsThere) {
 
 TEST(Walls, AreLaidOutObjectByObjectInTheirFrames) {
     const auto box =
-        movable("box", {std::make_shared<Mesh>("mesh", boxData({-1, -1, -1}, {1, 1, 1}, false))});
+        objectOf("box", {std::make_shared<Mesh>("mesh", boxData({-1, -1, -1}, {1, 1, 1}, false))});
     box->setMatrix(moved(7, 2, 1) * scaled(2));
     const BuiltPatches built = meshed(sceneOf({object("tile", floorData(0, 0.1f, 0, 0.1f, 0)), box,
                                                object("floor", floorData(-1, 1, -1, 1, 0))}),

@@ -18,7 +18,7 @@ constexpr std::uint32_t kBlock = PatchSet::kBlock;
 /// A floor of 4 x 4 m with a light over it, and a box in its light.
 struct Stage {
     Scene scene;
-    std::shared_ptr<Transform> box = movable(
+    std::shared_ptr<Transform> box = objectOf(
         "box",
         {std::make_shared<Mesh>("mesh", boxData({-0.3f, -0.3f, 0}, {0.3f, 0.3f, 0.6f}, false))});
     Stage() {

@@ -14,7 +14,7 @@ namespace {
 /// A floor of 4 x 4 m with a light over it, and a box that can be moved.
 struct Floor {
     Scene scene;
-    std::shared_ptr<Transform> box = movable(
+    std::shared_ptr<Transform> box = objectOf(
         "box",
         {std::make_shared<Mesh>("mesh", boxData({-0.5f, -0.5f, 0}, {0.5f, 0.5f, 1}, false))});
     std::shared_ptr<Material> cloth = paint(Rgb(0.5f));

@@ -27,8 +27,8 @@ struct Stage {
         far->setMatrix(moved(3, 0, 0));
     }
     static std::shared_ptr<Transform> box(const char* name) {
-        return movable(name, {std::make_shared<Mesh>(
-                                 "mesh", boxData({-0.3f, -0.3f, 0}, {0.3f, 0.3f, 0.6f}, false))});
+        return objectOf(name, {std::make_shared<Mesh>(
+                                  "mesh", boxData({-0.3f, -0.3f, 0}, {0.3f, 0.3f, 0.6f}, false))});
     }
 };
 

@@ -69,7 +69,7 @@ struct TwoRooms {
     Scene make() {
         const auto boxOf = [] { return boxData({-0.1f, -0.1f, -1}, {0.1f, 0.1f, -0.8f}, false); };
         box = placed("box", moved(0, 0, 0), {std::make_shared<Mesh>("mesh", boxOf())});
-        box->setMovable(true);
+        box->setBeginsObject(true);
         return sceneOf(
             {object("room", boxData({-1, -1, -1}, {1, 1, 1}, true)), box,
              placed("other", moved(3, 0, 0),

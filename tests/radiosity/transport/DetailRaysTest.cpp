@@ -22,8 +22,8 @@ struct Moving {
     DetailRays rays;
 
     Moving()
-        : lit((box->setMovable(true), placeScene(scene)), {.patchSize = 0.5f, .elementSize = 0.25f},
-              {.directOnly = true}),
+        : lit((box->setBeginsObject(true), placeScene(scene)),
+              {.patchSize = 0.5f, .elementSize = 0.25f}, {.directOnly = true}),
           surface(lit.patches()), rays(lit.patches(), surface, 0.3f) {}
 
     DetailRays::Moved move() {

@@ -15,7 +15,7 @@ constexpr MeshingOptions kFine{.patchSize = 0.1f, .elementSize = 0.1f};
 Scene furnishedRoom() {
     const auto box = std::make_shared<Mesh>(
         "mesh", boxData({-0.2f, -0.3f, 0}, {0.2f, 0.3f, 0.5f}, false, paint({0.8f, 0.3f, 0.2f})));
-    const auto chair = movable("chair", {box});
+    const auto chair = objectOf("chair", {box});
     chair->setMatrix(moved(0.6, 0.5, 0));
     return sceneOf(
         {object("room", boxData({-1, -1, 0}, {1, 1, 2}, true, paint({0.7f, 0.6f, 0.5f}))), chair,

@@ -2,6 +2,7 @@
 #include "viewer/app/EditsFile.h"
 
 #include "base/Error.h"
+#include "scenegraph/Find.h"
 #include "scenegraph/Mesh.h"
 #include "scenegraph/Objects.h"
 #include "tests/support/TemporaryFolder.h"
@@ -133,10 +134,83 @@ TEST_F(EditsFile, LeavesTheAnimationAsItIs) {
     EXPECT_EQ(shown(3), shown(7) + 1);
 }
 
-TEST_F(EditsFile, IsNotNeededForWhatWasMerelyMadeMovable) {
-    history.make({LoosenEdit{seat(), false, true}}, 0);
+TEST_F(EditsFile, IsNotNeededForWhatWasTakenBack) {
+    const auto node = seat();
+    history.make({MoveEdit{node, node->matrix(), glm::translate(node->matrix(), {1, 0, 0})}}, 0);
+    EXPECT_TRUE(history.edited());
+    history.undo();
     EXPECT_FALSE(history.edited());
-    EXPECT_EQ(history.undoable(), 1u);
+}
+
+constexpr const char* kTray = R"(#usda 1.0
+(
+    metersPerUnit = 1
+)
+def Cube "Floor"
+{
+    double size = 9
+}
+def Xform "Tray"
+{
+    def Cube "Cup"
+    {
+        double size = 0.1
+        double3 xformOp:translate = (0, 0, 6)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }
+    def Cube "Other"
+    {
+        double size = 0.1
+        double3 xformOp:translate = (0.3, 0, 6)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }
+}
+def Xform "Lamp"
+{
+    def Cube "Foot"
+    {
+        double size = 0.2
+        double3 xformOp:translate = (2, 0, 6)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }
+    def Xform "Shade"
+    {
+        bool penumbra:movable = 1
+        def Cube "Cone"
+        {
+            double size = 0.2
+            double3 xformOp:translate = (2, 0, 6.2)
+            uniform token[] xformOpOrder = ["xformOp:translate"]
+        }
+    }
+    def Cube "Bulb"
+    {
+        double size = 0.1
+        double3 xformOp:translate = (2, 0, 6.15)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }
+}
+)";
+
+std::vector<std::string> objectsOf(const Scene& scene) {
+    std::vector<std::string> paths;
+    for (const Object& object : placeScene(scene).objects) paths.push_back(object.path);
+    return paths;
+}
+
+TEST_F(EditsFile, HasTheSameObjectsWhereverThingsTouchNow) {
+    folder.write("room.usda", kTray);
+    scene = loadUsdScene(file);
+    const std::vector<std::string> before{"/Floor", "/Tray/Cup", "/Tray/Other", "/Lamp",
+                                          "/Lamp/Shade"};
+    ASSERT_EQ(objectsOf(*scene.scene), before);
+    for (const auto& [path, shift] : {std::pair("/Tray/Cup", 0.2), std::pair("/Lamp/Shade", 1.0)}) {
+        const auto node = findAt<Transform>(*scene.scene->root, path);
+        history.make({MoveEdit{node, node->matrix(),
+                               glm::translate(glm::dmat4(1.0), {shift, 0, 0}) * node->matrix()}},
+                     0);
+    }
+    EXPECT_EQ(objectsOf(*saved().scene), before) << "two cups in touch, a lamp without its shade";
 }
 
 TEST_F(EditsFile, ThatCanNotBeWrittenIsAnErrorAndChangesNothing) {

@@ -85,13 +85,13 @@ def Xform "World"
 }
 )";
 
-/// What is there to be seen, a line a thing, sorted.
+/// What is there to be seen, a line a thing with its object, sorted.
 std::vector<std::string> seenIn(const Scene& scene) {
     const PlacedScene placed = placeScene(scene);
     std::vector<std::string> lines;
     const auto add = [&](const auto& thing, const char* kind, Rgb colour) {
         if (!placed.objects[thing.object.value].visible) return;
-        std::string line = kind;
+        std::string line = kind + (" of " + placed.objects[thing.object.value].path);
         char number[32];
         for (int c = 0; c < 4; ++c)
             for (int r = 0; r < 3; ++r) {
@@ -196,7 +196,7 @@ TEST_F(Furnishing, AnotherOneStandsBesideItAndIsEditedByItself) {
     walk.perform({Action::duplicate});
     ASSERT_TRUE(walk.selection());
     EXPECT_EQ(walk.selection()->objectPath, "/World/Desk_copy");
-    EXPECT_TRUE(walk.selection()->movable());
+    EXPECT_TRUE(walk.selection()->node->beginsObject());
     const glm::dmat4 now = walk.placed().objects[walk.selection()->object.value].toWorld;
     EXPECT_NEAR(std::abs(now[3].x - 1.0) + std::abs(now[3].y), 0.65, 1e-5) << "60 cm and a gap";
     ASSERT_TRUE(select(walk, "/World/Desk_copy/Lamp"));

@@ -80,7 +80,7 @@ SupportPlane supportAt(glm::dvec3 place) {
     scene.root->add(polygon("floor", {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}));
     scene.root->add(polygon("ceiling", {{-2, -2, 4}, {2, -2, 4}, {2, 2, 4}, {-2, 2, 4}}));
     scene.root->add(polygon("wall", {{-2, 2, 0}, {2, 2, 0}, {2, 2, 4}, {-2, 2, 4}}));
-    const auto box = movable(
+    const auto box = objectOf(
         "box",
         {polygon("lid", {{-.5f, -.5f, .5f}, {.5f, -.5f, .5f}, {.5f, .5f, .5f}, {-.5f, .5f, .5f}}),
          polygon("base",

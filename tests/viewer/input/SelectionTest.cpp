@@ -11,7 +11,7 @@ namespace {
 
 TEST(Selection, IsTheObjectWithItsNodeItsPaintAndItsLights) {
     const auto bulb = light("Bulb");
-    const auto desk = movable("Desk", {square("Top"), make("Lamp", {bulb})});
+    const auto desk = objectOf("Desk", {square("Top"), make("Lamp", {bulb})});
     desk->setMatrix(glm::translate(glm::dmat4(1.0), {0, 0, 1}));
     bulb->setLuminance(Rgb(5));
     Scene scene;
@@ -26,14 +26,12 @@ TEST(Selection, IsTheObjectWithItsNodeItsPaintAndItsLights) {
     EXPECT_EQ(selection.objectPath, "/Desk");
     EXPECT_EQ(selection.path, "/Desk/Top");
     EXPECT_EQ(selection.node, desk);
-    EXPECT_TRUE(selection.movable());
     EXPECT_TRUE(selection.emits());
     ASSERT_EQ(selection.lights.size(), 1u);
     EXPECT_EQ(selection.lights[0], bulb);
     const auto below = rays.touch({0.9, 0.9, 0.5}, {0, 0, -1}, 10);
     ASSERT_TRUE(below);
     const Selection floor = selectionOf(scene, placed, *below);
-    EXPECT_FALSE(floor.movable());
     EXPECT_FALSE(floor.emits());
     EXPECT_EQ(floor.node, nullptr);
     EXPECT_EQ(floor.material->name(), "paint");

@@ -28,7 +28,7 @@ ReadyScene field() {
                                {std::make_shared<Camera>("Eye", lens)}));
     }
     const auto box =
-        movable("box", {polygon("front", {{-.5f, 0, 0}, {.5f, 0, 0}, {.5f, 0, 1}, {-.5f, 0, 1}})});
+        objectOf("box", {polygon("front", {{-.5f, 0, 0}, {.5f, 0, 0}, {.5f, 0, 1}, {-.5f, 0, 1}})});
     box->setMatrix(glm::translate(glm::dmat4(1.0), {0, 4, 0}));
     scene.root->add(box);
     scene.root->add(
@@ -121,54 +121,73 @@ TEST(Walkthrough, DragsAThingOverTheFloorAndTakesThatBack) {
     EXPECT_LT(glm::distance(place(), glm::dvec3(1, 5, 0)), 1e-4);
 }
 
-TEST(Walkthrough, WhatIsNotMarkedIsSelectedByOneClickAndDraggedByTheNext) {
+TEST(Walkthrough, DragsAtOnceWhatNoFileMarks) {
     Walkthrough walk(field());
     const glm::dvec2 from = pixelOf(walk, {3, 4, 0.5}), to = pixelOf(walk, {2, 5, 0.5});
     press(walk, from);
     ASSERT_TRUE(walk.selection());
     EXPECT_EQ(walk.selection()->objectPath, "/crate");
-    EXPECT_EQ(walk.inHand(), nullptr) << "the view turns, nothing is moved";
-    press(walk, from, false);
-    EXPECT_EQ(walk.revision(), 1u);
-    const glm::dvec2 again = pixelOf(walk, {3, 4, 0.5});
-    press(walk, again);
-    EXPECT_NE(walk.inHand(), nullptr);
-    EXPECT_FALSE(walk.selection()->movable()) << "a click, so far";
-    moveTo(walk, again, to);
-    EXPECT_TRUE(walk.selection()->movable());
+    moveTo(walk, from, to);
     press(walk, to, false);
     const auto place = [&] { return glm::dvec3(walk.selection()->node->matrix()[3]); };
     EXPECT_LT(glm::distance(place(), glm::dvec3(2, 5, 0)), 1e-4);
     EXPECT_EQ(walk.placed().objects[walk.selection()->object.value].path, "/crate");
     walk.perform({Action::undo});
     EXPECT_EQ(place(), glm::dvec3(3, 4, 0));
-    EXPECT_FALSE(walk.selection()->movable());
+    EXPECT_FALSE(walk.history().edited());
     walk.perform({Action::redo});
-    EXPECT_TRUE(walk.selection()->movable());
     EXPECT_LT(glm::distance(place(), glm::dvec3(2, 5, 0)), 1e-4);
-}
-
-TEST(Walkthrough, EscapePutsBackWhatIsNotMarkedAsItWas) {
-    Walkthrough walk(field());
-    const glm::dvec2 from = pixelOf(walk, {3, 4, 0.5});
-    press(walk, from);
-    press(walk, from, false);
-    press(walk, from);
-    moveTo(walk, from, from + glm::dvec2(100, 0));
-    walk.perform({Action::cancel});
-    EXPECT_EQ(glm::dvec3(walk.selection()->node->matrix()[3]), glm::dvec3(3, 4, 0));
-    EXPECT_FALSE(walk.selection()->movable());
-    EXPECT_EQ(walk.history().undoable(), 0u);
-}
-
-TEST(Walkthrough, NudgesWhatIsNotMarked) {
-    Walkthrough walk(field());
-    const glm::dvec2 at = pixelOf(walk, {3, 4, 0.5});
-    press(walk, at);
-    press(walk, at, false);
     walk.perform({Action::nudge, int(NudgeDirection::right), true});
-    EXPECT_LT(glm::distance(glm::dvec3(walk.selection()->node->matrix()[3]), {3.1, 4, 0}), 1e-6);
-    EXPECT_TRUE(walk.selection()->movable());
+    EXPECT_LT(glm::distance(place(), glm::dvec3(2.1, 5, 0)), 1e-4);
+}
+
+/// The field with a shell around the camera, 8 m wide and 6 m high, that opens to the north.
+ReadyScene hall() {
+    ReadyScene ready = field();
+    ready.loaded.scene->root->add(
+        placed("hall", glm::translate(glm::dmat4(1.0), {0, 0, -0.5}),
+               {polygon("back", {{-4, 9, 0}, {4, 9, 0}, {4, 9, 6}, {-4, 9, 6}}),
+                polygon("left", {{-4, -1, 0}, {-4, 9, 0}, {-4, 9, 6}, {-4, -1, 6}})}));
+    ready.placed = placeScene(*ready.loaded.scene);
+    ready.rays = std::make_unique<SceneRays>(ready.placed);
+    return ready;
+}
+
+TEST(Walkthrough, WhatIsAroundTheCameraIsSelectedByOneClickAndDraggedByTheNext) {
+    Walkthrough walk(hall());
+    const glm::dvec3 hold(-0.8, 9, 2);
+    const glm::dvec2 from = pixelOf(walk, hold);
+    press(walk, from);
+    ASSERT_TRUE(walk.selection());
+    EXPECT_EQ(walk.selection()->objectPath, "/hall");
+    EXPECT_EQ(walk.inHand(), nullptr) << "the view turns, nothing is moved";
+    moveTo(walk, from, from + glm::dvec2(20, 0));
+    press(walk, from, false);
+    EXPECT_EQ(walk.revision(), 1u);
+    walk.advance(0.01);
+    const glm::dvec2 again = pixelOf(walk, hold);
+    press(walk, again);
+    EXPECT_EQ(walk.inHand(), walk.selection()->node);
+    moveTo(walk, again, again + glm::dvec2(100, 0));
+    press(walk, again, false);
+    EXPECT_NE(walk.selection()->node->matrix()[3].x, 0);
+    walk.perform({Action::undo});
+    EXPECT_EQ(glm::dvec3(walk.selection()->node->matrix()[3]), glm::dvec3(0, 0, -0.5));
+}
+
+TEST(Walkthrough, WhatTheCameraStandsOnIsAroundIt) {
+    ReadyScene ready = field();
+    ready.loaded.scene->root->add(
+        placed("carpet", glm::translate(glm::dmat4(1.0), {0, 0, 0.01}),
+               {polygon("top", {{-2, -1, 0}, {2, -1, 0}, {2, 30, 0}, {-2, 30, 0}})}));
+    ready.placed = placeScene(*ready.loaded.scene);
+    ready.rays = std::make_unique<SceneRays>(ready.placed);
+    Walkthrough walk(std::move(ready));
+    const glm::dvec2 at = pixelOf(walk, {0.9, 6, 0});
+    press(walk, at);
+    ASSERT_TRUE(walk.selection());
+    EXPECT_EQ(walk.selection()->objectPath, "/carpet");
+    EXPECT_EQ(walk.inHand(), nullptr);
 }
 
 TEST(Walkthrough, EscapePutsBackWhatIsBeingDragged) {
@@ -183,7 +202,7 @@ TEST(Walkthrough, EscapePutsBackWhatIsBeingDragged) {
     EXPECT_EQ(glm::dvec3(walk.selection()->node->matrix()[3]), glm::dvec3(0, 4, 0));
 }
 
-TEST(Walkthrough, AClickSelectsAndWhatCannotBeMovedIsLookedAroundWith) {
+TEST(Walkthrough, AClickSelectsAndWhatStandsBelowNoTransformIsLookedAroundWith) {
     Walkthrough walk(field());
     const glm::dvec2 floor(400, 580);
     press(walk, floor);

@@ -16,7 +16,7 @@ using Paths = std::vector<std::string>;
 struct PanelRoom : LitRoom {
     PanelRoom(Rgb one, Rgb other) : glow(paint(Rgb(), one)) {
         const auto right = one == other ? glow : paint(Rgb(), other);
-        node->add(movable("panels", {std::make_shared<Mesh>("mesh", twoPanels(glow, right))}));
+        node->add(objectOf("panels", {std::make_shared<Mesh>("mesh", twoPanels(glow, right))}));
         EXPECT_TRUE(updateUntilSettled(*node));
     }
     Paths drawable(PreviewMethod by) const {

@@ -48,12 +48,12 @@ public:
     }
 };
 
-/// The same with a movable emissive mesh instead of the light.
+/// The same with an emissive mesh instead of the light.
 struct GlowingRoom : PosedRoom {
     GlowingRoom(const glm::dmat4& place, const glm::dmat4& panels) {
         const auto glow = paint(Rgb(), Rgb(40));
         const auto mesh = std::make_shared<Mesh>("mesh", twoPanels(glow, glow));
-        const auto thing = movable("panels", {mesh});
+        const auto thing = objectOf("panels", {mesh});
         thing->setMatrix(panels);
         room.node->add(thing);
         room.light->setLuminance(Rgb());

@@ -162,7 +162,7 @@ TEST_F(UsdRecordingTest, PlaysWhatWasMovedWhereAndWhenItWasMoved) {
     EXPECT_GT(distance(toWorld(0), toWorld(2)), 0.1);
     const LoadedScene loaded = replay(3);
     const PlacedScene placed = placeScene(*loaded.scene);
-    EXPECT_TRUE(placed.objects[meshAt(placed, path).object.value].movable);
+    EXPECT_EQ(placed.objects[meshAt(placed, path).object.value].path, path);
     EXPECT_DOUBLE_EQ(loaded.asked.patchSize.value_or(0), 0.5)
         << "what the default prim says still counts";
     EXPECT_EQ(loaded.scene->endTimeCode, 91);

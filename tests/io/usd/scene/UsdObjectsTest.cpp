@@ -93,11 +93,18 @@ TEST(UsdObjects, AModelThatHoldsAllOfTheSceneIsNone) {
                 ElementsAre("/File/a", "/File/b"));
 }
 
-TEST(UsdObjects, WhatTheFileCallsMovableIsOneWithinAnother) {
+TEST(UsdObjects, WhatTheFileMarksIsOneWithinAnother) {
     const std::string drawer =
         "def Xform \"Drawer\"\n{\n bool penumbra:movable = 1\n" + cube("front", 0.3) + "}\n";
     EXPECT_THAT(objectsOf(xform("Desk", cube("top", 1) + drawer) + cube("floor", 9)),
                 ElementsAre("/Desk", "/Desk/Drawer", "/floor"));
+}
+
+TEST(UsdObjects, WhatTheFileSaysIsNotOneIsTakenApart) {
+    const std::string desk = "def Xform \"Desk\"\n{\n bool penumbra:movable = 0\n" +
+                             cube("top", 1) + cube("lamp", 0.5) + "}\n";
+    EXPECT_THAT(objectsOf(desk + cube("floor", 9)),
+                ElementsAre("/Desk/top", "/Desk/lamp", "/floor"));
 }
 
 } // namespace

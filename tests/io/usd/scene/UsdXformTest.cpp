@@ -112,7 +112,7 @@ TEST(UsdXform, UnusableOpsAreSkippedWithAWarning) {
     }
 }
 
-TEST(UsdXform, WhatChangesWithTimeIsMovable) {
+TEST(UsdXform, WhatChangesWithTimeBeginsAnObject) {
     const std::string order = " uniform token[] xformOpOrder = [\"xformOp:translate\"]\n";
     const LoadedScene loaded =
         loadText("(metersPerUnit = 1)\ndef Xform \"still\"\n{\n double3 "
@@ -123,12 +123,12 @@ TEST(UsdXform, WhatChangesWithTimeIsMovable) {
                      order + "}\ndef Xform \"may\"\n{\n custom bool penumbra:movable = true\n}\n",
                  {.time = 1});
     const auto nodes = nodesByPath(*loaded.scene);
-    const auto movable = [&](const char* path) {
-        return dynamic_cast<const Transform&>(*nodes.at(path).node).movable();
+    const auto begins = [&](const char* path) {
+        return dynamic_cast<const Transform&>(*nodes.at(path).node).beginsObject();
     };
-    EXPECT_FALSE(movable("/still"));
-    EXPECT_TRUE(movable("/goes"));
-    EXPECT_TRUE(movable("/may"));
+    EXPECT_FALSE(begins("/still"));
+    EXPECT_TRUE(begins("/goes"));
+    EXPECT_TRUE(begins("/may"));
     expectRows(nodes.at("/goes").toWorld, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {1, 0, 0});
 }
 

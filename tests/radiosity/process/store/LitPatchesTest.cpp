@@ -62,7 +62,7 @@ TEST(LitPatches, AreLitAndTouchedWhereTheWorkersAre) {
 TEST(LitPatches, AMeshThatShinesDoesSoFromTheWorkersEmitters) {
     LitRoom room;
     const auto glow = paint(Rgb(), Rgb(40));
-    const auto panels = movable("panels", {std::make_shared<Mesh>("mesh", twoPanels(glow, glow))});
+    const auto panels = objectOf("panels", {std::make_shared<Mesh>("mesh", twoPanels(glow, glow))});
     panels->setMatrix(glm::rotate(moved(0.1, 0.2, 0.1), 0.3, glm::dvec3(0, 0, 1)));
     room.node->add(panels);
     ASSERT_TRUE(updateUntilSettled(*room.node));
