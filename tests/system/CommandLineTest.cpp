@@ -93,12 +93,12 @@ TEST(CommandLine, InfoSaysWhatIsInAScene) {
     const Outcome info = runPenumbra({"info", here.write("room.usda", smallRoom())});
     EXPECT_EQ(info.exitCode, 0);
     for (const char* word : {"up axis Z", "2 meshes", "1 lights", "  /Lamp ", "1 cameras",
-                             "  /Eye\n", "no animation", "0 movable objects"})
+                             "  /Eye\n", "no animation", "  3 objects, "})
         EXPECT_THAT(info.out, HasSubstr(word));
     EXPECT_THAT(info.err, IsEmpty());
 }
 
-TEST(CommandLine, InfoSaysTheFramesAndWhatMayMoveAndPathsAsTheFileHasThem) {
+TEST(CommandLine, InfoSaysTheFramesAndTheObjectsAndPathsAsTheFileHasThem) {
     const Workplace here;
     const Outcome info = runPenumbra({"info", here.write("played.usda", R"(#usda 1.0
 (
@@ -132,7 +132,7 @@ def Xform "World"
 )")});
     EXPECT_EQ(info.exitCode, 0) << info.err;
     for (const char* word : {"animation from frame 3 to 48, 12 a second\n",
-                             "  2 movable objects\n  /World/Bulb\n  /World/Guest (hidden)\n",
+                             "  /World/Bulb\n  /World/Guest (hidden)\n  /World/Wall\n",
                              "  /World/Bulb  ", "  1 cameras\n  /World/C\n"})
         EXPECT_THAT(info.out, HasSubstr(word));
     for (const char* twice : {"Bulb/Bulb", "Guest/Guest", "C/C"})

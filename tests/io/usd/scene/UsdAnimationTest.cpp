@@ -120,14 +120,17 @@ TEST(UsdAnimation, WhatComesAndGoesIsAnObjectThatIsHiddenAndShown) {
     ASSERT_TRUE(loaded.animation);
     EXPECT_TRUE(loaded.diagnostics.empty());
     const Scene& scene = *loaded.scene;
-    EXPECT_THAT(objectsIn(scene), ElementsAre("(/room/box)", "/room/seat", "/room/seat/drawer"));
+    EXPECT_THAT(objectsIn(scene),
+                ElementsAre("(/room/box)", "/room/seat", "/room/seat/drawer", "/room"));
     loaded.animation->setTime(3);
-    EXPECT_THAT(objectsIn(scene), ElementsAre("/room/box", "(/room/seat)", "(/room/seat/drawer)"));
+    EXPECT_THAT(objectsIn(scene),
+                ElementsAre("/room/box", "(/room/seat)", "(/room/seat/drawer)", "/room"));
     loaded.animation->setTime(7); // held between the samples and behind them
     EXPECT_THAT(objectsIn(scene),
-                ElementsAre("(/room/box)", "(/room/seat)", "(/room/seat/drawer)"));
+                ElementsAre("(/room/box)", "(/room/seat)", "(/room/seat/drawer)", "/room"));
     loaded.animation->setTime(2.9);
-    EXPECT_THAT(objectsIn(scene), ElementsAre("(/room/box)", "/room/seat", "/room/seat/drawer"));
+    EXPECT_THAT(objectsIn(scene),
+                ElementsAre("(/room/box)", "/room/seat", "/room/seat/drawer", "/room"));
     EXPECT_EQ(nodesByPath(scene).at("/room/seat").toWorld[3], glm::dvec4(1, 2, 3, 1));
 }
 
