@@ -123,13 +123,17 @@ void edit(benchmark::State& state, const Move& move, float elementSize) {
 }
 
 const bool registered = [] {
-    for (const Move& move : kMoves)
+    const auto add = [](const Move& move, std::string_view only) {
         for (const Size& size : kSizes) {
             const std::string_view name(move.name);
             if (name.substr(0, name.find('/')) != size.scene) continue;
+            if (!only.empty() && size.name != only) continue;
             addCase("edit/direct/" + std::string(name) + "/" + size.name, benchmark::kMillisecond,
                     edit, move, size.elementSize);
         }
+    };
+    for (const Move& move : kMoves) add(move, "");
+    for (const Move& move : kWalls) add(move, "100k");
     return true;
 }();
 

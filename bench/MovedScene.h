@@ -33,6 +33,14 @@ inline constexpr Move kMoves[] = {
     {"gallery/ceiling", "gallery", "/World/CeilingLamp1", 1, 1, {0.3, 0.3, 0}},
 };
 
+/// Walls and a door: what was fixed once. A hall of the gallery is floor, walls and ceiling.
+inline constexpr Move kWalls[] = {
+    {"office/room", "office", "/World/Room", 1, 1, {0.05, 0, 0}},
+    {"office/door", "office", "/World/Door", 1, 1, {-0.3, 0.2, 0}},
+    {"gallery/hall", "gallery", "/World/HallB", 1, 1, {0.05, 0, 0}},
+    {"gallery/doorway", "gallery", "/World/Doorway2", 1, 1, {0.05, 0.3, 0}},
+};
+
 /// The scene of a Move. Everything else is as at the move's first time code.
 class MovedScene {
 public:

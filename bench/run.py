@@ -52,6 +52,7 @@ SETTLE = ["elements", "plain_ms", "bound_ms", "importance_ms", "bound_time", "im
 BUILDING = ["elements", "lamps", "mesh_s", "scratch_s", "scratch_rays", "update_s",
             "update_cpu_s", "follow_s", "update_rays", "update_rays_full", "update_rays_single",
             "entries_changed", "blocks_visited", "entries", "rows_MB", "peak_MB"]
+BUILDINGS = ("edit/building/", "edit/lit-building/")
 GROWTH = ["update_s", "update_cpu_s", "follow_s", "update_rays", "entries_changed",
           "blocks_visited"]
 
@@ -110,7 +111,8 @@ def print_tables(results):
     table(results, "latency/", LATENCY)
     table(results, "frames/", FRAMES)
     table(results, "settle/", SETTLE)
-    table(results, "edit/building/", BUILDING + [name + "_over_first" for name in GROWTH])
+    for prefix in BUILDINGS:
+        table(results, prefix, BUILDING + [name + "_over_first" for name in GROWTH])
     print()
     for result in results:
         if result["name"].startswith(("formFactor/", "occluded/", "order/", "crate/", "text/")):
@@ -140,7 +142,8 @@ def main():
             if result.get("error_occurred"):
                 print(f"{name}: {result['error_message']}", file=sys.stderr)
                 failed = True
-        add_growth(results, "edit/building/")
+        for prefix in BUILDINGS:
+            add_growth(results, prefix)
         measured.write(options.out, results, context=one["context"])  # each time: it may be stopped
     print_tables(results)
     return 1 if failed else 0

@@ -183,7 +183,7 @@ TEST(EditedWalls, HideAnEditThatComesWhileAnotherIsUnderWay) {
 TEST(EditedWalls, CostNoRayForWhatTheyHideBeforeAndAfter) {
     TwoRooms rooms, alone;
     alone.scene.root->remove(alone.scene.root->children()[2]);
-    alone.follow(true);
+    alone.follow();
     const std::uint64_t scratch = rooms.rays();
     for (const double x : {0.02, -0.01, 0.0}) {
         rooms.partition->setMatrix(moved(x, 0, 0));

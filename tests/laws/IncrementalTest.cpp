@@ -1,5 +1,6 @@
 // After any sequence of edits the settled light is that of the scene as it is, however it came
 // to be. `scripts/nightly` tries many more sequences.
+#include "base/Parallel.h"
 #include "tests/support/EditedScenes.h"
 #include "tests/support/EditedWalls.h"
 #include "tests/support/LitDifference.h"
@@ -10,6 +11,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <array>
+#include <memory>
 #include <utility>
 
 namespace penumbra {
@@ -145,6 +147,25 @@ RC_GTEST_PROP(Incremental, EqualsFromScratchAfterWallsAreMoved, ()) {
     if (!differs.empty()) RC_FAIL(differs);
 }
 
+TEST(Incremental, EndsAlikeOnOneTwoThreeAndEightThreads) {
+    for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+        std::unique_ptr<FollowedRoom> first; // on one thread
+        for (const unsigned threads : {1u, 2u, 3u, 8u}) {
+            const ThreadLimit limit(threads);
+            auto followed = std::make_unique<FollowedRoom>(seed);
+            for (int edits = 0; edits < 4; ++edits) {
+                edits % 2 == 0 ? followed->edit() : followed->refurnish();
+                followed->lit.solver().settle();
+            }
+            if (!first)
+                first = std::move(followed);
+            else
+                EXPECT_EQ(difference(first->lit, followed->lit), "")
+                    << threads << " threads, seed " << seed << " after " << first->said;
+        }
+    }
+}
+
 TEST(Incremental, EqualsFromScratchWhereAWallHidesAThingButNotTheReceiversThatHoverOverIt) {
     EXPECT_EQ(differsAfterMovedWalls(115473237, 4), "");
 }
@@ -216,7 +237,8 @@ struct FollowedDoor {
         scratch.solver().settle();
         return difference(lit, scratch);
     }
-    /// Share of an object's nodes that light gets to, of those for which `which` is true.
+    /// Share of an object's nodes that light gets to, of those for which `which` is true and that
+    /// nothing covers.
     template <class Which>
     double reached(const std::string& path, const Which& which) const {
         std::size_t nodes = 0, reached = 0;
@@ -227,7 +249,7 @@ struct FollowedDoor {
                     ++nodes;
                     reached += lit.solver().indirect().reached(n);
                 }
-        return double(reached) / double(nodes);
+        return nodes > 0 ? double(reached) / double(nodes) : 0;
     }
     /// But for what stands on something.
     double reached(const std::string& path) const {

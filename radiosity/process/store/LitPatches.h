@@ -12,8 +12,8 @@ namespace penumbra {
 
 /// What rays and contacts need of the worker's PatchSet: objects, vertices with their receivers,
 /// elements by patches, and triangles for rays, all in the same order and with the same values. It
-/// has no nodes, colours or emitters. Movable objects are absent, and lie in frames of their own:
-/// see PosedPatches::pose().
+/// has no nodes, colours or emitters. Objects are absent, and lie in frames of their own: see
+/// PosedPatches::pose().
 ///
 /// \param mesh  as describeMesh() wrote it, or anything else
 /// \param blocks vertices are there for as many
