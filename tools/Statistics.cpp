@@ -72,7 +72,7 @@ void writeStatistics(const std::string& path, const SceneSolution& solution) {
     const SolveStatistics s = solution.statistics();
     nlohmann::ordered_json json;
     json["scene"] = {{"objects", patches.objects.size()},   {"polygons", patches.polygons},
-                     {"patches", patches.patchCount()},   {"elements", patches.elements.size()},
+                     {"patches", patches.patchCount()},     {"elements", patches.elements.size()},
                      {"vertices", patches.vertices.size()}, {"emitters", patches.emitters.size()},
                      {"nodes", patches.nodes.size()},       {"area", patches.area},
                      {"patch_size", patches.patchSize},     {"element_size", patches.elementSize}};

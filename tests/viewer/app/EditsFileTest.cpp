@@ -210,7 +210,7 @@ TEST_F(EditsFile, HasTheSameObjectsWhereverThingsTouchNow) {
                                glm::translate(glm::dmat4(1.0), {shift, 0, 0}) * node->matrix()}},
                      0);
     }
-    EXPECT_EQ(objectsOf(*saved().scene), before) << "two cups in touch, a lamp without its shade";
+    EXPECT_EQ(objectsOf(*saved().scene), before) << "two cups in touch, a foot without its shade";
 }
 
 TEST_F(EditsFile, ThatCanNotBeWrittenIsAnErrorAndChangesNothing) {
