@@ -48,7 +48,8 @@ struct BuiltPatches {
 
 /// Meshes `scene`: surfaces are cut into patches and elements, lights become emitters. Each object
 /// is meshed in a frame of its own, as if nothing touched it, and brought to its pose; a Coverage
-/// sees to what it touches. \throws Error if the scene is too wide to trace rays in, or would make too many elements
+/// sees to what it touches. \throws Error if the scene is too wide to trace rays in, or would make
+/// too many elements
 BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& options = {});
 
 /// The same sizes, with those that follow the scene filled in: what buildPatches() would choose.

@@ -11,9 +11,9 @@
 
 namespace penumbra {
 
-/// Moves the receiver of every vertex clear of the edges of its surface: not at all inside of a flat
-/// one, a hair inwards at its border, where a neighbouring wall begins. Then lifts it by hoverAt().
-/// \param skin how far receivers hover, at least [m]
+/// Moves the receiver of every vertex clear of the edges of its surface: not at all inside of a
+/// flat one, a hair inwards at its border, where a neighbouring wall begins. Then lifts it by
+/// hoverAt(). \param skin how far receivers hover, at least [m]
 void pullReceiversIn(float skin, const std::vector<Element>& elements,
                      std::vector<Vertex>& vertices);
 
@@ -31,8 +31,8 @@ Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point
 /// \param hover how far receivers hover there, see hoverAt() [m]
 float coverDistance(float elementSize, float hover);
 
-/// Checks single elements. A corner may be covered by another object (the floor under a cabinet, the
-/// wall behind a shelf) or lie beyond one (the floor behind a partition). Its light must not be
+/// Checks single elements. A corner may be covered by another object (the floor under a cabinet,
+/// the wall behind a shelf) or lie beyond one (the floor behind a partition). Its light must not be
 /// interpolated over the element's free part. So the element gets a corner of its own: it is drawn
 /// at the same point, and its light is computed where the free way from the element's middle to
 /// the corner ends.

@@ -16,8 +16,8 @@
 namespace penumbra {
 
 /// Follows objects: keeps up to date which corners of elements they touch, cover or part (see
-/// Contact.h), and what that makes of patches and nodes (Parting.h). The result depends on the poses
-/// of things and not on how they came there, apart from which private vertices replace which
+/// Contact.h), and what that makes of patches and nodes (Parting.h). The result depends on the
+/// poses of things and not on how they came there, apart from which private vertices replace which
 /// corners.
 class Coverage {
 public:
@@ -27,8 +27,9 @@ public:
     /// What lies elsewhere than before. Whole moved objects are not listed.
     struct Change {
         std::vector<std::uint32_t> vertices; ///< new, moved or given back
-        std::vector<std::uint32_t> patches; ///< of the mesh, whose elements are lit by other vertices
-        Parting::Change parted;             ///< nothing in a set without nodes
+        std::vector<std::uint32_t>
+            patches;            ///< of the mesh, whose elements are lit by other vertices
+        Parting::Change parted; ///< nothing in a set without nodes
     };
     /// Objects were posed anew, hidden or shown, in `set` and in `rays`.
     /// \param before their boxes before, empty for those that were hidden [m, world]
@@ -55,8 +56,8 @@ private:
     PatchSet& set_;
     const RayScene& rays_;
     ContactResolver resolver_;
-    const std::vector<Element>& shared_; ///< elements as they are when nothing else is near
-    Fans fans_;                          ///< of those
+    const std::vector<Element>& shared_;    ///< elements as they are when nothing else is near
+    Fans fans_;                             ///< of those
     std::vector<std::uint32_t> order_;      ///< elements, object by object along a curve
     std::vector<ObjectId> chunkObject_;     ///< kChunk consecutive ones of one object
     std::vector<std::uint32_t> chunkFirst_; ///< into order_; one more than chunks

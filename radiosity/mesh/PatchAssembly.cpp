@@ -260,8 +260,8 @@ void PatchAssembly::placeObjects() {
     }
 }
 
-/// A cell becomes a patch, if it has any area. It is the cell as it is when nothing is near: Parting
-/// sees to what parts it.
+/// A cell becomes a patch, if it has any area. It is the cell as it is when nothing is near:
+/// Parting sees to what parts it.
 void PatchAssembly::makePatch(const SheetCell& cell, const std::vector<std::uint32_t>& elements) {
     Patch patch;
     patch.material = cell.material;
@@ -304,8 +304,7 @@ void PatchAssembly::placeNodes(Patch& patch, const SheetCell& cell,
     out_.nodes.push_back(places.centre);
     patch.hasCornerNodes = !cell.whole && !places.small;
     if (patch.hasCornerNodes)
-        for (std::size_t c = 0; c < 4; ++c)
-            patch.cornerNodes[c] = nodeOfVertex(places.vertices[c]);
+        for (std::size_t c = 0; c < 4; ++c) patch.cornerNodes[c] = nodeOfVertex(places.vertices[c]);
     out_.parts.cornerNodes.push_back(patch.cornerNodes);
 }
 

@@ -154,10 +154,10 @@ struct PatchParts {
     std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> of; ///< of each parted patch
     std::vector<std::uint32_t> wholePatch; ///< of each patch that is handed out, or kNone
 
-    std::vector<std::array<glm::vec2, 4>> elementCoordinates;  ///< of its corners, in its patch
-    std::vector<PatchCoordinate> vertexCoordinates;            ///< in whole patches; shared ones
-    std::vector<std::uint32_t> vertexNode;                     ///< at a shared vertex, or kNone
-    std::vector<std::array<std::uint32_t, 4>> cornerNodes;     ///< of each whole patch
+    std::vector<std::array<glm::vec2, 4>> elementCoordinates; ///< of its corners, in its patch
+    std::vector<PatchCoordinate> vertexCoordinates;           ///< in whole patches; shared ones
+    std::vector<std::uint32_t> vertexNode;                    ///< at a shared vertex, or kNone
+    std::vector<std::array<std::uint32_t, 4>> cornerNodes;    ///< of each whole patch
     /// Of each node that is handed out: the whole patch that it is of, or kNone, and its address.
     std::vector<std::uint32_t> nodePatch, nodeAddress;
     /// Of each block of them: the block in which the middles of their whole patches are, or kNone.
@@ -179,9 +179,9 @@ struct PatchSet {
     std::vector<ObjectId> vertexBlockObject;        ///< one a block of vertices
     std::vector<ObjectId> nodeBlockObject;          ///< one a block of nodes
     std::vector<Element> elements;
-    std::vector<Element> uncoveredElements; ///< the same when nothing else is near
-    std::vector<std::uint8_t> covered;      ///< 1: an element that other things cover all over
-    std::uint32_t firstPrivate = 0;         ///< the first vertex that Coverage hands out
+    std::vector<Element> uncoveredElements;    ///< the same when nothing else is near
+    std::vector<std::uint8_t> covered;         ///< 1: an element that other things cover all over
+    std::uint32_t firstPrivate = 0;            ///< the first vertex that Coverage hands out
     std::vector<std::uint32_t> privateElement; ///< whose corner each of those is
     std::vector<Patch> patches;
     std::vector<glm::vec3> corners;           ///< outlines of the patches

@@ -34,8 +34,10 @@ PosedPatches::Change PosedPatches::pose(std::span<const ObjectPose> wanted, bool
     }
     if (change.objects.empty()) return change;
     rays_.commit();
-    if (contacts) change.covered = coverage_.update(change.objects, before);
-    else coverage_.follow(change.objects);
+    if (contacts)
+        change.covered = coverage_.update(change.objects, before);
+    else
+        coverage_.follow(change.objects);
     return change;
 }
 

@@ -42,9 +42,9 @@ std::optional<LightingTask> readLightingTask(ByteReader& in) {
     task.solving.mostShots = in.get<std::uint64_t>();
     task.solving.rowMemory = in.get<std::uint64_t>();
     task.solving.flatPatches = in.get<std::uint64_t>();
-    if (!(task.meshing.backdropArea >= 0) || task.solving.samples < 1 || task.solving.samples > 64 ||
-        !std::isfinite(task.solving.residual) || task.solving.residual < 0 ||
-        policy > std::uint8_t(PolicyKind::random))
+    if (!(task.meshing.backdropArea >= 0) || task.solving.samples < 1 ||
+        task.solving.samples > 64 || !std::isfinite(task.solving.residual) ||
+        task.solving.residual < 0 || policy > std::uint8_t(PolicyKind::random))
         return std::nullopt;
     auto scene = readSceneSnapshot(in);
     if (!scene) return std::nullopt;

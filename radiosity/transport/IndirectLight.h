@@ -167,8 +167,8 @@ private:
     const NodeHits& nodeHits_;
     std::size_t rowMemory_;
     IndirectSenders senders_;
-    /// Boxes of the nodes where nothing covers them, block by block: what is linked. Blocks that are
-    /// handed out have that of the block they are handed out for (PatchParts::sourceBlock).
+    /// Boxes of the nodes where nothing covers them, block by block: what is linked. Blocks that
+    /// are handed out have that of the block they are handed out for (PatchParts::sourceBlock).
     BoundsTree linkBoxes_;
     RowTable table_;
     RowUpdates updates_;

@@ -142,7 +142,8 @@ glm::dvec3 IndirectLight::ambient() const {
     glm::dvec3 owed(0), reflected(0);
     double area = 0;
     for (std::uint32_t p = 0; p < set_.patches.size(); ++p) {
-        const double size = set_.parts.used.empty() || set_.parts.used[p] ? set_.patches[p].area : 0;
+        const double size =
+            set_.parts.used.empty() || set_.parts.used[p] ? set_.patches[p].area : 0;
         owed += size * residuals_[p][0];
         reflected += size * toDouble(patchReflectance(set_, p));
         area += size;

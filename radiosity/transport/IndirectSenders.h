@@ -83,8 +83,8 @@ private:
     }
 
     const PatchSet& set_;
-    std::vector<Family> families_;      ///< one an object
-    std::vector<Range> clusterRanges_;  ///< one an object
+    std::vector<Family> families_;     ///< one an object
+    std::vector<Range> clusterRanges_; ///< one an object
     std::vector<Bounds> boxes_;
     std::vector<std::uint32_t> keys_, parents_;
     std::vector<float> areas_;

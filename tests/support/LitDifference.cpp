@@ -74,8 +74,8 @@ std::vector<Pair> nodePairs(Comparison& with, const ObjectPart& pa, const Object
         return nodes;
     };
     const auto ofA = handedOut(with.a, pa), ofB = handedOut(with.b, pb);
-    with.expect(ofA.size() == ofB.size(), pa.path, " has ", ofA.size(), " nodes of its own against ",
-                ofB.size());
+    with.expect(ofA.size() == ofB.size(), pa.path, " has ", ofA.size(),
+                " nodes of its own against ", ofB.size());
     for (const auto& [key, node] : ofA) {
         const auto other = ofB.find(key);
         if (with.expect(other != ofB.end(), pa.path, " patch ", key.first,
