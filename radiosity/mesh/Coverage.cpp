@@ -81,15 +81,11 @@ void Coverage::collectNear(const Bounds& box, std::vector<std::uint32_t>& elemen
                   });
 }
 
-void Coverage::follow(std::span<const ObjectId> moved) {
-    for (std::size_t c = 0; c < chunkObject_.size(); ++c)
-        if (std::find(moved.begin(), moved.end(), chunkObject_[c]) != moved.end()) updateChunk(c);
-}
-
 Coverage::Change Coverage::update(std::span<const ObjectId> moved, std::span<const Bounds> before) {
     Change change;
     std::vector<std::uint32_t> near;
-    follow(moved);
+    for (std::size_t c = 0; c < chunkObject_.size(); ++c)
+        if (std::find(moved.begin(), moved.end(), chunkObject_[c]) != moved.end()) updateChunk(c);
     for (std::size_t i = 0; i < moved.size(); ++i) {
         const ObjectPart& part = set_.objects[moved[i].value];
         collectNear(before[i], near);

@@ -27,15 +27,12 @@ public:
     /// What lies elsewhere than before. Whole moved objects are not listed.
     struct Change {
         std::vector<std::uint32_t> vertices; ///< new, moved or given back
-        std::vector<std::uint32_t>
-            patches;            ///< of the mesh, whose elements are lit by other vertices
-        Parting::Change parted; ///< nothing in a set without nodes
+        std::vector<std::uint32_t> patches;  ///< of the mesh: elements have other vertices
+        Parting::Change parted;              ///< nothing in a set without nodes
     };
     /// Objects were posed anew, hidden or shown, in `set` and in `rays`.
     /// \param before their boxes before, empty for those that were hidden [m, world]
     Change update(std::span<const ObjectId> moved, std::span<const Bounds> before);
-    /// The same, but for what they touch.
-    void follow(std::span<const ObjectId> moved);
     /// See Parting.
     bool exhausted() const { return parting_ && parting_->exhausted(); }
 

@@ -18,7 +18,7 @@ void PosedPatches::setAlone(std::span<const ObjectId> objects) {
     rays_.commit();
 }
 
-PosedPatches::Change PosedPatches::pose(std::span<const ObjectPose> wanted, bool contacts) {
+PosedPatches::Change PosedPatches::pose(std::span<const ObjectPose> wanted) {
     Change change;
     std::vector<Bounds> before;
     for (const ObjectPose& stand : wanted) {
@@ -34,16 +34,8 @@ PosedPatches::Change PosedPatches::pose(std::span<const ObjectPose> wanted, bool
     }
     if (change.objects.empty()) return change;
     rays_.commit();
-    if (contacts)
-        change.covered = coverage_.update(change.objects, before);
-    else
-        coverage_.follow(change.objects);
+    change.covered = coverage_.update(change.objects, before);
     return change;
-}
-
-void PosedPatches::findContacts(std::span<const ObjectId> objects) {
-    if (objects.empty()) return;
-    coverage_.update(objects, std::vector<Bounds>(objects.size()));
 }
 
 } // namespace penumbra

@@ -34,10 +34,7 @@ public:
         Coverage::Change covered;
     };
     /// Puts objects elsewhere, hides or shows them; costs what changes.
-    /// \param contacts if false, what they touch there is not searched for
-    Change pose(std::span<const ObjectPose> wanted, bool contacts = true);
-    /// Finds what some objects touch where they stand.
-    void findContacts(std::span<const ObjectId> objects);
+    Change pose(std::span<const ObjectPose> wanted);
 
     /// Rays can be traced against each of these alone.
     void setAlone(std::span<const ObjectId> objects);

@@ -109,9 +109,7 @@ PreviewRows::Slot PreviewRows::makeSlot(const PreviewLighting& light, const Scen
         if (place.visible)
             slot.things.push_back(transformed(surfaces_[o].geometry()->bounds(), place.toWorld));
     }
-    std::vector<std::uint32_t> moving;
-    for (const auto& [object, pose] : slot.poses) moving.push_back(object);
-    stage_->pose(*of, moving);
+    stage_->pose(*of);
     slot.touched = stage_->touched();
     return slot;
 }

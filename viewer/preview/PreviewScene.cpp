@@ -11,7 +11,7 @@ namespace penumbra {
 
 PreviewScene::PreviewScene(PatchSet set)
     : set_(std::move(set)), posed_(set_), aside_(raysThrough(set_)), poses_(set_.objects.size()),
-      asideAs_(set_.objects.size()), touches_(set_.objects.size()) {
+      asideAs_(set_.objects.size()) {
     for (std::uint32_t o = 0; o < set_.objects.size(); ++o)
         asidePoses_.push_back({{o}, set_.objects[o].pose, set_.objects[o].present});
 }
@@ -30,14 +30,8 @@ std::vector<PosedPatches::ObjectPose> PreviewScene::follow(ObjectStates& states,
     return wanted;
 }
 
-void PreviewScene::pose(const SceneState& sceneState, std::span<const std::uint32_t> moving) {
-    const bool first = std::none_of(poses_.begin(), poses_.end(),
-                                    [](const auto& state) { return state.has_value(); });
-    posed_.pose(follow(poses_, sceneState), !first);
-    std::vector<ObjectId> unknown;
-    for (const std::uint32_t object : moving)
-        if (!std::exchange(touches_[object], std::uint8_t(1))) unknown.push_back({object});
-    posed_.findContacts(unknown);
+void PreviewScene::pose(const SceneState& sceneState) {
+    posed_.pose(follow(poses_, sceneState));
 }
 
 const RayScene& PreviewScene::raysAt(const SceneState& sceneState) {

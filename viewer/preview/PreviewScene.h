@@ -28,10 +28,8 @@ public:
     /// \param set see RadiosityNode::patches()
     explicit PreviewScene(PatchSet set);
 
-    /// Poses things as in this scene state; costs what changes. What they touch is found around
-    /// those that move, now or at any time before: elsewhere it stays as radiosity has it.
-    /// \param moving objects
-    void pose(const SceneState& sceneState, std::span<const std::uint32_t> moving = {});
+    /// Poses things as in this scene state; costs what changes.
+    void pose(const SceneState& sceneState);
 
     const RayScene& rays() const { return posed_.rays(); }
     /// Rays through things as they are in another scene state; what they touch there is not
@@ -64,7 +62,6 @@ private:
     RayScene aside_;                     ///< of raysAt()
     std::vector<ObjectPose> asidePoses_; ///< of what is in it, by object
     ObjectStates poses_, asideAs_;       ///< what was asked for last
-    std::vector<std::uint8_t> touches_;  ///< 1: what the object touches is known
 };
 
 } // namespace penumbra
