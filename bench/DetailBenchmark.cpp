@@ -14,13 +14,23 @@ namespace {
 
 constexpr std::size_t kEffort = std::size_t(1) << 20; ///< of a piece of work [rays]
 
-/// \return wall [s]
-double trace(DetailHits& hits) {
-    const Stopwatch watch;
-    while (hits.work(kEffort)) {
+/// Those of nodes, and of vertices.
+struct Hits {
+    NodeHits nodes;
+    DetailHits vertices;
+
+    explicit Hits(const PatchSet& patches) : nodes(patches), vertices(patches, nodes) {}
+    void apply(const SceneChange& change) { vertices.apply(change, nodes.apply(change)); }
+    /// \return wall [s]
+    double trace() {
+        const Stopwatch watch;
+        while (nodes.work(kEffort) || vertices.work(kEffort)) {
+        }
+        return watch.wall();
     }
-    return watch.wall();
-}
+    std::uint64_t rays() const { return nodes.count().rays + vertices.count().rays; }
+    std::uint64_t groups() const { return nodes.count().groups + vertices.count().groups; }
+};
 
 void detail(benchmark::State& state, const Move& move) {
     using Pose = MovedScene::Pose;
@@ -29,32 +39,32 @@ void detail(benchmark::State& state, const Move& move) {
         scene.put(Pose::there);
         LitScene lit(scene.placed(), meshingOf(scene.asked(), 0), {.directOnly = true});
         auto& counters = state.counters;
-        DetailHits hits(lit.patches());
-        counters["scratch_s"] = trace(hits);
-        const std::uint64_t scratch = hits.rayCount();
+        Hits hits(lit.patches());
+        counters["scratch_s"] = hits.trace();
+        const std::uint64_t scratch = hits.rays();
         // There and back first, for the boxes of what is seen grow.
         for (Pose place : {Pose::home, Pose::there, Pose::home}) {
             scene.put(place);
             hits.apply(lit.follow(scene.placed()).change);
-            trace(hits);
+            hits.trace();
         }
-        const std::uint64_t rays = hits.rayCount(), groups = hits.groupsVisited();
+        const std::uint64_t rays = hits.rays(), groups = hits.groups();
         scene.put(Pose::there);
         const SceneChange change = lit.follow(scene.placed()).change;
         const Stopwatch applying;
         hits.apply(change);
         counters["apply_s"] = applying.wall();
-        const double seconds = trace(hits);
+        const double seconds = hits.trace();
         counters["elements"] = double(lit.patches().elements.size());
         counters["nodes"] = double(lit.patches().nodes.size());
-        counters["gatherers"] = double(hits.vertexCount());
+        counters["gatherers"] = double(hits.vertices.vertexCount());
         counters["scratch_rays"] = double(scratch);
         counters["update_s"] = seconds;
-        counters["update_rays"] = double(hits.rayCount() - rays);
-        counters["ray_ratio"] = double(scratch) / double(hits.rayCount() - rays);
-        counters["groups_visited"] = double(hits.groupsVisited() - groups);
+        counters["update_rays"] = double(hits.rays() - rays);
+        counters["ray_ratio"] = double(scratch) / double(hits.rays() - rays);
+        counters["groups_visited"] = double(hits.groups() - groups);
         counters["groups"] =
-            double(hits.groupCount() + lit.patches().nodes.size() / DetailHits::kGroup);
+            double(hits.nodes.groupCount() + hits.vertices.groupCount());
         state.SetIterationTime(seconds);
     }
 }

@@ -12,9 +12,9 @@ namespace penumbra {
 
 namespace {
 
-void gather(DetailGather& detail, const Solver& solver) {
+void gather(NodeHits& nodes, DetailGather& detail, const Solver& solver) {
     constexpr std::size_t kEffort = std::size_t(1) << 20; // of a piece of work [rays]
-    while (detail.trace(kEffort)) {
+    while (nodes.work(kEffort) || detail.trace(kEffort)) {
     }
     detail.beginSweeps(solver.direct().vertices(), solver.nodeIlluminance());
     while (detail.sweeping()) detail.sweep(kEffort);
@@ -46,11 +46,12 @@ void indirect(benchmark::State& state, const Case& what) {
         const SolveStatistics statistics = solver.statistics();
         auto& counters = state.counters;
         const Stopwatch detailing;
-        DetailGather detail(built.patches);
-        gather(detail, solver);
+        NodeHits nodes(built.patches);
+        DetailGather detail(built.patches, nodes);
+        gather(nodes, detail, solver);
         counters["detail_s"] = detailing.wall();
         counters["detail_cpu_s"] = detailing.cpu();
-        counters["detail_rays"] = double(detail.hits().rayCount());
+        counters["detail_rays"] = double(nodes.count().rays + detail.hits().count().rays);
         counters["patches"] = double(built.patches.patches.size());
         counters["nodes"] = double(built.patches.nodes.size());
         counters["elements"] = double(built.patches.elements.size());

@@ -83,13 +83,14 @@ private:
         ObjectId id;
     };
 
-    /// Hidden, and not as an object as a whole.
-    bool leftOut() const { return hidden_ > pending_.hidden; }
+    /// Hidden, and not as a movable object as a whole.
+    bool leftOut() const { return hidden_ > (pending_.movable ? pending_.hidden : 0); }
 
     ObjectId currentObject() {
         if (!pending_.id.valid()) {
             pending_.id.value = std::uint32_t(out_.objects.size());
-            out_.objects.push_back({pending_.path, pending_.toWorld, true, pending_.hidden == 0});
+            out_.objects.push_back(
+                {pending_.path, pending_.toWorld, pending_.movable, pending_.hidden == 0});
         }
         return pending_.id;
     }

@@ -64,20 +64,19 @@ glm::vec2 uvOf(const PatchSet& patches, const DrawnHit& hit) {
            hit.weights[2] * uv[hit.second ? 3 : 2];
 }
 
-DrawnSurface::DrawnSurface(const PatchSet& patches, Which which)
-    : patches_(patches), partOf_(patches.objects.size()), rays_(meshes(which), patches.skin) {
+DrawnSurface::DrawnSurface(const PatchSet& patches)
+    : patches_(patches), partOf_(patches.objects.size()), rays_(meshes(), patches.skin) {
     for (std::uint32_t p = 0; p < parts_.size(); ++p)
         if (!patches.objects[parts_[p].object].present) rays_.show({p}, false);
     rays_.commit();
 }
 
-std::vector<RayMesh> DrawnSurface::meshes(Which which) {
+std::vector<RayMesh> DrawnSurface::meshes() {
     std::vector<RayMesh> meshes;
     for (std::uint32_t object : objectsByKey(patches_)) {
         partOf_[object] = std::uint32_t(parts_.size());
         Part& part = parts_.emplace_back(Part{object, {}});
-        const bool drawn = which == Which::all || !patches_.objects[object].movable;
-        meshes.push_back(drawn ? meshOf(patches_, object, part.triangles) : RayMesh());
+        meshes.push_back(meshOf(patches_, object, part.triangles));
     }
     return meshes;
 }

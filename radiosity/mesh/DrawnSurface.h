@@ -29,9 +29,8 @@ glm::vec2 uvOf(const PatchSet& patches, const DrawnHit& hit);
 /// geometry of its own, so that one that moves is refitted and the others stay.
 class DrawnSurface {
 public:
-    enum class Which { all, fixed };
-    /// \param which all that is there now, or the part that never moves
-    explicit DrawnSurface(const PatchSet& patches, Which which = Which::all);
+    /// All that is there now.
+    explicit DrawnSurface(const PatchSet& patches);
 
     /// Takes in that objects were posed anew, hidden or shown in the patch set.
     void follow(std::span<const ObjectId> objects);
@@ -45,7 +44,7 @@ private:
         std::uint32_t object = 0;
         std::vector<std::uint32_t> triangles; ///< element * 2 + (0: corners 0 1 2, 1: 0 2 3)
     };
-    std::vector<RayMesh> meshes(Which which);
+    std::vector<RayMesh> meshes();
 
     const PatchSet& patches_;
     std::vector<Part> parts_; ///< objects in an order that does not depend on what else there is

@@ -65,6 +65,10 @@ public:
     void noteHiders(std::span<const BlockerNote> notes) { insert(hiders_, notes); }
     /// Of a row: by block.
     std::vector<BlockerNote> hiders(std::uint32_t row) const;
+    /// Takes out all entries of a row, and all notes of it.
+    void clear(std::uint32_t row) {
+        rows_[row].clear(), blockers_[row].clear(), hiders_[row].clear();
+    }
 
     /// Some blocks of a row, first ... end - 1.
     struct Blocks {

@@ -72,6 +72,7 @@ public:
 
     bool done() const { return next_ == queue_.size(); }
     std::size_t left() const { return queue_.size() - next_; }
+    bool isDirty(std::uint32_t group) const { return queued_[group] != 0; }
     const Dirty& operator[](std::uint32_t group) const { return groups_[group]; }
     /// The next groups, of about `effort` rays. Valid until something is added.
     /// \param rays that a receiver of which nothing is known takes, about

@@ -15,7 +15,7 @@ namespace penumbra {
 /// that of another, and on another day.
 class Pace {
 public:
-    enum Kind { direct, sums, rows, completion, relaxation, detail, sweeps, kKinds };
+    enum Kind { direct, sums, nodes, rows, completion, relaxation, detail, sweeps, kKinds };
 
     /// Pieces of one size. \param effort [rays]
     explicit Pace(std::size_t effort) : most_(effort), least_(effort) {}

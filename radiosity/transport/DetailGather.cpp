@@ -52,15 +52,16 @@ struct DetailGather::Sweep {
     std::size_t next = 0;
 };
 
-DetailGather::DetailGather(const PatchSet& patches)
-    : patches_(patches), hits_(patches), sweep_(std::make_unique<Sweep>()) {}
+DetailGather::DetailGather(const PatchSet& patches, NodeHits& nodes)
+    : patches_(patches), hits_(patches, nodes), sweep_(std::make_unique<Sweep>()) {}
 
 DetailGather::~DetailGather() = default;
 
 /// Of what is new nothing is known but what is usual.
-void DetailGather::takeOver(const DetailGather& before, const PatchMatch& match) {
-    const std::vector<std::uint32_t> elements = hits_.takeOver(before.hits_, match);
-    if (elements.empty() || before.sent_.nodes.empty()) return;
+void DetailGather::takeOver(const DetailGather& before, const PatchMatch& match,
+                            const NodeHits::Taken& taken) {
+    if (!hits_.takeOver(before.hits_, match, taken) || before.sent_.nodes.empty()) return;
+    const std::vector<std::uint32_t>& elements = taken.elements;
     std::vector<std::uint32_t> were(patches_.elements.size(), PatchMatch::kNew);
     for (std::uint32_t e = 0; e < elements.size(); ++e)
         if (elements[e] != DetailHits::kGone) were[elements[e]] = e;
@@ -84,8 +85,8 @@ void DetailGather::takeOver(const DetailGather& before, const PatchMatch& match)
     take(before.sent_.nodes, match.nodes, nodes / double(before.sent_.nodes.size()), sent_.nodes);
 }
 
-void DetailGather::apply(const SceneChange& change) {
-    hits_.apply(change);
+void DetailGather::apply(const SceneChange& change, std::span<const NodeHits::Move> moves) {
+    hits_.apply(change, moves);
     swept_ = sweeping_ = false;
     pending_ = true;
 }
@@ -167,7 +168,7 @@ void DetailGather::sendElements(Sweep& sweep, std::size_t first, std::size_t las
 
 void DetailGather::gatherNodes(Sweep& sweep, std::size_t first, std::size_t last) const {
     for (std::size_t n = first; n < last; ++n)
-        sweep.sent.nodes[n] = gathered(sweep.sent, hits_.nodeHits(n), false);
+        sweep.sent.nodes[n] = gathered(sweep.sent, hits_.nodes().hits(n), false);
 }
 
 void DetailGather::gatherVertices(Sweep& sweep, std::size_t first, std::size_t last) const {
@@ -220,12 +221,12 @@ glm::dvec3 DetailGather::difference(const Sent& sent, std::span<const std::uint3
     const float most = kMostOfFar * luminance(toRgb(glm::max(known, 0.0)));
     return gathered(sent, hits, false, ~gatherer.near, most) -
            interpolate<glm::dvec3>(p, s, t, [&](std::uint32_t n) {
-               return gathered(sent, hits_.nodeHits(n), false, ~hits_.nodeNear(n), most);
+               return gathered(sent, hits_.nodes().hits(n), false, ~hits_.nodes().near(n), most);
            });
 }
 
 glm::dvec3 DetailGather::nodeValue(const Sent& sent, std::size_t node, glm::dvec3 known) const {
-    return glm::mix(known, sent.nodes[node], shutNodeWeight(hits_.nodeOpenness(node)));
+    return glm::mix(known, sent.nodes[node], shutNodeWeight(hits_.nodes().openness(node)));
 }
 
 /// Indirect light of a vertex in question [lux].

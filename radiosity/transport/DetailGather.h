@@ -41,15 +41,17 @@ namespace penumbra {
 /// these sweeps are done, vertices gather what the last ones found, along the present rays.
 class DetailGather {
 public:
-    /// Everything is dirty at first. `patches` must outlive this.
-    explicit DetailGather(const PatchSet& patches);
+    /// Everything is dirty at first. Both must outlive this.
+    DetailGather(const PatchSet& patches, NodeHits& nodes);
     ~DetailGather();
 
     /// Takes over what still holds of the meshing before, and shows its light until the sweeps are
-    /// done. \pre nothing was done here
-    void takeOver(const DetailGather& before, const PatchMatch& match);
+    /// done. \pre nothing was done here, and the nodes took over
+    void takeOver(const DetailGather& before, const PatchMatch& match,
+                  const NodeHits::Taken& taken);
     /// Takes note of an edit that has been made to the patch set. Traces nothing.
-    void apply(const SceneChange& change);
+    /// \param moves what the nodes made of the change
+    void apply(const SceneChange& change, std::span<const NodeHits::Move> moves);
     void invalidate(const Bounds& region); ///< see LitScene
     /// Light will not be quite what it is, with everything where it is: sweeps begin anew. What the
     /// last ones found stays good to within that change.
@@ -58,6 +60,7 @@ public:
     bool pending() const { return pending_; }
 
     /// Brings rays up to date: a piece of work of about `effort` rays; false: there is none left.
+    /// \pre those of the nodes are
     bool trace(std::size_t effort) { return hits_.work(effort); }
     /// Whether the sweeps know of the light as it is.
     bool swept() const { return swept_; }

@@ -1,14 +1,12 @@
 #include "radiosity/transport/DetailHits.h"
 
 #include "base/Bits.h"
-#include "base/Parallel.h"
 #include "radiosity/mesh/Interpolation.h"
 #include "radiosity/rays/Margins.h"
-#include "radiosity/rays/Shaft.h"
-#include "radiosity/schedule/WorkCosts.h"
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -20,8 +18,7 @@ constexpr int kProbes = DetailRays::kProbes;
 constexpr float kFar = std::numeric_limits<float>::infinity();
 /// In a slit light is gathered this far on the way from the vertex to the middle of its elements.
 constexpr float kInward = 0.5f;
-constexpr std::size_t kNodeRays = 64, kVertexRays = 32; ///< that a fresh receiver takes, about
-constexpr std::size_t kGroupsATask = 2;
+constexpr std::size_t kVertexRays = 32; ///< that a fresh vertex takes, about
 
 double smoothstep(double low, double high, double x) {
     const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
@@ -44,52 +41,29 @@ struct DetailHits::Visit {
     const DetailRays::Moved& moved;
 };
 
-DetailHits::DetailHits(const PatchSet& patches)
-    : patches_(patches), surface_(patches), rays_(patches, surface_, patches.patchSize),
-      fans_(fansOf(patches.uncoveredElements, patches.vertices.size())), nodePatches_(patches),
-      boxes_(patches.objects.size()) {
-    for (std::uint32_t o = 0; o < boxes_.size(); ++o) boxes_[o] = boxOf(o);
+DetailHits::DetailHits(const PatchSet& patches, NodeHits& nodes)
+    : patches_(patches), nodes_(nodes), rays_(nodes.rays()),
+      fans_(fansOf(patches.uncoveredElements, patches.vertices.size())), nodePatches_(patches) {
     resize();
 }
 
 void DetailHits::resize() {
-    dirtyNodes_.resize(patches_.nodes.size());
-    dirtyVertices_.resize(patches_.vertices.size());
-    nodeHits_.resize(patches_.nodes.size() * kRays, Element::kNone);
-    nodeNear_.resize(patches_.nodes.size());
-    nodeOpenness_.resize(patches_.nodes.size());
+    dirty_.resize(patches_.vertices.size());
     groups_.resize(patches_.vertices.size() / kGroup);
 }
 
-Bounds DetailHits::boxOf(std::uint32_t object) const {
-    Bounds box;
-    const ObjectPart& part = patches_.objects[object];
-    if (!part.present) return box;
-    for (std::uint32_t e = part.elements.first; e < part.elements.end(); ++e)
-        for (std::uint32_t v : patches_.uncoveredElements[e].vertices)
-            box.add(patches_.vertices[v].position);
-    return grown(box, std::max(patches_.skin, strayAt(patches_.farthest)));
-}
-
-void DetailHits::apply(const SceneChange& change) {
-    surface_.follow(change.objects);
+void DetailHits::apply(const SceneChange& change, std::span<const NodeHits::Move> moves) {
     resize();
-    for (ObjectId object : change.objects) {
-        const Bounds before = boxes_[object.value];
-        const Bounds& now = boxes_[object.value] = boxOf(object.value);
-        dirtyNodes_.addMoved(object.value, before, now);
-        dirtyVertices_.addMoved(object.value, before, now);
-        dirtyNodes_.addAll(patches_.objects[object.value].nodes);
-        dirtyVertices_.addAll(patches_.objects[object.value].vertices);
+    for (const auto& [object, before, now] : moves) {
+        dirty_.addMoved(object, before, now);
+        dirty_.addAll(patches_.objects[object].vertices);
     }
-    for (std::uint32_t n : change.nodes) dirtyNodes_.add(n / kGroup, 1u << n % kGroup);
-    for (std::uint32_t v : change.vertices) dirtyVertices_.add(v / kGroup, 1u << v % kGroup);
+    for (std::uint32_t v : change.vertices) dirty_.add(v / kGroup, 1u << v % kGroup);
     for (std::uint32_t p : change.patches) revisit(p, true);
 }
 
 void DetailHits::invalidate(const Bounds& region) {
-    dirtyNodes_.addRegion(region);
-    dirtyVertices_.addRegion(region);
+    dirty_.addRegion(region);
 }
 
 /// Has the vertices of a patch judged again: nodes see more or less, or slits have other middles.
@@ -102,14 +76,26 @@ void DetailHits::revisit(std::uint32_t index, bool slitsOnly) {
                 const auto& known = groups_[v / kGroup].gatherers;
                 if (!slitsOnly || std::any_of(known.begin(), known.end(),
                                               [](const Gatherer& g) { return g.slit; }))
-                    dirtyVertices_.add(v / kGroup, 0);
+                    dirty_.add(v / kGroup, 0);
             }
     }
 }
 
+/// The same for all patches of nodes that see more or less.
+void DetailHits::judgeChanged() {
+    std::vector<std::uint32_t> patches;
+    for (const std::uint32_t n : nodes_.takeChanged()) {
+        const auto more = nodePatches_.of(n);
+        patches.insert(patches.end(), more.begin(), more.end());
+    }
+    std::ranges::sort(patches);
+    const auto repeated = std::ranges::unique(patches);
+    patches.erase(repeated.begin(), repeated.end());
+    for (const std::uint32_t p : patches) revisit(p, false);
+}
+
 double DetailHits::share() const {
-    const double all = double(dirtyNodes_.size() + dirtyVertices_.size());
-    return all > 0 ? 1 - double(dirtyNodes_.left() + dirtyVertices_.left()) / all : 1;
+    return dirty_.size() > 0 ? 1 - double(dirty_.left()) / double(dirty_.size()) : 1;
 }
 
 std::size_t DetailHits::vertexCount() const {
@@ -121,99 +107,27 @@ std::size_t DetailHits::vertexCount() const {
 }
 
 bool DetailHits::work(std::size_t effort) {
-    // Vertices are judged by what their nodes see.
-    return workOnNodes(effort) || workOnVertices(effort);
+    assert(nodes_.done());
+    if (nodes_.anyChanged()) judgeChanged();
+    return workOnGroups(
+        dirty_, kVertexRays, effort, count_, [&](std::uint32_t group) { return trace(group); },
+        [](std::uint32_t, const GroupOutcome&) {});
 }
 
-bool DetailHits::workOnNodes(std::size_t effort) {
-    return workOn(dirtyNodes_, kNodeRays, effort,
-                  [&](std::uint32_t group) { return traceNodes(group); });
-}
-
-bool DetailHits::workOnVertices(std::size_t effort) {
-    return workOn(dirtyVertices_, kVertexRays, effort,
-                  [&](std::uint32_t group) { return traceVertices(group); });
-}
-
-/// How many rays an edit concerns can't be known before: a few groups at a time.
-/// \param rays about how many a receiver needs of which nothing is known
-template <class Trace>
-bool DetailHits::workOn(DirtyGroups& dirty, std::size_t rays, std::size_t effort,
-                        const Trace& trace) {
-    const std::size_t few = std::max<std::size_t>(effort / 16, 256);
-    if (dirty.done()) return false;
-    for (std::size_t spent = 0; spent < effort && !dirty.done();) {
-        const auto groups = dirty.next(few, rays);
-        std::vector<Outcome> outcomes(groups.size());
-        parallelFor(groups.size(), kGroupsATask, [&](std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i) outcomes[i] = trace(groups[i]);
-        });
-        std::vector<Bounds> ways;
-        for (std::size_t i = 0; i < outcomes.size(); ++i) {
-            rayCount_ += outcomes[i].rays;
-            spent += cost::kDetailVisit + outcomes[i].rays;
-            ways.push_back(outcomes[i].ways);
-            for (const int node : bitsOf(outcomes[i].changed))
-                for (const std::uint32_t p :
-                     nodePatches_.of(groups[i] * kGroup + std::uint32_t(node)))
-                    revisit(p, false);
-        }
-        groupsVisited_ += ways.size();
-        dirty.clean(ways);
-    }
-    return true;
-}
-
-DetailRays::Moved DetailHits::movedOf(const DirtyGroups::Dirty& dirty) const {
-    DetailRays::Moved moved;
-    for (std::uint32_t object : dirty.moved) {
-        moved.elements.push_back(patches_.objects[object].elements);
-        if (!boxes_[object].empty()) moved.boxes.push_back(boxes_[object]);
-    }
-    if (!dirty.moved.empty()) moved.elements.push_back({kGone, 1});
-    return moved;
-}
-
-DetailHits::Outcome DetailHits::traceNodes(std::uint32_t group) {
-    Outcome outcome;
-    const DirtyGroups::Dirty& dirty = dirtyNodes_[group];
-    const DetailRays::Moved moved = movedOf(dirty);
-    for (std::uint32_t i = 0; i < kGroup; ++i) {
-        const std::uint32_t n = group * kGroup + i;
-        const Receiver& node = patches_.nodes[n];
-        if (isPadding(node) || !isThere(patches_.nodeBlockObject[n / PatchSet::kBlock])) continue;
-        DetailRays::Hits hits;
-        hits.near = nodeNear_[n];
-        const auto known = std::span(nodeHits_).subspan(std::size_t(n) * kRays, kRays);
-        std::copy(known.begin(), known.end(), hits.elements.begin());
-        const std::uint64_t which =
-            dirty.anew >> i & 1 ? DetailRays::kAllRays
-                                : rays_.affected(node, DetailRays::kAllRays, known, moved, kFar);
-        outcome.rays += std::uint64_t(rays_.follow(node, which, false, hits));
-        outcome.ways.add(hits.ways);
-        std::copy(hits.elements.begin(), hits.elements.end(), known.begin());
-        nodeNear_[n] = hits.near;
-        const double free = openness(hits.near, kRays);
-        if (free != nodeOpenness_[n]) outcome.changed |= 1u << i;
-        nodeOpenness_[n] = free;
-    }
-    return outcome;
-}
-
-DetailHits::Outcome DetailHits::traceVertices(std::uint32_t group) {
-    Outcome outcome;
-    const DirtyGroups::Dirty& dirty = dirtyVertices_[group];
-    const DetailRays::Moved moved = movedOf(dirty);
+GroupOutcome DetailHits::trace(std::uint32_t group) {
+    GroupOutcome outcome;
+    const DirtyGroups::Dirty& dirty = dirty_[group];
+    const DetailRays::Moved moved = nodes_.movedOf(dirty);
     if (!dirty.judge && !anyAffected(group, moved)) return outcome;
     const Group known = std::move(groups_[group]);
     Group& out = groups_[group] = {};
     for (std::uint32_t i = 0; i < kGroup; ++i) {
         const std::uint32_t v = group * kGroup + i;
         const auto [patch, s, t] = patches_.vertexCoordinates[v];
-        if (patch == Element::kNone || !isThere(patches_.vertexBlockObject[v / PatchSet::kBlock]))
+        if (patch == Element::kNone || !nodes_.isThere(patches_.vertexBlockObject[v / PatchSet::kBlock]))
             continue;
         const double expected =
-            interpolateNodes<double>(patches_.patches[patch], s, t, nodeOpenness_);
+            interpolateNodes<double>(patches_.patches[patch], s, t, nodes_.openness());
         follow(
             {v, patches_.vertices[v].receiver, expected, (dirty.anew >> i & 1) != 0, known, moved},
             out, outcome);
@@ -251,7 +165,7 @@ const DetailHits::Gatherer* DetailHits::Group::find(std::uint32_t vertex) const 
 }
 
 /// Finds out by the first rays whether a vertex is in question.
-void DetailHits::follow(const Visit& at, Group& out, Outcome& outcome) const {
+void DetailHits::follow(const Visit& at, Group& out, GroupOutcome& outcome) const {
     const std::uint32_t slot = at.vertex % kGroup;
     const Gatherer* const before = at.anew ? nullptr : at.known.find(at.vertex);
     const bool probed = !at.anew && (at.known.probed >> slot & 1);
@@ -289,7 +203,7 @@ void DetailHits::follow(const Visit& at, Group& out, Outcome& outcome) const {
 
 /// Finds out by all rays how much of what they gather counts.
 void DetailHits::gather(const Visit& at, DetailRays::Hits& hits, Group& out,
-                        Outcome& outcome) const {
+                        GroupOutcome& outcome) const {
     Gatherer gatherer;
     gatherer.vertex = at.vertex;
     gatherer.near = hits.near;

@@ -20,13 +20,14 @@ constexpr std::uint32_t kBlock = PatchSet::kBlock;
 } // namespace
 
 IndirectLight::IndirectLight(const PatchSet& set, const RayScene& rays, const DirectLight& direct,
-                             std::size_t rowMemory, std::size_t flatPatches)
-    : set_(set), rays_(rays), direct_(direct), rowMemory_(rowMemory), senders_(set, flatPatches),
-      table_(senders_.count()),
+                             const NodeHits& nodeHits, std::size_t rowMemory,
+                             std::size_t flatPatches)
+    : set_(set), rays_(rays), direct_(direct), nodeHits_(nodeHits), rowMemory_(rowMemory),
+      senders_(set, flatPatches), table_(senders_.count()),
       updates_(set, rays, table_, set.nodeBlockObject,
                {.visit = cost::kIndirectVisit, .entry = cost::kIndirectEntry}),
-      reach_(set), reached_(set.nodes.size() / kBlock), nodes_(set.nodes.size()),
-      rowSums_(set.nodes.size()), sent_(senders_.count()), residuals_(senders_.count()),
+      sendersReached_(senders_.count()), nodes_(set.nodes.size()), rowSums_(set.nodes.size()),
+      sent_(senders_.count()), residuals_(senders_.count()),
       colours_(senders_.count()), known_(senders_.count()), kept_(senders_.count()) {
     for (std::uint32_t n = 0; n < set.nodes.size(); ++n) nodeKeys_.push_back(addressOfNode(set, n));
     for (std::uint32_t p = 0; p < senders_.patchCount(); ++p) {
@@ -40,7 +41,7 @@ IndirectLight::IndirectLight(const PatchSet& set, const RayScene& rays, const Di
     std::vector<BlockMask> all;
     for (std::uint32_t b = 0; b < blockCount(); ++b) all.push_back({b, ~std::uint64_t(0)});
     placeNodes(all);
-    buildRays_.full += reach_.rayCount();
+    reach_.nodes.resize(blockCount());
     coloursChanged();
 }
 
@@ -48,7 +49,7 @@ ReceiverBlock IndirectLight::receiversOf(std::uint32_t sender, std::uint32_t blo
     const ObjectPart& part = set_.objects[set_.nodeBlockObject[block].value];
     const bool lit =
         part.present && senders_.present(sender) && senders_.linked(sender, linkBoxes_[block]);
-    return {std::span(set_.nodes).subspan(block * kBlock, kBlock), lit ? reached_[block] : 0,
+    return {std::span(set_.nodes).subspan(block * kBlock, kBlock), lit ? reach_.nodes[block] : 0,
             std::span(nodeKeys_).subspan(block * kBlock, kBlock)};
 }
 
@@ -137,10 +138,9 @@ std::vector<std::uint32_t> IndirectLight::keptFor(const IndirectSenders& senders
 void IndirectLight::takeReached(const IndirectLight& before, const PatchMatch& match) {
     for (std::uint32_t n = 0; n < match.nodes.size(); ++n) {
         const std::uint32_t was = match.nodes[n];
-        if (was != PatchMatch::kNew && (before.reached_[was / 64] >> was % 64 & 1) != 0)
-            reached_[n / 64] |= std::uint64_t(1) << n % 64;
+        if (was != PatchMatch::kNew && before.reached(was))
+            reach_.nodes[n / 64] |= std::uint64_t(1) << n % 64;
     }
-    updateSendersReached();
 }
 
 /// What nodes have received through the rows as they are.
@@ -176,6 +176,7 @@ void IndirectLight::apply(const SceneChange& change) {
     placeNodes(masks);
     residualsChanged();
     if (change.colours) coloursChanged();
+    reachStale_ |= !change.objects.empty() || !masks.empty() || !change.patches.empty();
     if (change.objects.empty() && masks.empty()) return;
     for (ObjectId object : change.objects) link(object);
     if (rowsMissing_) restart();
@@ -199,7 +200,7 @@ void IndirectLight::restart() {
     for (std::size_t i = 0; shot_ && i < shot_->senders.size(); ++i) {
         const std::uint32_t s = shot_->senders[i];
         if (!shot_->build[i] || !kept_[s]) continue; // else half built
-        table_[s].clear();
+        table_.clear(s);
         kept_[s] = 0;
         updates_.drop(s);
     }
@@ -215,16 +216,68 @@ void IndirectLight::restart() {
 
 void IndirectLight::updateReach() {
     reachStale_ = false;
-    const std::vector<std::uint64_t> now = reach_.spread(direct_.patchLit());
+    reachRevision_ = nodeHits_.revision();
+    Reach now = findReach(set_, nodeHits_, direct_.patchLit());
     std::vector<BlockMask> masks;
-    for (std::uint32_t b = 0; b < now.size(); ++b)
-        if (const std::uint64_t differs = now[b] ^ reached_[b]) masks.push_back({b, differs});
-    reached_ = now;
+    for (std::uint32_t b = 0; b < now.nodes.size(); ++b)
+        if (const std::uint64_t differs = now.nodes[b] ^ reach_.nodes[b])
+            masks.push_back({b, differs});
+    reach_ = std::move(now);
     updateSendersReached();
+    listForgotten();
     if (masks.empty()) return;
     residualsChanged();
     if (rowsMissing_) restart();
     updates_.add({}, std::move(masks));
+}
+
+/// Rows of senders that light does not get to any more are to be forgotten: a new solution has none
+/// of these.
+void IndirectLight::listForgotten() {
+    forgotten_.clear();
+    bool missing = false;
+    for (std::uint32_t s = 0; s < senders_.count(); ++s) {
+        if (sendersReached_[s]) continue;
+        if (kept_[s]) forgotten_.push_back(s);
+        missing |= !kept_[s] && known_[s];
+    }
+    if (missing) restart();
+}
+
+bool IndirectLight::isOnItsWay(std::uint32_t sender) const {
+    return shot_ && std::ranges::find(shot_->senders, sender) != shot_->senders.end();
+}
+
+void IndirectLight::forgetSome(std::size_t effort) {
+    constexpr std::size_t kBlocksARay = 8;
+    for (std::size_t cost = 0; cost < effort && !forgotten_.empty(); forgotten_.pop_back()) {
+        const std::uint32_t s = forgotten_.back();
+        if (!kept_[s] || isOnItsWay(s)) continue; // it is listed again when it has arrived
+        cost += 1 + table_[s].size() / kBlocksARay;
+        forget(s);
+    }
+    residualsChanged();
+}
+
+/// Takes back what a row has sent, and drops it. \pre it is kept, and nothing is on its way
+void IndirectLight::forget(std::uint32_t sender) {
+    const Row& row = table_[sender];
+    std::size_t bytes = 0;
+    for (std::size_t slot = 0; slot < row.size(); ++slot) {
+        const RowBlock& block = row.begin()[std::ptrdiff_t(slot)];
+        const std::size_t node = row.blockAt(slot) * kBlock;
+        bytes += block.bytes();
+        forEachReceived(block, sent_[sender], [&](int r, float factor, glm::dvec3 light) {
+            nodes_[node + std::size_t(r)] -= light;
+            if (known_[sender]) rowSums_[node + std::size_t(r)] -= double(factor);
+        });
+    }
+    rowBytes_ -= std::min(rowBytes_, bytes);
+    table_.clear(sender);
+    kept_[sender] = known_[sender] = 0;
+    sent_[sender] = {};
+    updates_.drop(sender);
+    updates_.dirty().setPower(sender, 0);
 }
 
 /// For bounds of what dirty blocks may change.
@@ -268,8 +321,12 @@ int IndirectLight::updateBlock(PatchRowBuilder& builder, const DirtyBlock& item,
 }
 
 bool IndirectLight::update(std::size_t effort, double enough) {
-    if (reachStale_) {
+    if (reachStale_ || reachRevision_ != nodeHits_.revision()) {
         updateReach();
+        return true;
+    }
+    if (!forgotten_.empty()) {
+        forgetSome(effort);
         return true;
     }
     if (!described_) describeReceivers();
@@ -320,15 +377,8 @@ IndirectLight::Arrived IndirectLight::arrivedAt(std::uint32_t row, std::uint32_t
 }
 
 void IndirectLight::updateSendersReached() {
-    const auto reached = [&](std::uint32_t n) { return (reached_[n / 64] >> n % 64 & 1) != 0; };
-    sendersReached_.assign(senders_.count(), 0);
-    for (std::uint32_t p = 0; p < senders_.patchCount(); ++p) {
-        const Patch& patch = set_.patches[p];
-        sendersReached_[p] =
-            reached(patch.centreNode) ||
-            (patch.hasCornerNodes &&
-             std::any_of(patch.cornerNodes.begin(), patch.cornerNodes.end(), reached));
-    }
+    sendersReached_.assign(reach_.patches.begin(), reach_.patches.end());
+    sendersReached_.resize(senders_.count());
     for (std::uint32_t s = 0; s < senders_.count(); ++s)
         for (std::uint32_t up = senders_.parent(s);
              sendersReached_[s] && up != Clusters::kNone && !sendersReached_[up];

@@ -31,7 +31,7 @@ public:
     /// \param rowMemory for rows [bytes]; beyond it they are not kept. All must outlive this.
     /// \param flatPatches see IndirectSenders
     IndirectLight(const PatchSet& set, const RayScene& rays, const DirectLight& direct,
-                  std::size_t rowMemory, std::size_t flatPatches);
+                  const NodeHits& nodeHits, std::size_t rowMemory, std::size_t flatPatches);
 
     /// Takes what still holds from the rows of another meshing, which are used up, and what has
     /// been sent through them. \pre nothing was done here as yet
@@ -44,6 +44,7 @@ public:
 
     /// Brings rows up to date: a piece of work of about `effort` rays; false: there is none left.
     /// \param enough what may stay dirty [lm/m^2], see DirtySet::next()
+    /// \pre what nodes see is up to date
     bool update(std::size_t effort, double enough);
     /// Relaxes: serves about `effort` rays' worth of receivers. \pre update() has nothing to do
     /// \param target certificate that is wanted [lm/m^2]
@@ -79,6 +80,7 @@ public:
     const IndirectSenders& senders() const { return senders_; }
     const RowTable& rows() const { return table_; } ///< one a sender
     const RowUpdates& updates() const { return updates_; }
+    bool reached(std::uint32_t node) const { return reach_.node(node); } ///< see Reach
     const RayCount& buildRays() const { return buildRays_; } ///< of rows that were built whole
 
 private:
@@ -129,6 +131,10 @@ private:
     void receiveAgain();
     void updateReach();
     void updateSendersReached();
+    void listForgotten();
+    bool isOnItsWay(std::uint32_t sender) const;
+    void forgetSome(std::size_t effort);
+    void forget(std::uint32_t sender);
     void restart();
     void describeReceivers();
 
@@ -153,16 +159,18 @@ private:
     const PatchSet& set_;
     const RayScene& rays_;
     const DirectLight& direct_;
+    const NodeHits& nodeHits_;
     std::size_t rowMemory_;
     IndirectSenders senders_;
     /// Boxes of the nodes where nothing movable covers them, block by block: what is linked.
     BoundsTree linkBoxes_;
     RowTable table_;
     RowUpdates updates_;
-    Reach reach_;
     std::vector<std::uint32_t> nodeKeys_;      ///< addresses
-    std::vector<std::uint64_t> reached_;       ///< bits, a node each
+    Reach reach_;
+    std::uint64_t reachRevision_ = 0;          ///< of the node hits that it is made of
     std::vector<std::uint8_t> sendersReached_; ///< 1: light gets to any of a sender
+    std::vector<std::uint32_t> forgotten_;     ///< senders that are to be, see forget()
     bool reachStale_ = true, residualsStale_ = true;
     std::vector<std::uint8_t> planar_; ///< of patches: samples lie in one plane
     std::vector<float> reflectances_;  ///< largest, a block of nodes each

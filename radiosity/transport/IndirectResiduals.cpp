@@ -41,6 +41,8 @@ Value IndirectLight::mean(const Patch& patch, AtNode atNode) const {
 glm::dvec3 IndirectLight::reflected(std::uint32_t index) const {
     const Patch& patch = set_.patches[index];
     if (!set_.objects[patch.object.value].present) return glm::dvec3(0);
+    // What its nodes still hold then is deferred work: it is right for it to send nothing.
+    if (index < reach_.patches.size() && !reach_.patches[index]) return glm::dvec3(0);
     const auto indirect = mean<glm::dvec3>(patch, [&](std::uint32_t n) { return node(n); });
     return toDouble(patchReflectance(set_, index)) * (direct_.patches()[index] + indirect);
 }
@@ -50,7 +52,7 @@ glm::dvec3 IndirectLight::reflected(std::uint32_t index) const {
 double IndirectLight::dirtyAt(std::uint32_t index) const {
     const DirtySet& dirty = updates_.dirty();
     const double f = dirty.factor(index / kBlock);
-    if (f == 0 || !(reached_[index / 64] >> index % 64 & 1)) return 0;
+    if (f == 0 || !reached(index)) return 0;
     const double above = std::max(0.0, rowSums_[index] + f - 1);
     return dirty.light(index / kBlock) + std::min(f, above) * largest(node(index));
 }
@@ -147,7 +149,7 @@ std::vector<glm::dvec3> IndirectLight::nodes() const {
     const glm::dvec3 owed = ambient();
     std::vector<glm::dvec3> values(nodes_.size());
     for (std::uint32_t n = 0; n < values.size(); ++n)
-        values[n] = node(n) + (reached_[n / 64] >> n % 64 & 1 ? owed : glm::dvec3(0));
+        values[n] = node(n) + (reached(n) ? owed : glm::dvec3(0));
     return values;
 }
 

@@ -189,6 +189,7 @@ void IndirectLight::finishShot() {
         const std::uint32_t p = shot_->senders[i];
         for (std::size_t q = 0; q < 4; ++q) sent_[p][q] += shot_->light[i][q];
         known_[p] = 1;
+        if (kept_[p] && !sendersReached_[p]) forgotten_.push_back(p);
         updates_.dirty().setPower(p, largest(sent_[p]));
     }
     rowBytes_ += shot_->bytes;

@@ -1,59 +1,98 @@
 #include "radiosity/transport/Reach.h"
 
 #include "base/Parallel.h"
-#include "radiosity/mesh/DrawnSurface.h"
-#include "radiosity/rows/HemisphereRays.h"
+#include "radiosity/mesh/NodePatches.h"
+
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+#include <utility>
 
 namespace penumbra {
 
 namespace {
 
-constexpr std::size_t kRays = 16;
+/// Patch that a ray meets, Element::kNone: none that could light anything. What is covered is met
+/// by rays that run into the very seam between what covers it and what is beside it.
+std::uint32_t patchMet(const PatchSet& set, std::uint32_t hit) {
+    if (hit == Element::kNone) return hit;
+    const std::uint32_t element = hit & ~DetailRays::kAcross;
+    if (element == NodeHits::kGone || !set.receives(element)) return Element::kNone;
+    return set.elements[element].patch;
+}
+
+/// Which of some nodes see each patch, a list a patch.
+struct Watchers {
+    std::vector<std::uint32_t> first, nodes;
+
+    Watchers(const PatchSet& set, const NodeHits& hits, std::span<const std::uint32_t> some)
+        : first(set.patches.size() + 1) {
+        const auto forEachMet = [&](auto visit) {
+            for (const std::uint32_t n : some)
+                for (const std::uint32_t hit : hits.hits(n))
+                    if (const auto p = patchMet(set, hit); p != Element::kNone) visit(p, n);
+        };
+        forEachMet([&](std::uint32_t p, std::uint32_t) { ++first[p + 1]; });
+        std::partial_sum(first.begin(), first.end(), first.begin());
+        nodes.resize(first.back());
+        std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+        forEachMet([&](std::uint32_t p, std::uint32_t n) { nodes[next[p]++] = n; });
+    }
+    std::span<const std::uint32_t> of(std::uint32_t patch) const {
+        return std::span(nodes).subspan(first[patch], first[patch + 1] - first[patch]);
+    }
+};
 
 } // namespace
 
-Reach::Reach(const PatchSet& set) : set_(&set), seen_(set.nodes.size() * kRays, Element::kNone) {
-    const DrawnSurface surface(set, DrawnSurface::Which::fixed);
-    const HemisphereRays rays(kRays);
-    parallelFor(set.nodes.size(), 256, [&](std::size_t first, std::size_t last) {
-        for (std::size_t n = first; n < last; ++n) {
-            const Receiver& node = set.uncoveredNodes[n];
-            if (isPadding(node) ||
-                set.objects[set.nodeBlockObject[n / PatchSet::kBlock].value].movable)
-                continue;
-            for (std::size_t r = 0; r < kRays; ++r) {
-                const auto hit =
-                    surface.nearest(node.position, rays.direction(int(r), node.normal), 1e30f);
-                if (hit.met()) seen_[n * kRays + r] = set.elements[hit.element].patch;
+Reach findReach(const PatchSet& set, const NodeHits& hits, std::span<const std::uint8_t> lit) {
+    assert(hits.done());
+    // Nodes that see a lit patch: most of those that can be reached.
+    std::vector<std::uint8_t> reached(set.nodes.size());
+    const auto counts = [&](std::size_t n) {
+        return !isPadding(set.nodes[n]) && hits.isThere(set.nodeBlockObject[n / PatchSet::kBlock]);
+    };
+    parallelFor(reached.size(), 1024, [&](std::size_t first, std::size_t last) {
+        for (std::size_t n = first; n < last; ++n)
+            reached[n] = counts(n) && std::ranges::any_of(hits.hits(n), [&](std::uint32_t hit) {
+                             const std::uint32_t p = patchMet(set, hit);
+                             return p != Element::kNone && lit[p] != 0;
+                         });
+    });
+    std::vector<std::uint32_t> others;
+    for (std::uint32_t n = 0; n < reached.size(); ++n)
+        if (!reached[n] && counts(n)) others.push_back(n);
+
+    // The others, from patch to patch: each is listed once, when light is found to get to it.
+    Reach reach;
+    reach.patches.assign(lit.begin(), lit.end());
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t p = 0; p < set.patches.size(); ++p) {
+        const Patch& patch = set.patches[p];
+        const auto isReached = [&](std::uint32_t n) { return reached[n] != 0; };
+        if (!isReached(patch.centreNode) &&
+            !(patch.hasCornerNodes && std::ranges::any_of(patch.cornerNodes, isReached)))
+            continue;
+        if (!std::exchange(reach.patches[p], std::uint8_t(1))) found.push_back(p);
+    }
+    if (!found.empty() && !others.empty()) {
+        const Watchers watchers(set, hits, others);
+        const NodePatches patchesOf(set);
+        while (!found.empty()) {
+            const std::uint32_t next = found.back();
+            found.pop_back();
+            for (const std::uint32_t n : watchers.of(next)) {
+                if (std::exchange(reached[n], std::uint8_t(1))) continue;
+                for (const std::uint32_t p : patchesOf.of(n))
+                    if (!std::exchange(reach.patches[p], std::uint8_t(1))) found.push_back(p);
             }
         }
-    });
-}
-
-std::vector<std::uint64_t> Reach::spread(std::span<const std::uint8_t> lit) const {
-    std::vector<std::uint8_t> bright(lit.begin(), lit.end()), reached(set_->nodes.size());
-    for (std::size_t n = 0; n < reached.size(); ++n)
-        reached[n] = !isPadding(set_->uncoveredNodes[n]) &&
-                     set_->objects[set_->nodeBlockObject[n / PatchSet::kBlock].value].movable;
-    for (bool changed = true; changed;) {
-        changed = false;
-        for (std::size_t n = 0; n < reached.size(); ++n)
-            for (std::size_t r = n * kRays; !reached[n] && r < (n + 1) * kRays; ++r)
-                reached[n] = seen_[r] != Element::kNone && bright[seen_[r]];
-        for (std::size_t p = 0; p < bright.size(); ++p) {
-            const Patch& patch = set_->patches[p];
-            bool any = reached[patch.centreNode];
-            if (patch.hasCornerNodes)
-                for (std::uint32_t node : patch.cornerNodes) any |= reached[node];
-            if (!any || bright[p]) continue;
-            bright[p] = true;
-            changed = true;
-        }
     }
-    std::vector<std::uint64_t> bits((reached.size() + 63) / 64);
+
+    reach.nodes.resize((reached.size() + 63) / 64);
     for (std::size_t n = 0; n < reached.size(); ++n)
-        bits[n / 64] |= std::uint64_t(reached[n]) << n % 64;
-    return bits;
+        reach.nodes[n / 64] |= std::uint64_t(reached[n]) << n % 64;
+    return reach;
 }
 
 } // namespace penumbra

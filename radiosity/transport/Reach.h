@@ -2,6 +2,7 @@
 #pragma once
 
 #include "radiosity/mesh/PatchSet.h"
+#include "radiosity/transport/NodeHits.h"
 
 #include <cstdint>
 #include <span>
@@ -10,25 +11,20 @@
 namespace penumbra {
 
 /// The outsides of a room's walls and the insides of its hollow things are many; no light ever gets
-/// there, and no row needs an entry for their nodes. A node can be reached if one of a few rays
-/// from it meets a patch that an emitter lights, or one with a node that can be reached. The rays
-/// see the fixed part only, and what is movable can always be reached: so nothing has to be traced
-/// when things move.
-class Reach {
-public:
-    Reach() = default;
-    /// Traces the rays. `set` must outlive this.
-    explicit Reach(const PatchSet& set);
+/// there, and no row needs an entry for their nodes. A node can be reached if one of its rays meets
+/// a patch that light gets to: one that an emitter lights, or one with a node that can be reached.
+/// That is so whether emitters are on or off, and of the scene as it stands: what is hidden is not
+/// reached. Of all sets of nodes of which that is true it is the least one.
+struct Reach {
+    std::vector<std::uint64_t> nodes;  ///< bits, 64 nodes a word
+    std::vector<std::uint8_t> patches; ///< 1: light gets to it
 
-    /// Finds the nodes that can be reached. \param lit 1: patches that some emitter lights
-    /// \return bits, 64 nodes a word
-    std::vector<std::uint64_t> spread(std::span<const std::uint8_t> lit) const;
-
-    std::uint64_t rayCount() const { return seen_.size(); }
-
-private:
-    const PatchSet* set_ = nullptr;
-    std::vector<std::uint32_t> seen_; ///< patch that each ray meets, Element::kNone: none
+    bool node(std::uint32_t index) const { return nodes[index / 64] >> index % 64 & 1; }
 };
+
+/// Finds it without a ray, in a time that goes with the number of hits.
+/// \param lit 1: patches that some emitter lights
+/// \pre hits.done()
+Reach findReach(const PatchSet& set, const NodeHits& hits, std::span<const std::uint8_t> lit);
 
 } // namespace penumbra

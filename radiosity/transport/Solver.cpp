@@ -33,10 +33,12 @@ Rgb toRgb(glm::dvec3 v) {
 Solver::Solver(const PatchSet& patches, const RayScene& rays, const SolverOptions& options)
     : set_(patches), rays_(rays), options_(options), direct_(patches, rays, options.samples) {
     const bool lit = !patches.patches.empty() && !patches.emitters.empty(); // else all is black
-    if (!options.directOnly && lit)
-        indirect_ = std::make_unique<IndirectLight>(patches, rays, direct_, options.rowMemory,
-                                                    options.flatPatches);
-    if (indirect_ && options.detail) detail_ = std::make_unique<DetailGather>(patches);
+    if (!options.directOnly && lit) {
+        nodeHits_ = std::make_unique<NodeHits>(patches);
+        indirect_ = std::make_unique<IndirectLight>(patches, rays, direct_, *nodeHits_,
+                                                    options.rowMemory, options.flatPatches);
+        if (options.detail) detail_ = std::make_unique<DetailGather>(patches, *nodeHits_);
+    }
     if (options.policy != PolicyKind::importance) setPolicy(options.policy);
 }
 
@@ -72,9 +74,12 @@ void Solver::setDirectPolicy(std::shared_ptr<SchedulingPolicy> policy) {
 }
 
 void Solver::takeOver(Solver& before, const PatchMatch& match) {
-    if (indirect_ && before.indirect_) indirect_->takeOver(*before.indirect_, match);
+    if (indirect_ && before.indirect_) {
+        const NodeHits::Taken taken = nodeHits_->takeOver(*before.nodeHits_, match);
+        indirect_->takeOver(*before.indirect_, match);
+        if (detail_ && before.detail_) detail_->takeOver(*before.detail_, match, taken);
+    }
     direct_.takeOver(before.direct_, match);
-    if (detail_ && before.detail_) detail_->takeOver(*before.detail_, match);
     pace_ = before.pace_;
     begin();
 }
@@ -87,13 +92,17 @@ void Solver::apply(const SceneChange& change) {
         seen_->follow(change.objects);
         if (inViewOrder_) direct_.rekey();
     }
-    if (indirect_) indirect_->apply(change);
-    if (detail_) detail_->apply(change);
+    if (indirect_) {
+        const std::vector<NodeHits::Move> moves = nodeHits_->apply(change);
+        indirect_->apply(change);
+        if (detail_) detail_->apply(change, moves);
+    }
     begin();
 }
 
 void Solver::invalidate(const Bounds& region) {
     direct_.invalidate(region);
+    if (nodeHits_) nodeHits_->invalidate(region);
     if (indirect_) indirect_->invalidate(region);
     if (detail_) detail_->invalidate(region);
     begin();
@@ -191,8 +200,12 @@ void Solver::handOver() {
     if (litChanged) completed_ = false; // light may reach more patches
 }
 
-/// Rows that an edit changed, then rows that are missing, then shots.
+/// What nodes see, then rows that an edit changed, then rows that are missing, then shots.
 bool Solver::workOnIndirect(Pace& pace, const Progress& progress) {
+    if (pace.work(Pace::nodes, [&](std::size_t effort) { return nodeHits_->work(effort); })) {
+        if (progress) progress("where light gets to", nodeHits_->share());
+        return true;
+    }
     bool more = pace.work(Pace::rows, [&](std::size_t effort) {
         return indirect_->update(effort, mayStayDirty(kIndirectMayStayDirty));
     });
@@ -326,11 +339,12 @@ WorkDone Solver::done() const {
     if (seen_) done.rays += seen_->rays();
     if (!indirect_) return done;
     done.rays += indirect_->updates().rays().total() + indirect_->buildRays().total();
-    done.blocks += indirect_->updates().blocksVisited();
+    done.rays += nodeHits_->count().rays;
+    done.blocks += indirect_->updates().blocksVisited() + nodeHits_->count().groups;
     done.shots = indirect_->shots();
     if (!detail_) return done;
-    done.rays += detail_->hits().rayCount();
-    done.blocks += detail_->hits().groupsVisited();
+    done.rays += detail_->hits().count().rays;
+    done.blocks += detail_->hits().count().groups;
     return done;
 }
 
@@ -349,11 +363,12 @@ SolveStatistics Solver::statistics() const {
         result.dirtyBound = indirect_->dirtyBound();
         result.indirect = count(indirect_->updates(), indirectSeconds_);
         result.indirect.rays += indirect_->buildRays();
-        if (detail_)
-            result.detail = {{detail_->hits().rayCount(), 0},
-                             detail_->hits().groupsVisited(),
-                             0,
-                             detailSeconds_};
+        result.indirect.rays.full += nodeHits_->count().rays;
+        result.indirect.blocksVisited += nodeHits_->count().groups;
+        if (detail_) {
+            const GroupCount& done = detail_->hits().count();
+            result.detail = {{done.rays, 0}, done.groups, 0, detailSeconds_};
+        }
         result.shots = indirect_->shots();
         result.residual = indirect_->residual();
         result.certificate = indirect_->certificate();

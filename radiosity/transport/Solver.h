@@ -11,6 +11,7 @@
 #include "radiosity/transport/DirectLight.h"
 #include "radiosity/transport/IndirectLight.h"
 #include "radiosity/transport/Lighting.h"
+#include "radiosity/transport/NodeHits.h"
 #include "radiosity/transport/SceneChange.h"
 
 #include <glm/glm.hpp>
@@ -185,6 +186,7 @@ public:
 
     const DirectLight& direct() const { return direct_; }
     const IndirectLight& indirect() const { return *indirect_; }
+    const NodeHits* nodeHits() const { return nodeHits_.get(); } ///< null: direct light only
     const DetailGather* detail() const { return detail_.get(); } ///< null: not asked for
     std::span<const Row> emitterRows() const { return direct_.rows().rows(); }
     std::span<const Row> patchRows() const { // empty ones were never needed, or not kept
@@ -213,7 +215,8 @@ private:
     std::optional<Attention> attention_;      ///< of the viewer, if there is one
     std::shared_ptr<ViewPriority> seen_;      ///< what they see, once there was a viewer
     bool inViewOrder_ = false;                ///< direct light is updated by its priorities
-    std::unique_ptr<IndirectLight> indirect_; ///< null: direct light only
+    std::unique_ptr<NodeHits> nodeHits_;      ///< null: direct light only
+    std::unique_ptr<IndirectLight> indirect_; ///< likewise
     std::unique_ptr<DetailGather> detail_;
     bool handedOver_ = false; ///< whether the indirect light knows of the direct light as it is
     bool completing_ = false, completed_ = false; ///< see IndirectLight::complete()

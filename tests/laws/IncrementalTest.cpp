@@ -4,6 +4,7 @@
 #include "tests/support/EditedWalls.h"
 #include "tests/support/LitDifference.h"
 #include "tests/support/Refurnishing.h"
+#include "tests/support/RoomsWithDoor.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -196,6 +197,127 @@ TEST(Incremental, EqualsFromScratchWhereNoLightShines) {
     constexpr std::uint32_t kSeed = 2163954167;
     FollowedRoom followed(kSeed);
     EXPECT_EQ(differsAfterOverlappingEdits(followed, kSeed, 9), "") << followed.said;
+}
+
+/// Two rooms with a door between them, lit as the door and what is behind it are moved.
+struct FollowedDoor {
+    RoomsWithDoor rooms;
+    SolverOptions solving;
+    LitScene lit{placeScene(rooms.scene), {.patchSize = 0.5f, .elementSize = 0.25f}, solving};
+
+    explicit FollowedDoor(const SolverOptions& options) : solving(options) {
+        lit.solver().settle();
+    }
+    /// Follows an edit. \return what differs from a fresh start
+    std::string follow() {
+        EXPECT_FALSE(lit.follow(placeScene(rooms.scene)).rebuilt);
+        lit.solver().settle();
+        LitScene scratch(placeScene(rooms.scene), sizesOf(lit.patches()), solving);
+        scratch.solver().settle();
+        return difference(lit, scratch);
+    }
+    /// Share of an object's nodes that light gets to, of those for which `which` is true.
+    template <class Which>
+    double reached(const std::string& path, const Which& which) const {
+        std::size_t nodes = 0, reached = 0;
+        for (const ObjectPart& part : lit.patches().objects)
+            for (std::uint32_t n = part.nodes.first; part.path == path && n < part.nodes.end(); ++n)
+                if (const Receiver& node = lit.patches().nodes[n];
+                    !isPadding(node) && which(node)) {
+                    ++nodes;
+                    reached += lit.solver().indirect().reached(n);
+                }
+        return double(reached) / double(nodes);
+    }
+    /// But for what stands on something.
+    double reached(const std::string& path) const {
+        return reached(path, [](const Receiver& node) { return node.normal.z > -0.5f; });
+    }
+    double reachedInCupboard() const {
+        const auto middle = glm::vec3(rooms.cupboard->matrix() * glm::dvec4(0, 0, 0.3, 1));
+        return reached("/cupboard", [&](const Receiver& node) {
+            return glm::dot(node.normal, middle - node.position) > 0;
+        });
+    }
+    /// Entries of all rows onto the nodes of an object.
+    std::size_t entriesOnto(const std::string& path) const {
+        std::size_t count = 0;
+        for (const ObjectPart& part : lit.patches().objects)
+            for (std::uint32_t b = part.nodes.first / PatchSet::kBlock;
+                 part.path == path && b * PatchSet::kBlock < part.nodes.end(); ++b)
+                for (const Row& row : lit.solver().patchRows())
+                    if (const RowBlock* block = row.find(b)) count += block->entryCount();
+        return count;
+    }
+};
+
+const std::array<SolverOptions, 3> kWays{{{.residual = 1e-4},
+                                          {.residual = 1e-4, .flatPatches = 0},
+                                          {.residual = 1e-4, .detail = false}}};
+
+TEST(Incremental, BehindADoorLightIsWhereItIsFromScratch) {
+    for (const SolverOptions& way : kWays) {
+        FollowedDoor door(way);
+        EXPECT_EQ(door.reached("/second"), 0);
+        EXPECT_EQ(door.entriesOnto("/second"), 0u);
+        for (int i = 0; i < 2; ++i) {
+            door.rooms.open();
+            EXPECT_EQ(door.follow(), "") << "opened";
+            EXPECT_EQ(door.reached("/second"), 1);
+            EXPECT_EQ(door.reached("/box"), 1);
+            EXPECT_GT(door.reached("/cupboard"), 0.3);
+            EXPECT_EQ(door.reachedInCupboard(), 0) << "it is closed";
+            EXPECT_GT(door.entriesOnto("/second"), 0u);
+            door.rooms.box->setMatrix(moved(2.8, 1, 0));
+            door.rooms.cupboard->setMatrix(moved(3.5, 0.5 + i, 0));
+            EXPECT_EQ(door.follow(), "") << "moved in the light";
+            door.rooms.shut();
+            EXPECT_EQ(door.follow(), "") << "shut";
+            for (const char* path : {"/second", "/box", "/cupboard"}) {
+                EXPECT_EQ(door.reached(path), 0) << path;
+                EXPECT_EQ(door.entriesOnto(path), 0u) << path;
+            }
+            door.rooms.box->setMatrix(moved(3, 1, 0));
+            EXPECT_EQ(door.follow(), "") << "moved in the dark";
+        }
+    }
+}
+
+TEST(Incremental, ALampThatIsOffReachesWhatItDidWithoutARay) {
+    FollowedDoor door(kWays[0]);
+    door.rooms.lamp->setLuminance(Rgb(0.0f));
+    const std::uint64_t rays = door.lit.solver().done().rays;
+    EXPECT_EQ(door.follow(), "");
+    EXPECT_EQ(door.lit.solver().done().rays, rays);
+    EXPECT_EQ(door.reached("/first"), 1);
+    EXPECT_EQ(door.reached("/second"), 0);
+}
+
+TEST(Incremental, UnderABoxThatIsPutOnTheFloorLightIsWhereItIsFromScratch) {
+    for (const SolverOptions& way : kWays) {
+        FollowedDoor door(way);
+        door.rooms.box->setMatrix(moved(1, 1, 0)); // into the lit room
+        EXPECT_EQ(door.follow(), "");
+        door.rooms.box->setMatrix(moved(1.1, 0.9, 0.5));
+        EXPECT_EQ(door.follow(), "");
+        EXPECT_EQ(door.reached("/box"), 1);
+        door.rooms.box->setMatrix(moved(1.1, 0.9, 0));
+        EXPECT_EQ(door.follow(), "");
+    }
+}
+
+TEST(Incremental, ADoorThatSlamsWhileLightIsUnderWayEndsAsFromScratch) {
+    for (const SolverOptions& way : kWays) {
+        FollowedDoor door(way);
+        for (int pieces = 1; pieces <= 4096; pieces *= 4) {
+            door.rooms.open();
+            EXPECT_FALSE(door.lit.follow(placeScene(door.rooms.scene)).rebuilt);
+            for (int i = 0; i < pieces; ++i) door.lit.solver().work(600);
+            door.rooms.shut();
+            EXPECT_EQ(door.follow(), "") << "after " << pieces;
+            EXPECT_EQ(door.entriesOnto("/second"), 0u);
+        }
+    }
 }
 
 } // namespace

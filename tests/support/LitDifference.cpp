@@ -94,15 +94,23 @@ bool sameHits(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b
     });
 }
 
-void compareDetail(Comparison& with, const DetailHits& a, const DetailHits& b, const ObjectPart& pa,
-                   const ObjectPart& pb, const std::vector<std::uint32_t>& elements) {
+/// What is seen from the nodes of an object, and whether light gets there.
+void compareNodes(Comparison& with, const Solver& a, const Solver& b, const ObjectPart& pa,
+                  const ObjectPart& pb, const std::vector<std::uint32_t>& elements) {
+    const NodeHits &hitsA = *a.nodeHits(), &hitsB = *b.nodeHits();
     for (std::uint32_t i = 0; i < pa.nodes.count; ++i) {
         const std::uint32_t na = pa.nodes.first + i, nb = pb.nodes.first + i;
-        with.expect(a.nodeOpenness(na) == b.nodeOpenness(nb) &&
-                        sameHits(a.nodeHits(na), b.nodeHits(nb), elements),
-                    pa.path, " node ", i, " sees other things: ", a.nodeOpenness(na), " against ",
-                    b.nodeOpenness(nb));
+        with.expect(hitsA.openness(na) == hitsB.openness(nb) &&
+                        sameHits(hitsA.hits(na), hitsB.hits(nb), elements),
+                    pa.path, " node ", i, " sees other things: ", hitsA.openness(na), " against ",
+                    hitsB.openness(nb));
+        with.expect(a.indirect().reached(na) == b.indirect().reached(nb), pa.path, " node ", i,
+                    " is reached in one only");
     }
+}
+
+void compareDetail(Comparison& with, const DetailHits& a, const DetailHits& b, const ObjectPart& pa,
+                   const ObjectPart& pb, const std::vector<std::uint32_t>& elements) {
     const auto groupOf = [](std::uint32_t vertex) { return vertex / DetailHits::kGroup; };
     for (std::uint32_t i = 0; i < pa.elements.count; ++i)
         for (std::size_t k = 0; k < 4; ++k) {
@@ -167,6 +175,8 @@ std::string difference(const LitScene& one, const LitScene& other) {
                 pa.path, " is meshed in another way") ||
             !pa.present)
             continue;
+        if (one.solver().nodeHits())
+            compareNodes(with, one.solver(), other.solver(), pa, pb, elements);
         if (one.solver().detail())
             compareDetail(with, one.solver().detail()->hits(), other.solver().detail()->hits(), pa,
                           pb, elements);

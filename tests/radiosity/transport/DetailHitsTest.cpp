@@ -11,28 +11,40 @@ namespace penumbra {
 
 namespace {
 
-void settle(DetailHits& hits) {
-    while (hits.work(1000)) {
+/// The hits of vertices, and of the nodes by which they are judged.
+struct AllHits {
+    NodeHits nodes;
+    DetailHits vertices;
+
+    explicit AllHits(const PatchSet& patches) : nodes(patches), vertices(patches, nodes) {}
+    void apply(const SceneChange& change) { vertices.apply(change, nodes.apply(change)); }
+    bool work() { return nodes.work(1000) || vertices.work(1000); }
+    void settle() {
+        while (work()) {
+        }
     }
-}
+    std::uint64_t rays() const { return nodes.count().rays + vertices.count().rays; }
+    std::uint64_t groups() const { return nodes.count().groups + vertices.count().groups; }
+};
 
 /// The first vertex or node of things that are there of which two know different things, or none.
-std::string difference(const PatchSet& set, const DetailHits& a, const DetailHits& b) {
-    const auto sameHits = [](auto one, auto other) {
-        return std::equal(one.begin(), one.end(), other.begin(), other.end());
-    };
+std::string difference(const PatchSet& set, const AllHits& one, const AllHits& other) {
+    const DetailHits &a = one.vertices, &b = other.vertices;
+    const auto sameHits = [](auto some, auto others) { return std::ranges::equal(some, others); };
     for (std::uint32_t n = 0; n < set.nodes.size(); ++n) {
         if (!set.objects[set.nodeBlockObject[n / PatchSet::kBlock].value].present) continue;
-        if (a.nodeOpenness(n) != b.nodeOpenness(n) || !sameHits(a.nodeHits(n), b.nodeHits(n)))
+        if (one.nodes.openness(n) != other.nodes.openness(n) ||
+            one.nodes.near(n) != other.nodes.near(n) ||
+            !sameHits(one.nodes.hits(n), other.nodes.hits(n)))
             return "node " + std::to_string(n);
     }
     for (std::uint32_t v = 0; v < set.vertices.size(); ++v) {
-        const auto *one = a.gatherer(v), *other = b.gatherer(v);
-        if (!one && !other) continue;
+        const auto *ga = a.gatherer(v), *gb = b.gatherer(v);
+        if (!ga && !gb) continue;
         const std::uint32_t group = v / DetailHits::kGroup;
-        if (!one || !other || one->detail != other->detail || one->shut != other->shut ||
-            one->slit != other->slit || one->near != other->near || one->inside != other->inside ||
-            !sameHits(a.hits(group, *one), b.hits(group, *other)))
+        if (!ga || !gb || ga->detail != gb->detail || ga->shut != gb->shut ||
+            ga->slit != gb->slit || ga->near != gb->near || ga->inside != gb->inside ||
+            !sameHits(a.hits(group, *ga), b.hits(group, *gb)))
             return "vertex " + std::to_string(v);
     }
     return {};
@@ -42,23 +54,23 @@ TEST(DetailHits, AfterEditsInStepsAreThoseOfNewOnes) {
     for (std::uint32_t seed = 1; seed <= 12; ++seed) {
         EditableRoom room(seed);
         LitScene lit(placeScene(room.scene()), EditableRoom::meshing(), {.directOnly = true});
-        auto hits = std::make_unique<DetailHits>(lit.patches());
-        settle(*hits);
+        auto hits = std::make_unique<AllHits>(lit.patches());
+        hits->settle();
         std::mt19937 random(seed);
         std::string said;
         for (int edit = 0; edit < 12; ++edit) {
             said += room.edit();
             const LitScene::Followed followed = lit.follow(placeScene(room.scene()));
             if (followed.rebuilt)
-                hits = std::make_unique<DetailHits>(lit.patches());
+                hits = std::make_unique<AllHits>(lit.patches());
             else
                 hits->apply(followed.change);
-            for (std::uint32_t pieces = random() % 20; pieces > 0; --pieces) hits->work(1000);
+            for (std::uint32_t pieces = random() % 20; pieces > 0; --pieces) hits->work();
         }
-        settle(*hits);
+        hits->settle();
         const ThreadLimit one(1); // of the new ones: any number gives the same
-        DetailHits fresh(lit.patches());
-        settle(fresh);
+        AllHits fresh(lit.patches());
+        fresh.settle();
         ASSERT_EQ(difference(lit.patches(), *hits, fresh), "") << "seed " << seed << ": " << said;
     }
 }
@@ -68,13 +80,13 @@ struct TwoRooms {
     std::shared_ptr<Transform> box;
     Scene scene;
     LitScene lit;
-    DetailHits hits;
+    AllHits hits;
 
     TwoRooms()
         : scene(make()),
           lit(placeScene(scene), {.patchSize = 0.4f, .elementSize = 0.1f}, {.directOnly = true}),
           hits(lit.patches()) {
-        settle(hits);
+        hits.settle();
     }
     Scene make() {
         const auto boxOf = [] { return boxData({-0.1f, -0.1f, -1}, {0.1f, 0.1f, -0.8f}, false); };
@@ -88,17 +100,17 @@ struct TwoRooms {
     }
     /// \return rays that are traced when the box is moved there
     std::uint64_t raysOfMoveTo(const glm::dmat4& place) {
-        const std::uint64_t before = hits.rayCount();
+        const std::uint64_t before = hits.rays();
         box->setMatrix(place);
         hits.apply(lit.follow(placeScene(scene)).change);
-        settle(hits);
-        return hits.rayCount() - before;
+        hits.settle();
+        return hits.rays() - before;
     }
 };
 
 TEST(DetailHits, AMoveTracesAFewOfAllRays) {
     TwoRooms rooms;
-    const std::uint64_t scratch = rooms.hits.rayCount();
+    const std::uint64_t scratch = rooms.hits.rays();
     const std::uint64_t moved = rooms.raysOfMoveTo(penumbra::moved(0.2, 0.1, 0));
     EXPECT_GT(moved, 0u);
     EXPECT_LT(moved, scratch / 10);
@@ -106,29 +118,31 @@ TEST(DetailHits, AMoveTracesAFewOfAllRays) {
 
 TEST(DetailHits, OfAMoveTheRoomNextDoorIsNotLookedAt) {
     TwoRooms rooms;
-    const std::uint64_t before = rooms.hits.groupsVisited();
+    const std::uint64_t before = rooms.hits.groups();
     rooms.raysOfMoveTo(moved(0.2, 0.1, 0));
-    EXPECT_LT(rooms.hits.groupsVisited() - before, before / 2);
+    EXPECT_LT(rooms.hits.groups() - before, before / 2);
 }
 
 TEST(DetailHits, ColoursTraceNoRay) {
     TwoRooms rooms;
-    const std::uint64_t before = rooms.hits.rayCount();
+    const std::uint64_t before = rooms.hits.rays();
     SceneChange colours;
     colours.colours = true;
     rooms.hits.apply(colours);
-    EXPECT_FALSE(rooms.hits.work(1000));
-    EXPECT_EQ(rooms.hits.rayCount(), before);
+    EXPECT_FALSE(rooms.hits.work());
+    EXPECT_EQ(rooms.hits.rays(), before);
 }
 
 TEST(DetailHits, ABoxEvaluatedAnewChangesNothingWhereNothingWasWrong) {
     TwoRooms rooms;
-    DetailHits fresh(rooms.lit.patches());
-    settle(fresh);
-    const std::uint64_t before = rooms.hits.rayCount();
-    rooms.hits.invalidate({glm::vec3(-0.5f), glm::vec3(0.5f)});
-    settle(rooms.hits);
-    EXPECT_GT(rooms.hits.rayCount(), before);
+    AllHits fresh(rooms.lit.patches());
+    fresh.settle();
+    const std::uint64_t before = rooms.hits.rays();
+    const Bounds box{glm::vec3(-0.5f), glm::vec3(0.5f)};
+    rooms.hits.nodes.invalidate(box);
+    rooms.hits.vertices.invalidate(box);
+    rooms.hits.settle();
+    EXPECT_GT(rooms.hits.rays(), before);
     EXPECT_EQ(difference(rooms.lit.patches(), rooms.hits, fresh), "");
 }
 

@@ -1,8 +1,11 @@
 // Where light can get to, and where it can't.
 #include "radiosity/transport/Reach.h"
-#include "tests/support/Scenes.h"
+#include "tests/support/EditedScenes.h"
+#include "tests/support/RoomsWithDoor.h"
 
 #include <gtest/gtest.h>
+
+#include <string>
 
 namespace penumbra {
 
@@ -10,80 +13,126 @@ namespace {
 
 constexpr MeshingOptions kCoarse{.patchSize = 0.5f, .elementSize = 0.25f};
 
-/// Two closed rooms side by side, with a light in the first and a box in each. The box in the
-/// second can be moved.
-Scene twoRooms(bool withDoor) {
-    MeshData first;
-    addBox(first, {0, 0, 0}, {2, 2, 2}, true, {0, 2, 3, 4, 5});
-    MeshData second;
-    addBox(second, {2.1f, 0, 0}, {4, 2, 2}, true, {1, 2, 3, 4, 5});
-    MeshData wall;
-    if (withDoor) { // a hole above the wall
-        addBox(wall, {2, 0, 0}, {2.1f, 2, 1.2f}, false);
-        addBox(wall, {2, 0, 2}, {2.1f, 2, 2.1f}, false);
-    } else {
-        addBox(wall, {2, 0, 0}, {2.1f, 2, 2}, false);
-    }
-    for (MeshData* mesh : {&first, &second, &wall}) mesh->materials = {paint(Rgb(0.5f))};
-    const auto box = [] {
-        return std::make_shared<Mesh>("mesh",
-                                      boxData({-0.2f, -0.2f, 0}, {0.2f, 0.2f, 0.4f}, false));
-    };
-    const auto moves = movable("moves", {box()});
-    moves->setMatrix(moved(3, 1, 0.8));
-    return sceneOf({object("first", first), object("second", second), object("wall", wall),
-                    placed("stays", moved(1, 1, 0.5), {box()}), moves,
-                    ceilingLight({1, 1, 1.99f}, 0.5f, 0.5f)});
-}
+/// Where light gets to in a scene when the patches of one object are lit.
+struct Reached {
+    LitScene scene;
+    const PatchSet& set = scene.patches();
+    NodeHits hits{set};
+    Reach reach;
 
-/// Shares of an object's nodes that can be reached when the patches of `lit` are lit.
-double reachedShare(const PatchSet& set, const std::string& path, const std::string& lit) {
-    std::vector<std::uint8_t> bright(set.patches.size());
-    for (std::size_t p = 0; p < bright.size(); ++p)
-        bright[p] = set.objects[set.patches[p].object.value].path == lit;
-    const std::vector<std::uint64_t> bits = Reach(set).spread(bright);
-    std::size_t nodes = 0, reached = 0;
-    for (const ObjectPart& part : set.objects) {
-        if (part.path != path) continue;
-        for (std::uint32_t n = part.nodes.first; n < part.nodes.end(); ++n) {
-            if (isPadding(set.uncoveredNodes[n])) continue;
-            ++nodes;
-            reached += bits[n / 64] >> n % 64 & 1;
+    Reached(const Scene& from, const std::string& lit)
+        : scene(placeScene(from), kCoarse, {.directOnly = true}) {
+        while (hits.work(1 << 20)) {
         }
+        std::vector<std::uint8_t> bright(set.patches.size());
+        for (std::size_t p = 0; p < bright.size(); ++p)
+            bright[p] = set.objects[set.patches[p].object.value].path == lit;
+        reach = findReach(set, hits, bright);
     }
-    return double(reached) / double(nodes);
-}
+    /// Share of an object's nodes that can be reached, of those for which `which` is true.
+    template <class Which>
+    double share(const std::string& path, const Which& which) const {
+        std::size_t nodes = 0, reached = 0;
+        for (const ObjectPart& part : set.objects) {
+            if (part.path != path) continue;
+            for (std::uint32_t n = part.nodes.first; n < part.nodes.end(); ++n) {
+                const Receiver& node = set.nodes[n];
+                if (isPadding(node) || !which(node)) continue;
+                ++nodes;
+                reached += reach.node(n);
+            }
+        }
+        return double(reached) / double(nodes);
+    }
+    /// The same, but for what stands on something.
+    double share(const std::string& path) const {
+        return share(path, [](const Receiver& node) { return node.normal.z > -0.5f; });
+    }
+};
 
 TEST(Reach, LightGetsAllOverTheRoomItIsIn) {
-    const BuiltPatches built = meshed(twoRooms(false), kCoarse);
-    EXPECT_EQ(reachedShare(built.patches, "/first", "/stays"), 1);
-    EXPECT_EQ(reachedShare(built.patches, "/stays", "/first"), 1);
+    EXPECT_EQ(Reached(RoomsWithDoor().scene, "/wall").share("/first"), 1);
+    EXPECT_EQ(Reached(RoomsWithDoor().scene, "/second").share("/box"), 1);
 }
 
-TEST(Reach, LightDoesNotGetThroughAWall) {
-    const BuiltPatches built = meshed(twoRooms(false), kCoarse);
-    EXPECT_EQ(reachedShare(built.patches, "/second", "/stays"), 0);
+TEST(Reach, LightDoesNotGetThroughAShutDoor) {
+    const Reached rooms(RoomsWithDoor().scene, "/first");
+    for (const char* path : {"/second", "/box", "/cupboard"})
+        EXPECT_EQ(rooms.share(path), 0) << path;
 }
 
-TEST(Reach, LightGetsThroughADoorByWayOfTheWallsBehindIt) {
-    const BuiltPatches built = meshed(twoRooms(true), kCoarse);
-    EXPECT_EQ(reachedShare(built.patches, "/second", "/stays"), 1);
+TEST(Reach, LightGetsThroughAnOpenDoorByWayOfTheWallsBehindIt) {
+    RoomsWithDoor rooms;
+    rooms.open();
+    const Reached open(rooms.scene, "/first");
+    for (const char* path : {"/second", "/box"}) EXPECT_EQ(open.share(path), 1) << path;
 }
 
-TEST(Reach, WhatIsMovableCanAlwaysBeReached) {
-    // It may be carried into the light, and nothing is to be traced then.
-    const BuiltPatches built = meshed(twoRooms(false), kCoarse);
-    EXPECT_EQ(reachedShare(built.patches, "/moves", "/stays"), 1);
-    EXPECT_EQ(reachedShare(built.patches, "/moves", "/nothing"), 1);
+TEST(Reach, LightDoesNotGetIntoAClosedCupboard) {
+    const Reached rooms(RoomsWithDoor().scene, "/second");
+    const auto inside = [](const Receiver& node) {
+        // Its inner sides face its middle.
+        return glm::dot(node.normal, glm::vec3(3.5f, 1.5f, 0.3f) - node.position) > 0;
+    };
+    const auto outside = [&](const Receiver& node) { return !inside(node); };
+    EXPECT_EQ(rooms.share("/cupboard", inside), 0);
+    EXPECT_NEAR(rooms.share("/cupboard", outside), 5.0 / 6, 1e-9) << "its bottom is on the floor";
 }
 
-TEST(Reach, WithoutLightNothingFixedIsReached) {
-    Scene scene = twoRooms(true);
-    const NodePtr moves = scene.root->children()[4];
-    ASSERT_TRUE(scene.root->remove(moves));
-    const BuiltPatches built = meshed(scene, kCoarse);
-    for (const char* path : {"/first", "/second", "/wall", "/stays"})
-        EXPECT_EQ(reachedShare(built.patches, path, "/nothing"), 0) << path;
+TEST(Reach, WhatIsHiddenIsNotReached) {
+    RoomsWithDoor rooms;
+    const auto shown = std::make_shared<Switch>("shown");
+    ASSERT_TRUE(rooms.scene.root->remove(rooms.box));
+    shown->add(rooms.box);
+    rooms.scene.root->add(shown);
+    EXPECT_EQ(Reached(rooms.scene, "/second").share("/shown/box"), 1);
+    shown->setVisible(false);
+    EXPECT_EQ(Reached(rooms.scene, "/second").share("/shown/box"), 0);
+}
+
+TEST(Reach, WithoutLightNothingIsReached) {
+    const Reached rooms(RoomsWithDoor().scene, "/nothing");
+    for (const std::uint64_t bits : rooms.reach.nodes) EXPECT_EQ(bits, 0u);
+}
+
+TEST(Reach, IsTheLeastSetThatIsClosed) {
+    // Found the slow way: all nodes, again and again, until nothing changes.
+    for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+        const EditableRoom room(seed);
+        const LitScene lit(placeScene(room.scene()), EditableRoom::meshing(), {.directOnly = true});
+        const PatchSet& set = lit.patches();
+        NodeHits hits(set);
+        while (hits.work(1 << 20)) {
+        }
+        std::mt19937 random(seed);
+        std::vector<std::uint8_t> some(set.patches.size());
+        for (int i = 0; i < 3; ++i) some[random() % some.size()] = 1;
+        std::vector<std::uint8_t> bright = some, reached(set.nodes.size());
+        const auto isReached = [&](std::uint32_t n) { return reached[n] != 0; };
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (std::uint32_t n = 0; n < reached.size(); ++n)
+                for (const std::uint32_t hit : hits.hits(n)) {
+                    if (isPadding(set.nodes[n]) || hit == Element::kNone ||
+                        !hits.isThere(set.nodeBlockObject[n / PatchSet::kBlock]))
+                        continue;
+                    if (set.receives(hit) && bright[set.elements[hit].patch]) reached[n] = 1;
+                }
+            for (std::uint32_t p = 0; p < bright.size(); ++p) {
+                const Patch& patch = set.patches[p];
+                if (bright[p] || !(isReached(patch.centreNode) ||
+                                   (patch.hasCornerNodes &&
+                                    std::ranges::any_of(patch.cornerNodes, isReached))))
+                    continue;
+                bright[p] = 1;
+                changed = true;
+            }
+        }
+        const Reach reach = findReach(set, hits, some);
+        EXPECT_EQ(reach.patches, bright) << "seed " << seed;
+        for (std::uint32_t n = 0; n < reached.size(); ++n)
+            ASSERT_EQ(reach.node(n), isReached(n)) << "seed " << seed << ", node " << n;
+    }
 }
 
 } // namespace
