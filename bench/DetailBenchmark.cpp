@@ -63,8 +63,7 @@ void detail(benchmark::State& state, const Move& move) {
         counters["update_rays"] = double(hits.rays() - rays);
         counters["ray_ratio"] = double(scratch) / double(hits.rays() - rays);
         counters["groups_visited"] = double(hits.groups() - groups);
-        counters["groups"] =
-            double(hits.nodes.groupCount() + hits.vertices.groupCount());
+        counters["groups"] = double(hits.nodes.groupCount() + hits.vertices.groupCount());
         state.SetIterationTime(seconds);
     }
 }

@@ -27,8 +27,7 @@ void DetailHits::takeVertices(const DetailHits& before, std::span<const std::uin
             ways[group].add(before.dirty_.ways(was / kGroup));
     }
     dirty_.takeOver(std::move(ways));
-    for (std::uint32_t group = 0; group < anew.size(); ++group)
-        dirty_.add(group, anew[group]);
+    for (std::uint32_t group = 0; group < anew.size(); ++group) dirty_.add(group, anew[group]);
 }
 
 /// \return whether anything was known of it

@@ -124,7 +124,8 @@ GroupOutcome DetailHits::trace(std::uint32_t group) {
     for (std::uint32_t i = 0; i < kGroup; ++i) {
         const std::uint32_t v = group * kGroup + i;
         const auto [patch, s, t] = patches_.vertexCoordinates[v];
-        if (patch == Element::kNone || !nodes_.isThere(patches_.vertexBlockObject[v / PatchSet::kBlock]))
+        if (patch == Element::kNone ||
+            !nodes_.isThere(patches_.vertexBlockObject[v / PatchSet::kBlock]))
             continue;
         const double expected =
             interpolateNodes<double>(patches_.patches[patch], s, t, nodes_.openness());

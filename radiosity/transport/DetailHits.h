@@ -22,8 +22,8 @@ namespace penumbra {
 /// (NodeHits), and what is met by rays from there. It depends on geometry alone.
 ///
 /// Rays are followed as those of nodes are. The result is what a new DetailHits would find, bit for
-/// bit. Of a vertex that is not in question only the first rays are kept, up to a patch's size: what is
-/// farther away does not matter to it.
+/// bit. Of a vertex that is not in question only the first rays are kept, up to a patch's size:
+/// what is farther away does not matter to it.
 class DetailHits {
 public:
     static constexpr int kRays = DetailRays::kRays;
@@ -79,7 +79,7 @@ public:
     }
     const NodeHits& nodes() const { return nodes_; }
 
-    std::size_t vertexCount() const; ///< that gather
+    std::size_t vertexCount() const;                   ///< that gather
     const GroupCount& count() const { return count_; } ///< of rays from vertices
 
 private:

@@ -27,8 +27,8 @@ IndirectLight::IndirectLight(const PatchSet& set, const RayScene& rays, const Di
       updates_(set, rays, table_, set.nodeBlockObject,
                {.visit = cost::kIndirectVisit, .entry = cost::kIndirectEntry}),
       sendersReached_(senders_.count()), nodes_(set.nodes.size()), rowSums_(set.nodes.size()),
-      sent_(senders_.count()), residuals_(senders_.count()),
-      colours_(senders_.count()), known_(senders_.count()), kept_(senders_.count()) {
+      sent_(senders_.count()), residuals_(senders_.count()), colours_(senders_.count()),
+      known_(senders_.count()), kept_(senders_.count()) {
     for (std::uint32_t n = 0; n < set.nodes.size(); ++n) nodeKeys_.push_back(addressOfNode(set, n));
     for (std::uint32_t p = 0; p < senders_.patchCount(); ++p) {
         const Patch& patch = set.patches[p];

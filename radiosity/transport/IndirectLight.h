@@ -166,7 +166,7 @@ private:
     BoundsTree linkBoxes_;
     RowTable table_;
     RowUpdates updates_;
-    std::vector<std::uint32_t> nodeKeys_;      ///< addresses
+    std::vector<std::uint32_t> nodeKeys_; ///< addresses
     Reach reach_;
     std::uint64_t reachRevision_ = 0;          ///< of the node hits that it is made of
     std::vector<std::uint8_t> sendersReached_; ///< 1: light gets to any of a sender

@@ -178,10 +178,9 @@ GroupOutcome NodeHits::trace(std::uint32_t group) {
         now.near = near_[n];
         const auto known = std::span(hits_).subspan(std::size_t(n) * kRays, kRays);
         std::ranges::copy(known, now.elements.begin());
-        const std::uint64_t which = dirty.anew >> i & 1
-                                        ? DetailRays::kAllRays
-                                        : rays_.affected(node, DetailRays::kAllRays, known, moved,
-                                                         kFar);
+        const std::uint64_t which =
+            dirty.anew >> i & 1 ? DetailRays::kAllRays
+                                : rays_.affected(node, DetailRays::kAllRays, known, moved, kFar);
         outcome.rays += std::uint64_t(rays_.follow(node, which, false, now));
         outcome.ways.add(now.ways);
         outcome.differs |= !std::ranges::equal(known, now.elements);

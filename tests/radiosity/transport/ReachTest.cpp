@@ -120,9 +120,9 @@ TEST(Reach, IsTheLeastSetThatIsClosed) {
                 }
             for (std::uint32_t p = 0; p < bright.size(); ++p) {
                 const Patch& patch = set.patches[p];
-                if (bright[p] || !(isReached(patch.centreNode) ||
-                                   (patch.hasCornerNodes &&
-                                    std::ranges::any_of(patch.cornerNodes, isReached))))
+                if (bright[p] ||
+                    !(isReached(patch.centreNode) ||
+                      (patch.hasCornerNodes && std::ranges::any_of(patch.cornerNodes, isReached))))
                     continue;
                 bright[p] = 1;
                 changed = true;
