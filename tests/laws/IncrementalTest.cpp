@@ -283,9 +283,9 @@ TEST(Incremental, BehindADoorLightIsWhereItIsFromScratch) {
     }
 }
 
-TEST(Incremental, ALampThatIsOffReachesWhatItDidWithoutARay) {
+TEST(Incremental, ALightThatIsOffReachesWhatItDidWithoutARay) {
     FollowedDoor door(kWays[0]);
-    door.rooms.lamp->setLuminance(Rgb(0.0f));
+    door.rooms.light->setLuminance(Rgb(0.0f));
     const std::uint64_t rays = door.lit.solver().done().rays;
     EXPECT_EQ(door.follow(), "");
     EXPECT_EQ(door.lit.solver().done().rays, rays);
@@ -318,6 +318,28 @@ TEST(Incremental, ADoorThatSlamsWhileLightIsUnderWayEndsAsFromScratch) {
             EXPECT_EQ(door.entriesOnto("/second"), 0u);
         }
     }
+}
+
+TEST(Incremental, WhatIsHiddenWhileOthersAreReplacedComesBackAsFromScratch) {
+    // What its rays met was gone at the first meshing anew, and asked for at the second.
+    FollowedDoor door(kWays[0]);
+    const auto shown = std::make_shared<Switch>("shown");
+    ASSERT_TRUE(door.rooms.scene.root->remove(door.rooms.box));
+    shown->add(door.rooms.box);
+    door.rooms.scene.root->add(shown);
+    const auto follow = [&] {
+        door.lit.follow(placeScene(door.rooms.scene));
+        door.lit.solver().settle();
+    };
+    follow();
+    shown->setVisible(false);
+    follow();
+    for (int i = 0; i < 2; ++i) {
+        door.rooms.cupboard->setMatrix(door.rooms.cupboard->matrix() * scaled(0.9));
+        follow();
+    }
+    shown->setVisible(true);
+    EXPECT_EQ(door.follow(), "");
 }
 
 } // namespace

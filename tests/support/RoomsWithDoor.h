@@ -7,11 +7,11 @@
 
 namespace penumbra {
 
-/// Two rooms of 2 m side by side, along x; a lamp in the first, and in the second a box, a closed
-/// cupboard and no lamp. The wall between them is a decimetre thick, and the door in it slides up.
+/// Two rooms of 2 m side by side, along x; a light in the first, and in the second a box, a closed
+/// cupboard and no light. The wall between them is a decimetre thick, and the door in it slides up.
 struct RoomsWithDoor {
     std::shared_ptr<Transform> door, box, cupboard;
-    std::shared_ptr<Light> lamp;
+    std::shared_ptr<Light> light;
     Scene scene;
 
     RoomsWithDoor() {
@@ -27,10 +27,10 @@ struct RoomsWithDoor {
         MeshData hollow = boxData({-0.3f, -0.3f, 0}, {0.3f, 0.3f, 0.6f}, false);
         addBox(hollow, {-0.25f, -0.25f, 0.05f}, {0.25f, 0.25f, 0.55f}, true);
         cupboard = thing("cupboard", moved(3.5, 1.5, 0), std::move(hollow));
-        lamp = std::make_shared<Light>("light", RectShape{0.5f, 0.5f}, Rgb(1.0f));
+        light = std::make_shared<Light>("light", RectShape{0.5f, 0.5f}, Rgb(1.0f));
         scene = sceneOf({object("first", first), object("second", second), object("wall", wall),
                          object("sill", floorData(2, 2.1f, 0.7f, 1.3f, 0)), door, box, cupboard,
-                         placed("lamp", moved(1, 1, 1.99), {lamp})});
+                         placed("light", moved(1, 1, 1.99), {light})});
     }
     void open() { door->setMatrix(moved(0, 0, 3)); }
     void shut() { door->setMatrix(moved(0, 0, 0)); }
