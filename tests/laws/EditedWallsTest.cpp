@@ -16,15 +16,14 @@ constexpr SolverOptions kSolving{.directOnly = true};
 /// sides, and a light in the first.
 struct TwoRooms {
     std::shared_ptr<Transform> partition =
-        placed("partition", glm::dmat4(1.0),
-               {std::make_shared<Mesh>(
-                   "mesh", boxData({-0.05f, -1.3f, -1.3f}, {0.05f, 1.3f, 1.3f}, false))});
+        movable("partition", {std::make_shared<Mesh>("mesh", boxData({-0.05f, -1.3f, -1.3f},
+                                                                     {0.05f, 1.3f, 1.3f}, false))});
     std::shared_ptr<Switch> choice = make<Switch>("choice", {partition});
-    std::shared_ptr<Transform> lamp =
-        placed("lamp", moved(-1.2, 0, 0.95),
+    std::shared_ptr<Transform> panel =
+        placed("panel", moved(-1.2, 0, 0.95),
                {std::make_shared<Light>("light", RectShape{0.4f, 0.3f}, Rgb(10))});
     Scene scene = sceneOf({room("first", -2.1f, -0.1f, {0, 2, 3, 4, 5}), choice,
-                           room("second", 0.1f, 2.1f, {1, 2, 3, 4, 5}), lamp});
+                           room("second", 0.1f, 2.1f, {1, 2, 3, 4, 5}), panel});
     LitScene lit{placeScene(scene), kMeshing, kSolving};
 
     TwoRooms() { lit.solver().settle(); }
@@ -50,11 +49,11 @@ struct TwoRooms {
         return *std::find_if(parts.begin(), parts.end(),
                              [&](const auto& p) { return p.path == path; });
     }
-    /// Of the lamp onto the vertices of the second room.
+    /// Of the light onto the vertices of the second room.
     std::size_t entriesBehind() const {
         std::size_t entries = 0;
         const PatchSet& set = lit.patches();
-        const std::uint32_t emitter = part("/lamp").emitters.first;
+        const std::uint32_t emitter = part("/panel").emitters.first;
         for (std::uint32_t b = 0; b < set.vertexBlockObject.size(); ++b)
             if (set.objects[set.vertexBlockObject[b].value].path == "/second")
                 entries += std::size_t(lit.solver().direct().rows()[emitter][b].entryCount());
@@ -151,10 +150,10 @@ TEST(EditedWalls, HideWhatASecondOneHidesAsWell) {
 
 TEST(EditedWalls, HideFromALightThatComesAndGoes) {
     TwoRooms rooms;
-    rooms.lamp->setMatrix(moved(1.2, 0, 0.95));
+    rooms.panel->setMatrix(moved(1.2, 0, 0.95));
     rooms.follow();
     rooms.expectLit("it is in the second room");
-    rooms.lamp->setMatrix(moved(-1.1, 0, 0.95));
+    rooms.panel->setMatrix(moved(-1.1, 0, 0.95));
     rooms.follow();
     rooms.expectDark("it is back in the first");
     rooms.partition->setMatrix(moved(0, 1.2, 0));

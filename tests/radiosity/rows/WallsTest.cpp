@@ -14,7 +14,9 @@ namespace {
 
 /// A wall [-1, 1] x [-1, 1] in the plane z = 0, and its mesh.
 BuiltPatches wall() {
-    return meshed(sceneOf({object("wall", floorData(-1, 1, -1, 1, 0))}), {.patchSize = 0.5f});
+    return meshed(
+        sceneOf({movable("wall", {std::make_shared<Mesh>("mesh", floorData(-1, 1, -1, 1, 0))})}),
+        {.patchSize = 0.5f});
 }
 
 TEST(Walls, HideBoxesOnTheirTwoSides) {
@@ -90,13 +92,12 @@ TEST(Walls, HideWhereTheirObjectIsAndOnlyIfItIsThere) {
 }
 
 TEST(Walls, AreLaidOutObjectByObjectInTheirFrames) {
-    const glm::dmat4 pose = moved(7, 2, 1) * scaled(2);
-    const BuiltPatches built = meshed(
-        sceneOf({object("tile", floorData(0, 0.1f, 0, 0.1f, 0)),
-                 placed("box", pose,
-                        {std::make_shared<Mesh>("mesh", boxData({-1, -1, -1}, {1, 1, 1}, false))}),
-                 object("floor", floorData(-1, 1, -1, 1, 0))}),
-        {.patchSize = 0.5f});
+    const auto box =
+        movable("box", {std::make_shared<Mesh>("mesh", boxData({-1, -1, -1}, {1, 1, 1}, false))});
+    box->setMatrix(moved(7, 2, 1) * scaled(2));
+    const BuiltPatches built = meshed(sceneOf({object("tile", floorData(0, 0.1f, 0, 0.1f, 0)), box,
+                                               object("floor", floorData(-1, 1, -1, 1, 0))}),
+                                      {.patchSize = 0.5f});
     const PatchSet& set = built.patches;
     ASSERT_EQ(set.walls.size(), 7u);
     for (std::uint32_t o = 0; o < set.objects.size(); ++o) {
