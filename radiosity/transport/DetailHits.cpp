@@ -88,9 +88,8 @@ void DetailHits::judgeChanged() {
         const auto more = nodePatches_.of(n);
         patches.insert(patches.end(), more.begin(), more.end());
     }
-    std::ranges::sort(patches);
-    const auto repeated = std::ranges::unique(patches);
-    patches.erase(repeated.begin(), repeated.end());
+    std::sort(patches.begin(), patches.end());
+    patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
     for (const std::uint32_t p : patches) revisit(p, false);
 }
 

@@ -43,6 +43,21 @@ struct Watchers {
     }
 };
 
+/// From patch to patch. \param found patches that light was found to get to, used up
+void spread(const Watchers& watchers, const NodePatches& patchesOf,
+            std::vector<std::uint32_t>& found, std::vector<std::uint8_t>& reachedNodes,
+            std::vector<std::uint8_t>& reachedPatches) {
+    while (!found.empty()) {
+        const std::uint32_t next = found.back();
+        found.pop_back();
+        for (const std::uint32_t n : watchers.of(next)) {
+            if (std::exchange(reachedNodes[n], std::uint8_t(1))) continue;
+            for (const std::uint32_t p : patchesOf.of(n))
+                if (!std::exchange(reachedPatches[p], std::uint8_t(1))) found.push_back(p);
+        }
+    }
+}
+
 } // namespace
 
 Reach findReach(const PatchSet& set, const NodeHits& hits, std::span<const std::uint8_t> lit) {
@@ -63,7 +78,7 @@ Reach findReach(const PatchSet& set, const NodeHits& hits, std::span<const std::
     for (std::uint32_t n = 0; n < reached.size(); ++n)
         if (!reached[n] && counts(n)) others.push_back(n);
 
-    // The others, from patch to patch: each is listed once, when light is found to get to it.
+    // The others: each is listed once, when light is found to get to it.
     Reach reach;
     reach.patches.assign(lit.begin(), lit.end());
     std::vector<std::uint32_t> found;
@@ -75,19 +90,8 @@ Reach findReach(const PatchSet& set, const NodeHits& hits, std::span<const std::
             continue;
         if (!std::exchange(reach.patches[p], std::uint8_t(1))) found.push_back(p);
     }
-    if (!found.empty() && !others.empty()) {
-        const Watchers watchers(set, hits, others);
-        const NodePatches patchesOf(set);
-        while (!found.empty()) {
-            const std::uint32_t next = found.back();
-            found.pop_back();
-            for (const std::uint32_t n : watchers.of(next)) {
-                if (std::exchange(reached[n], std::uint8_t(1))) continue;
-                for (const std::uint32_t p : patchesOf.of(n))
-                    if (!std::exchange(reach.patches[p], std::uint8_t(1))) found.push_back(p);
-            }
-        }
-    }
+    if (!found.empty() && !others.empty())
+        spread({set, hits, others}, NodePatches(set), found, reached, reach.patches);
 
     reach.nodes.resize((reached.size() + 63) / 64);
     for (std::size_t n = 0; n < reached.size(); ++n)
