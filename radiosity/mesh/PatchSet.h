@@ -126,7 +126,7 @@ struct ObjectPart {
     Pose pose;             ///< of a movable object; identity for the fixed part
     glm::dmat3 stretch{1.0};
     Range vertices, elements, patches, nodes, corners, emitters, walls;
-    ObjectShape shape; ///< empty for the fixed part
+    ObjectShape shape; ///< of the fixed part its walls alone
 };
 
 /// What textures say of elements and patches, found once, when the scene is meshed. All of it is

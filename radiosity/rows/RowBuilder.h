@@ -25,7 +25,7 @@ struct RowBuilder {
 
     /// Whose walls hide some of the block that is being updated from its sender altogether. Whoever
     /// updates it says so, whoever has it updated takes them.
-    std::vector<ObjectId> hiders;
+    std::vector<ObjectId> occluders;
 };
 
 } // namespace penumbra

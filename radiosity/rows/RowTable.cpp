@@ -56,9 +56,9 @@ void RowTable::insert(std::vector<Keys>& lists, std::span<const BlockerNote> not
     }
 }
 
-std::vector<RowTable::BlockerNote> RowTable::hiders(std::uint32_t row) const {
+std::vector<RowTable::BlockerNote> RowTable::occluders(std::uint32_t row) const {
     std::vector<BlockerNote> notes;
-    for (const std::uint64_t key : hiders_[row])
+    for (const std::uint64_t key : occluders_[row])
         notes.push_back({row, std::uint32_t(key), std::uint32_t(key >> 32)});
     std::stable_sort(notes.begin(), notes.end(),
                      [](const BlockerNote& a, const BlockerNote& b) { return a.block < b.block; });
@@ -74,9 +74,9 @@ void RowTable::forEachOf(const Keys& list, std::uint32_t object, Blocks blocks, 
         visit(std::uint32_t(*key));
 }
 
-void RowTable::forgetHiders(std::size_t row, ObjectId object, const PendingChange& change,
-                            Blocks blocks) {
-    Keys& list = hiders_[row];
+void RowTable::forgetOccluders(std::size_t row, ObjectId object, const PendingChange& change,
+                               Blocks blocks) {
+    Keys& list = occluders_[row];
     if (change.moves(object.value)) {
         std::erase_if(list, [&](std::uint64_t key) {
             return std::uint32_t(key) >= blocks.first && std::uint32_t(key) < blocks.end;
@@ -110,7 +110,7 @@ std::vector<BlockMask> RowTable::concerned(std::size_t row, const Bounds& sender
         forEachOf(blockers_[row], m.object, blocks, [&](std::uint32_t b) {
             masks.push_back({b, 0});
         });
-        forEachOf(hiders_[row], m.object, blocks, [&](std::uint32_t b) {
+        forEachOf(occluders_[row], m.object, blocks, [&](std::uint32_t b) {
             if (entries.has(b)) masks.push_back({b, ~entries[b].present()});
         });
         if (m.present) crossed(entries, blocks, sender, m.box, 0, masks);

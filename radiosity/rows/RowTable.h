@@ -38,7 +38,7 @@ struct PendingChange {
 class RowTable {
 public:
     explicit RowTable(std::size_t rows = 0)
-        : rows_(rows), known_(rows), blockers_(rows), hiders_(rows) {}
+        : rows_(rows), known_(rows), blockers_(rows), occluders_(rows) {}
 
     std::size_t size() const { return rows_.size(); }
     Row& operator[](std::size_t row) { return rows_[row]; }
@@ -62,12 +62,12 @@ public:
     /// Remembers them. Notes may repeat themselves.
     void note(std::span<const BlockerNote> notes) { insert(blockers_, notes); }
     /// Remembers objects with a wall that hides receivers of a block, which have no entry.
-    void noteHiders(std::span<const BlockerNote> notes) { insert(hiders_, notes); }
+    void noteOccluders(std::span<const BlockerNote> notes) { insert(occluders_, notes); }
     /// Of a row: by block.
-    std::vector<BlockerNote> hiders(std::uint32_t row) const;
+    std::vector<BlockerNote> occluders(std::uint32_t row) const;
     /// Takes out all entries of a row, and all notes of it.
     void clear(std::uint32_t row) {
-        rows_[row].clear(), blockers_[row].clear(), hiders_[row].clear();
+        rows_[row].clear(), blockers_[row].clear(), occluders_[row].clear();
     }
 
     /// Some blocks of a row, first ... end - 1.
@@ -80,7 +80,8 @@ public:
     std::vector<BlockMask> concerned(std::size_t row, const Bounds& sender, ObjectId object,
                                      const PendingChange& change, Blocks blocks) const;
     /// Forgets who hid receivers of them before a change: they are evaluated anew.
-    void forgetHiders(std::size_t row, ObjectId object, const PendingChange& change, Blocks blocks);
+    void forgetOccluders(std::size_t row, ObjectId object, const PendingChange& change,
+                         Blocks blocks);
 
 private:
     using Keys = std::vector<std::uint64_t>; ///< object << 32 | block, sorted
@@ -92,7 +93,7 @@ private:
 
     std::vector<Row> rows_;
     std::vector<std::uint32_t> known_;
-    std::vector<Keys> blockers_, hiders_; ///< a row each
+    std::vector<Keys> blockers_, occluders_; ///< a row each
     BoundsTree blocks_;
 };
 

@@ -50,8 +50,8 @@ public:
                        std::uint64_t anew, std::span<const MovedObject> moved,
                        const RowBlock& block);
 
-    /// See RowBuilder::hiders: of the block that is being probed.
-    std::vector<ObjectId> hiders;
+    /// See RowBuilder::occluders: of the block that is being probed.
+    std::vector<ObjectId> occluders;
 
     /// Rays since the last call.
     RayCount takeRayCount() { return std::exchange(rayCount_, {}); }

@@ -40,10 +40,10 @@ float factorBound(const RowUpdates::RowFacts& sender, const Bounds& receivers) {
 }
 
 /// Moves who hides receivers of a block to the notes.
-void takeHiders(std::vector<ObjectId>& hiders, const DirtyBlock& item,
-                std::vector<RowTable::BlockerNote>& notes) {
-    for (const ObjectId object : hiders) notes.push_back({item.row, item.block, object.value});
-    hiders.clear();
+void takeOccluders(std::vector<ObjectId>& occluders, const DirtyBlock& item,
+                   std::vector<RowTable::BlockerNote>& notes) {
+    for (const ObjectId object : occluders) notes.push_back({item.row, item.block, object.value});
+    occluders.clear();
 }
 
 } // namespace
@@ -184,8 +184,8 @@ void RowUpdates::find(std::size_t effort, const Facts& facts) {
         });
         for (const Search& one : searches) {
             dirty_.mark(one.row, one.found);
-            table_.forgetHiders(one.row, one.facts.object, *one.change, one.blocks);
-            table_.noteHiders(one.hidden);
+            table_.forgetOccluders(one.row, one.facts.object, *one.change, one.blocks);
+            table_.noteOccluders(one.hidden);
             for (const auto& note : one.hidden) hidden_.push_back(note.block);
             if (one.last) table_.edits(one.row) = edits_;
             cost += cost::kRowSearch + cost::kRowFind * (one.found.size() + one.hidden.size());
@@ -216,15 +216,16 @@ std::size_t RowUpdates::probe(const Expect& expect) {
     constexpr std::size_t kGrain = 8;
     while (probes_.size() < kMostProbes / kGrain) probes_.emplace_back(rayScene_);
     std::vector<ExpectedFactors> expected(unseen_.size());
-    std::vector<std::vector<RowTable::BlockerNote>> hiders(probes_.size());
+    std::vector<std::vector<RowTable::BlockerNote>> occluders(probes_.size());
     parallelFor(unseen_.size(), kGrain, [&](std::size_t first, std::size_t last) {
         ChangeProbe& probe = probes_[first / kGrain];
         for (std::size_t i = first; i < last; ++i) {
             expected[i] = expect(probe, unseen_[i], movedSince(unseen_[i].since));
-            takeHiders(probe.hiders, unseen_[i], hiders[first / kGrain]);
+            takeOccluders(probe.occluders, unseen_[i], occluders[first / kGrain]);
         }
     });
-    for (const auto& some : hiders) table_.noteHiders(some); // there may be nothing to be done
+    for (const auto& some : occluders)
+        table_.noteOccluders(some); // there may be nothing to be done
     for (std::size_t i = 0; i < unseen_.size(); ++i)
         dirty_.expect(unseen_[i].row, unseen_[i].block, expected[i]);
     for (ChangeProbe& probe : probes_) rays_ += probe.takeRayCount();
@@ -308,13 +309,13 @@ std::span<const DirtyBlock> RowUpdates::work(std::size_t effort, double enough, 
         const std::size_t count = std::min(tasks.size() - round, builders_.size());
         std::vector<std::uint64_t> changed(builders_.size());
         std::vector<std::vector<RowTable::BlockerNote>> notes(builders_.size()),
-            hiders(builders_.size());
+            occluders(builders_.size());
         parallelFor(count, 1, [&](std::size_t task, std::size_t) {
             RowBuilder& builder = builders_[task];
             for (std::size_t i = tasks[round + task].first; i < tasks[round + task].end(); ++i) {
                 const DirtyBlock& item = items[i];
                 const int entries = update(builder, item, movedSince(item.since), i);
-                takeHiders(builder.hiders, item, hiders[task]);
+                takeOccluders(builder.occluders, item, occluders[task]);
                 if (entries == 0) continue;
                 changed[task] += std::uint64_t(entries);
                 RowTable::listBlockers(set_, item.row, item.block, table_[item.row][item.block],
@@ -323,7 +324,7 @@ std::span<const DirtyBlock> RowUpdates::work(std::size_t effort, double enough, 
         });
         for (std::uint64_t n : changed) entriesChanged_ += n;
         for (const auto& some : notes) table_.note(some);
-        for (const auto& some : hiders) table_.noteHiders(some);
+        for (const auto& some : occluders) table_.noteOccluders(some);
     }
     for (RowBuilder& builder : builders_) rays_ += builder.takeRayCount();
     blocksVisited_ += items.size();

@@ -145,14 +145,14 @@ void DirectLight::takeOver(DirectLight& before, const PatchMatch& match) {
         if (was == PatchMatch::kNew) return;
         const auto row = std::uint32_t(e);
         EntryCarrier carrier = carrying.carrier();
-        std::vector<RowTable::BlockerNote> hiders;
+        std::vector<RowTable::BlockerNote> occluders;
         const auto invalid = [&](std::uint32_t block, std::span<const std::uint32_t> from) {
             if (hidesAlike(block, before, carrying)) return std::uint64_t(0);
-            return hiddenOtherwise({*this, row}, block, {before, was}, from, hiders);
+            return hiddenOtherwise({*this, row}, block, {before, was}, from, occluders);
         };
         anew[e] = carrying.carry({row, was}, before.table_, before.updates_.dirty(), invalid,
                                  carrier, table_);
-        carryHiders(row, before, carrying, match, std::move(hiders));
+        carryOccluders(row, before, carrying, match, std::move(occluders));
     });
     for (std::uint32_t e = 0; e < table_.size(); ++e) {
         if (match.emitters[e] == PatchMatch::kNew) continue;
@@ -189,10 +189,10 @@ std::uint64_t DirectLight::hiddenOtherwise(Hiding hides, std::uint32_t block, Hi
 }
 
 /// Remembers who hides what. \param notes of blocks that are not what they were
-void DirectLight::carryHiders(std::uint32_t row, const DirectLight& before,
-                              const RowCarrying& carrying, const PatchMatch& match,
-                              std::vector<RowTable::BlockerNote> notes) {
-    const auto were = before.table_.hiders(match.emitters[row]);
+void DirectLight::carryOccluders(std::uint32_t row, const DirectLight& before,
+                                 const RowCarrying& carrying, const PatchMatch& match,
+                                 std::vector<RowTable::BlockerNote> notes) {
+    const auto were = before.table_.occluders(match.emitters[row]);
     for (std::uint32_t b = 0; b < table_.blocks().size() && !were.empty(); ++b) {
         if (!hidesAlike(b, before, carrying)) continue;
         const std::uint32_t was = carrying.wasBlock(b);
@@ -201,7 +201,7 @@ void DirectLight::carryHiders(std::uint32_t row, const DirectLight& before,
         for (; note != were.end() && note->block == was; ++note)
             notes.push_back({row, b, match.objects[note->object]});
     }
-    table_.noteHiders(notes);
+    table_.noteOccluders(notes);
 }
 
 void DirectLight::apply(const SceneChange& change) {
@@ -271,22 +271,22 @@ bool DirectLight::update(std::size_t effort, double enough) {
     if (updates_.done(enough)) return false;
     const auto facts = [&](std::uint32_t row) { return factsOf(row); };
     const auto receiversFor = [&](const DirtyBlock& item, std::span<const MovedObject> moved,
-                                  std::vector<ObjectId>& hiders) {
+                                  std::vector<ObjectId>& occluders) {
         const bool present = set_.objects[set_.emitters[item.row].object.value].present &&
                              set_.objects[set_.vertexBlockObject[item.block].value].present;
         ReceiverBlock receivers{receiversOf(item.block), 0, {}, item.receivers};
-        if (present) receivers.wanted = ~hidden(item, moved, hiders);
+        if (present) receivers.wanted = ~hidden(item, moved, occluders);
         return receivers;
     };
     const auto expect = [&](ChangeProbe& probe, const DirtyBlock& item,
                             std::span<const MovedObject> moved) {
-        const ReceiverBlock receivers = receiversFor(item, moved, probe.hiders);
+        const ReceiverBlock receivers = receiversFor(item, moved, probe.occluders);
         return probe.at(emitters_[item.row], receivers, item.anew, moved,
                         table_[item.row][item.block]);
     };
     const auto update = [&](RowBuilder& builder, const DirtyBlock& item,
                             std::span<const MovedObject> moved, std::size_t) {
-        const ReceiverBlock receivers = receiversFor(item, moved, builder.hiders);
+        const ReceiverBlock receivers = receiversFor(item, moved, builder.occluders);
         return builder.emitters.update(emitters_[item.row], receivers, item.anew, moved,
                                        table_[item.row][item.block]);
     };
@@ -308,15 +308,16 @@ ObjectId DirectLight::wallBefore(std::uint32_t emitter, std::uint32_t vertex) co
 
 /// Bits: receivers of a block that a wall hides from the emitter, so that there need not be an
 /// entry. An entry that is not evaluated anew was not hidden when it last was: only what moved
-/// since may hide it. \param hiders receives who does
+/// since may hide it. \param occluders receives who does
 std::uint64_t DirectLight::hidden(const DirtyBlock& item, std::span<const MovedObject> moved,
-                                  std::vector<ObjectId>& hiders) const {
+                                  std::vector<ObjectId>& occluders) const {
     if (item.anew == 0 && !walls_.areAmong(moved)) return 0;
     const Bounds& sender = emitters_[item.row].box();
     const auto isHidden = [&](const Bounds& box, bool anew) {
         const ObjectId wall =
             anew ? walls_.between(sender, box) : walls_.between(sender, box, moved);
-        if (wall.valid() && (hiders.empty() || hiders.back() != wall)) hiders.push_back(wall);
+        if (wall.valid() && (occluders.empty() || occluders.back() != wall))
+            occluders.push_back(wall);
         return wall.valid();
     };
     const std::uint32_t first = item.block * kBlock;

@@ -92,8 +92,8 @@ private:
     std::uint64_t hiddenOtherwise(Hiding hides, std::uint32_t block, Hiding hid,
                                   std::span<const std::uint32_t> from,
                                   std::vector<RowTable::BlockerNote>& notes) const;
-    void carryHiders(std::uint32_t row, const DirectLight& before, const RowCarrying& carrying,
-                     const PatchMatch& match, std::vector<RowTable::BlockerNote> notes);
+    void carryOccluders(std::uint32_t row, const DirectLight& before, const RowCarrying& carrying,
+                        const PatchMatch& match, std::vector<RowTable::BlockerNote> notes);
     std::span<const Receiver> receiversOf(std::size_t block) const;
     void placeReceivers(std::vector<BlockMask>& masks);
     void touchBlock(std::uint32_t block);
@@ -102,7 +102,7 @@ private:
     void forEachPatch(std::uint32_t block, Visit visit) const;
     void describeReceivers();
     std::uint64_t hidden(const DirtyBlock& item, std::span<const MovedObject> moved,
-                         std::vector<ObjectId>& hiders) const;
+                         std::vector<ObjectId>& occluders) const;
     bool sumBlocks(std::size_t effort);
     bool averagePatches(std::size_t effort);
     void sumBlock(std::uint32_t block);

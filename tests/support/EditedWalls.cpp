@@ -17,6 +17,7 @@ void EditedWalls::add(const std::string& name) {
     const auto node = make<Transform>(
         name, {std::make_shared<Mesh>("mesh", boxData(-half, half, false, paint(Rgb(0.4f))))});
     node->setMatrix(anywhere());
+    node->setMovable(name != "board"); // which is fixed: an edit of it meshes anew
     node->setBeginsObject(true);
     const auto choice = make<Switch>(name + "Switch", {node});
     choice->setVisible(below(4) != 0);

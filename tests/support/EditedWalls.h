@@ -14,7 +14,8 @@
 namespace penumbra {
 
 /// Puts partitions into an EditableRoom, some of them hidden or not there at first, and moves,
-/// hides, shows, resizes, takes out and brings back these, the table and the room itself.
+/// hides, shows, resizes, takes out and brings back these, the table and the room itself. Two
+/// partitions are movable, so that moves of them are followed.
 class EditedWalls {
 public:
     EditedWalls(const Scene& scene, std::uint32_t seed);

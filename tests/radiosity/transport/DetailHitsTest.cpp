@@ -1,7 +1,6 @@
 // What is seen from where indirect light is in question, while things move.
 #include "radiosity/transport/DetailHits.h"
-#include "base/Parallel.h"
-#include "tests/support/EditedScenes.h"
+#include "tests/support/FollowedHits.h"
 
 #include <gtest/gtest.h>
 
@@ -51,28 +50,7 @@ std::string difference(const PatchSet& set, const AllHits& one, const AllHits& o
 }
 
 TEST(DetailHits, AfterEditsInStepsAreThoseOfNewOnes) {
-    for (std::uint32_t seed = 1; seed <= 12; ++seed) {
-        EditableRoom room(seed);
-        LitScene lit(placeScene(room.scene()), EditableRoom::meshing(), {.directOnly = true});
-        auto hits = std::make_unique<AllHits>(lit.patches());
-        hits->settle();
-        std::mt19937 random(seed);
-        std::string said;
-        for (int edit = 0; edit < 12; ++edit) {
-            said += room.edit();
-            const LitScene::Followed followed = lit.follow(placeScene(room.scene()));
-            if (followed.rebuilt)
-                hits = std::make_unique<AllHits>(lit.patches());
-            else
-                hits->apply(followed.change);
-            for (std::uint32_t pieces = random() % 20; pieces > 0; --pieces) hits->work();
-        }
-        hits->settle();
-        const ThreadLimit one(1); // of the new ones: any number gives the same
-        AllHits fresh(lit.patches());
-        fresh.settle();
-        ASSERT_EQ(difference(lit.patches(), *hits, fresh), "") << "seed " << seed << ": " << said;
-    }
+    expectEditsInStepsEndAsNew<AllHits>([](AllHits& hits) { return hits.work(); }, difference);
 }
 
 /// Two closed rooms side by side, each with a box in it.

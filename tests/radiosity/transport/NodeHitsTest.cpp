@@ -1,7 +1,6 @@
 // What nodes see, while things move.
 #include "radiosity/transport/NodeHits.h"
-#include "base/Parallel.h"
-#include "tests/support/EditedScenes.h"
+#include "tests/support/FollowedHits.h"
 #include "tests/support/RoomsWithDoor.h"
 
 #include <gtest/gtest.h>
@@ -46,27 +45,8 @@ struct Rooms {
 };
 
 TEST(NodeHits, AfterEditsInStepsAreThoseOfNewOnes) {
-    for (std::uint32_t seed = 1; seed <= 12; ++seed) {
-        EditableRoom room(seed);
-        LitScene lit(placeScene(room.scene()), EditableRoom::meshing(), {.directOnly = true});
-        auto hits = std::make_unique<NodeHits>(lit.patches());
-        std::mt19937 random(seed);
-        std::string said;
-        for (int edit = 0; edit < 12; ++edit) {
-            said += room.edit();
-            const LitScene::Followed followed = lit.follow(placeScene(room.scene()));
-            if (followed.rebuilt)
-                hits = std::make_unique<NodeHits>(lit.patches());
-            else
-                hits->apply(followed.change);
-            for (std::uint32_t pieces = random() % 20; pieces > 0; --pieces) hits->work(1000);
-        }
-        settle(*hits);
-        const ThreadLimit one(1); // of the new ones: any number gives the same
-        NodeHits fresh(lit.patches());
-        settle(fresh);
-        ASSERT_EQ(difference(lit.patches(), *hits, fresh), "") << "seed " << seed << ": " << said;
-    }
+    expectEditsInStepsEndAsNew<NodeHits>([](NodeHits& hits) { return hits.work(1000); },
+                                         difference);
 }
 
 TEST(NodeHits, RaysFromScratchAreSixtyFourANode) {
