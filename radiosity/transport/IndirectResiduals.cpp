@@ -63,11 +63,24 @@ void IndirectLight::residualsChanged() {
     listing_.reset();
 }
 
+namespace {
+
+/// Bounds of what some patches owe, and what they send.
+struct Part {
+    double dirty = 0, both = 0, area = 0, radiosity = 0;
+
+    void add(const Part& other) {
+        dirty = std::max(dirty, other.dirty);
+        both = std::max(both, other.both);
+        area += other.area;
+        radiosity += other.radiosity;
+    }
+};
+
+} // namespace
+
 void IndirectLight::updateResiduals() {
     residualsStale_ = false;
-    struct Part {
-        double dirty = 0, both = 0, area = 0, radiosity = 0;
-    };
     constexpr std::size_t kGrain = 512;
     std::vector<Part> parts((senders_.patchCount() + kGrain - 1) / kGrain);
     const std::vector<double> dirtyDirect = direct_.dirtyLight();
@@ -93,12 +106,7 @@ void IndirectLight::updateResiduals() {
         }
     });
     Part all;
-    for (const Part& part : parts) {
-        all.dirty = std::max(all.dirty, part.dirty);
-        all.both = std::max(all.both, part.both);
-        all.area += part.area;
-        all.radiosity += part.radiosity;
-    }
+    for (const Part& part : parts) all.add(part);
     const std::vector<SenderLight> now = senders_.average(reflects);
     most_ = 0;
     for (std::uint32_t s = 0; s < senders_.count(); ++s) {
