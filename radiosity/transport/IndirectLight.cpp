@@ -21,10 +21,9 @@ constexpr std::uint32_t kBlock = PatchSet::kBlock;
 } // namespace
 
 IndirectLight::IndirectLight(const PatchSet& set, const RayScene& rays, const DirectLight& direct,
-                             const NodeHits& nodeHits, std::size_t rowMemory,
-                             std::size_t flatPatches)
+                             const NodeHits& nodeHits, std::size_t rowMemory, bool clusters)
     : set_(set), rays_(rays), direct_(direct), nodeHits_(nodeHits), rowMemory_(rowMemory),
-      senders_(set, flatPatches), table_(senders_.count()),
+      senders_(set, clusters), table_(senders_.count()),
       updates_(set, rays, table_, set.nodeBlockObject,
                {.visit = cost::kIndirectVisit, .entry = cost::kIndirectEntry}),
       sendersReached_(senders_.count()), nodes_(set.nodes.size()), rowSums_(set.nodes.size()),

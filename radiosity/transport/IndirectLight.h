@@ -29,9 +29,9 @@ class DirectLight;
 class IndirectLight {
 public:
     /// \param rowMemory for rows [bytes]; beyond it they are not kept. All must outlive this.
-    /// \param flatPatches see IndirectSenders
+    /// \param clusters see SolverOptions
     IndirectLight(const PatchSet& set, const RayScene& rays, const DirectLight& direct,
-                  const NodeHits& nodeHits, std::size_t rowMemory, std::size_t flatPatches);
+                  const NodeHits& nodeHits, std::size_t rowMemory, bool clusters);
 
     /// Takes what still holds from the rows of another meshing, which are used up, and what has
     /// been sent through them. \pre nothing was done here as yet

@@ -12,7 +12,7 @@ namespace penumbra {
 namespace {
 
 /// How many times its own size a cluster must be away to represent its patches.
-constexpr float kFar = 3;
+constexpr float kFar = 3.5f;
 
 static_assert(Clusters::kParts == kPatchSamples);
 
@@ -25,7 +25,7 @@ float squaredGap(const Bounds& a, const Bounds& b) {
 
 } // namespace
 
-IndirectSenders::IndirectSenders(const PatchSet& set, std::size_t flatPatches)
+IndirectSenders::IndirectSenders(const PatchSet& set, bool clusters)
     : set_(set), clusterRanges_(set.objects.size()) {
     const std::size_t patches = set.patches.size();
     boxes_.resize(patches), parents_.assign(patches, Clusters::kNone), areas_.resize(patches);
@@ -37,7 +37,7 @@ IndirectSenders::IndirectSenders(const PatchSet& set, std::size_t flatPatches)
     for (std::size_t o = 0; o < set.objects.size(); ++o) {
         const ObjectPart& part = set.objects[o];
         std::vector<ClusterPatch> own;
-        for (std::uint32_t i = 0; i < part.patches.count && meshed > flatPatches; ++i)
+        for (std::uint32_t i = 0; i < part.patches.count && clusters; ++i)
             own.push_back({part.patches.first + i, part.shape.patches[i].position,
                            part.shape.patches[i].normal, areas_[part.patches.first + i]});
         clusterRanges_[o].first = count();

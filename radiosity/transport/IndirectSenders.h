@@ -24,9 +24,8 @@ namespace penumbra {
 /// is parted does not send, its parts do in its place, and clusters send the mean of these.
 class IndirectSenders {
 public:
-    /// `set` must outlive this. \param flatPatches if there are no more patches than these,
-    /// hidden ones included, there are no clusters
-    IndirectSenders(const PatchSet& set, std::size_t flatPatches);
+    /// `set` must outlive this. \param clusters if false there are none
+    IndirectSenders(const PatchSet& set, bool clusters);
 
     std::uint32_t count() const { return std::uint32_t(boxes_.size()); }
     std::uint32_t patchCount() const { return std::uint32_t(set_.patches.size()); }

@@ -36,7 +36,7 @@ Solver::Solver(const PatchSet& patches, const RayScene& rays, const SolverOption
     if (!options.directOnly && lit) {
         nodeHits_ = std::make_unique<NodeHits>(patches);
         indirect_ = std::make_unique<IndirectLight>(patches, rays, direct_, *nodeHits_,
-                                                    options.rowMemory, options.flatPatches);
+                                                    options.rowMemory, options.clusters);
         if (options.detail) detail_ = std::make_unique<DetailGather>(patches, *nodeHits_);
     }
     if (options.policy != PolicyKind::importance) setPolicy(options.policy);

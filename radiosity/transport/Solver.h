@@ -40,9 +40,9 @@ struct SolverOptions {
     std::uint64_t mostShots = 0;
     std::size_t rowMemory =
         2'000'000'000; ///< for rows of patches [bytes]; beyond it they are not kept
-    /// Of more patches than these indirect light goes through clusters; of fewer, from each of them
-    /// alone: more exact, but rows grow with the square of their number.
-    std::size_t flatPatches = 13'000;
+    /// False: indirect light goes from each patch alone, however far, to compare with. Rows grow
+    /// with the square of the number of patches then.
+    bool clusters = true;
 };
 
 /// Called now and then with the phase's name and the share done in [0, 1].

@@ -18,10 +18,10 @@ namespace penumbra {
 
 namespace {
 
-/// Rooms are small: half of them get clusters nevertheless.
+/// Half of the rooms get clusters.
 SolverOptions tight(std::uint32_t seed) {
     SolverOptions options{.residual = 1e-4};
-    if (seed % 2 == 0) options.flatPatches = 0;
+    options.clusters = seed % 2 == 0;
     return options;
 }
 
@@ -274,7 +274,7 @@ struct FollowedDoor {
 };
 
 const std::array<SolverOptions, 3> kWays{{{.residual = 1e-4},
-                                          {.residual = 1e-4, .flatPatches = 0},
+                                          {.residual = 1e-4, .clusters = false},
                                           {.residual = 1e-4, .detail = false}}};
 
 TEST(Incremental, BehindADoorLightIsWhereItIsFromScratch) {

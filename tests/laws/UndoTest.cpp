@@ -28,10 +28,9 @@ struct RoomWithABox {
 };
 
 std::unique_ptr<LitScene> light(const Scene& scene, const MeshingOptions& meshing, double residual,
-                                std::size_t flatPatches = SolverOptions().flatPatches) {
-    auto lit =
-        std::make_unique<LitScene>(placeScene(scene), meshing,
-                                   SolverOptions{.residual = residual, .flatPatches = flatPatches});
+                                bool clusters = true) {
+    auto lit = std::make_unique<LitScene>(
+        placeScene(scene), meshing, SolverOptions{.residual = residual, .clusters = clusters});
     lit->solver().settle();
     return lit;
 }

@@ -37,7 +37,7 @@ protected:
 
     Scene scene = furnishedRoom();
     BuiltPatches built = meshed(scene, kFine);
-    IndirectSenders senders{built.patches, 0};
+    IndirectSenders senders{built.patches, true};
     BoundsTree blocks;
 };
 
@@ -52,7 +52,7 @@ TEST_F(SendersOfARoom, GiveEachBlockTheLightOfEachPatchOnce) {
         }
     for (std::size_t b = 0; b < blocks.size(); ++b)
         senders.forEachLinked(blocks[b], [&](std::uint32_t) { ++links; });
-    EXPECT_LT(links, blocks.size() * senders.patchCount() / 2); // it pays
+    EXPECT_LT(links, blocks.size() * senders.patchCount() * 6 / 10); // it pays
 }
 
 TEST_F(SendersOfARoom, AreLinkedToTheSameBlocksFromEitherSide) {
@@ -95,7 +95,7 @@ TEST_F(SendersOfARoom, StandWhereAnObjectWasBuiltInPlace) {
     const Pose here = set().objects[chair.value].pose;
     placeObject(built.patches, chair, there);
     senders.place(chair);
-    const IndirectSenders fresh(set(), 0);
+    const IndirectSenders fresh(set(), true);
     for (std::uint32_t s = 0; s < senders.count(); ++s) {
         EXPECT_EQ(senders.box(s).lower, fresh.box(s).lower);
         EXPECT_EQ(senders.box(s).upper, fresh.box(s).upper);
@@ -105,9 +105,9 @@ TEST_F(SendersOfARoom, StandWhereAnObjectWasBuiltInPlace) {
     EXPECT_EQ(senders.linkedBlocks(senders.count() - 1, blocks), before);
 }
 
-TEST(IndirectSenders, OfASmallSceneArePatchesAlone) {
+TEST(IndirectSenders, WithoutClustersArePatchesAlone) {
     const BuiltPatches built = meshed(furnishedRoom(), kFine);
-    const IndirectSenders senders(built.patches, built.patches.patches.size());
+    const IndirectSenders senders(built.patches, false);
     EXPECT_EQ(senders.count(), senders.patchCount());
 }
 
@@ -118,9 +118,7 @@ TEST(IndirectSenders, ByTheirClustersLightARoomAsPatchesDo) {
     double power[2] = {};
     std::size_t entries[2] = {};
     for (int clustered = 0; clustered < 2; ++clustered) {
-        SolverOptions options{.residual = 1e-5};
-        if (clustered) options.flatPatches = 0;
-        LitScene lit(placed, kFine, options);
+        LitScene lit(placed, kFine, {.residual = 1e-5, .clusters = clustered != 0});
         lit.solver().settle();
         const std::vector<Rgb> radiosity = lit.solver().radiosity();
         for (std::size_t p = 0; p < radiosity.size(); ++p)
