@@ -106,9 +106,12 @@ bool emits(const Surface& surface, const SurfaceFace& face) {
 }
 
 /// Decides which sides there are. Lights count even when they are dark.
-void chooseAllSides(std::vector<Surface>& surfaces, BuiltPatches& built) {
+/// \param others lights that these surfaces do not have [m, world]
+void chooseAllSides(std::vector<Surface>& surfaces, std::span<const glm::vec3> others,
+                    BuiltPatches& built) {
     const PatchSet& set = built.patches;
-    std::vector<glm::vec3> lights; // a point a hair in front of every emitting face [world]
+    // A point a hair in front of every emitting face [world].
+    std::vector<glm::vec3> lights(others.begin(), others.end());
     std::vector<std::vector<const SurfaceMesh*>> siblings(set.objects.size());
     for (const Surface& surface : surfaces) siblings[surface.object.value].push_back(&surface.mesh);
     for (const Surface& surface : surfaces) {
@@ -132,7 +135,7 @@ void chooseAllSides(std::vector<Surface>& surfaces, BuiltPatches& built) {
         for (glm::vec3 light : lights) inFrame.push_back(pose.inverse(light));
         chooseSides(surface.mesh, inFrame, siblings[surface.object.value]);
     }
-    built.enclosuresLit = built.enclosures.lit(set);
+    built.enclosures.decide(set, others);
 }
 
 /// Area of all surfaces [m^2], and without backdrops.
@@ -443,14 +446,15 @@ float defaultPatchSize(double area) {
                                     : std::max<double>(kRoomPatch, std::sqrt(area / 6000.0)));
 }
 
-BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& options) {
+BuiltPatches buildObjects(const PlacedScene& scene, const MeshingOptions& sizes,
+                          std::span<const glm::vec3> lights) {
     BuiltPatches built;
     PatchSet& out = built.patches;
     listObjects(scene, out);
     std::vector<MeshData> lightMeshes;
     std::vector<Surface> surfaces = placeSurfaces(scene, out, lightMeshes);
-    chooseAllSides(surfaces, built);
-    setSizes(surfaces, options, out);
+    chooseAllSides(surfaces, lights, built);
+    setSizes(surfaces, sizes, out);
 
     LeftOut leftOut;
     PatchAssembly assembly(out);
@@ -459,6 +463,12 @@ BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& option
     assembly.finish();
     noteMaterialSources(surfaces, assembly, built);
     leftOut.say(built.warnings);
+    return built;
+}
+
+BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& options) {
+    BuiltPatches built = buildObjects(scene, options, {});
+    const PatchSet& out = built.patches;
     const bool dark = std::all_of(out.emitters.begin(), out.emitters.end(),
                                   [](const Emitter& e) { return maxChannel(e.exitance) <= 0; });
     if (dark && hasLights(scene))

@@ -6,6 +6,7 @@
 #include "scenegraph/Objects.h"
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,6 @@ struct BuiltPatches {
     std::vector<std::uint8_t> materialEmits;  ///< 0: the back of an emitting surface, or no light
     std::vector<LightSource> emitterSources;  ///< one an emitter
     Enclosures enclosures;
-    std::vector<bool> enclosuresLit;   ///< as it was decided, see Enclosures::lit()
     std::vector<std::string> warnings; ///< one line each, for people
 };
 
@@ -51,6 +51,12 @@ struct BuiltPatches {
 /// sees to what it touches. \throws Error if the scene is too wide to trace rays in, or would make
 /// too many elements
 BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& options = {});
+
+/// The same, of objects that stand in a scene with others, and are alone in `scene`.
+/// \param sizes those of the others
+/// \param lights of the others: points in front of what emits, see Enclosures [m, world]
+BuiltPatches buildObjects(const PlacedScene& scene, const MeshingOptions& sizes,
+                          std::span<const glm::vec3> lights);
 
 /// The same sizes, with those that follow the scene filled in: what buildPatches() would choose.
 /// They are to be resolved once, for the scene as it is at its start, or a thing that grows

@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <utility>
 
 namespace penumbra {
@@ -97,19 +100,28 @@ glm::vec3 ContactResolver::endOfWay(glm::vec3 from, glm::vec3 to, glm::vec3 norm
     return glm::mix(from, to, 0.98f * free);
 }
 
-Fans fansOf(const std::vector<Element>& elements, std::size_t vertexCount) {
-    Fans fans;
-    fans.first.resize(vertexCount + 1);
+void Fans::add(const std::vector<Element>& elements, Range added, Range vertices) {
     const auto forEachCorner = [&](auto visit) {
-        for (std::uint32_t e = 0; e < elements.size(); ++e)
+        for (std::uint32_t e = added.first; e < added.end(); ++e)
             for (std::uint32_t k = 0; k < (elements[e].isTriangle() ? 3u : 4u); ++k)
                 visit(elements[e].vertices[k], 4 * e + k);
     };
-    forEachCorner([&](std::uint32_t v, std::uint32_t) { ++fans.first[v + 1]; });
-    for (std::size_t v = 0; v < vertexCount; ++v) fans.first[v + 1] += fans.first[v];
-    fans.corners.resize(fans.first.back());
-    std::vector<std::uint32_t> next(fans.first.begin(), fans.first.end() - 1);
-    forEachCorner([&](std::uint32_t v, std::uint32_t corner) { fans.corners[next[v]++] = corner; });
+    const auto from = first.begin() + vertices.first, to = first.begin() + vertices.end() + 1;
+    std::vector<std::uint32_t> next(vertices.count);
+    forEachCorner([&](std::uint32_t v, std::uint32_t) { ++next[v - vertices.first]; });
+    std::inclusive_scan(next.begin(), next.end(), from + 1, std::plus(), *from);
+    std::fill(to, first.end(), *(to - 1));
+    corners.resize(first.back());
+    std::copy(from, to - 1, next.begin());
+    forEachCorner([&](std::uint32_t v, std::uint32_t corner) {
+        corners[next[v - vertices.first]++] = corner;
+    });
+}
+
+Fans fansOf(const std::vector<Element>& elements, std::size_t vertexCount) {
+    Fans fans;
+    fans.first.resize(vertexCount + 1);
+    fans.add(elements, {0, std::uint32_t(elements.size())}, {0, std::uint32_t(vertexCount)});
     return fans;
 }
 
@@ -117,20 +129,22 @@ float coverDistance(float elementSize, float hover) {
     return std::max(kCover * elementSize, 4 * hover);
 }
 
-Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point, glm::vec3 normal,
-          float cover) {
-    // Not quite along the normal, so as not to run along edges that stand on the surface.
-    const glm::vec3 direction = normal + glm::vec3(0.0123f, 0.0234f, -0.0171f);
-    std::vector<RayHit> hits;
-    // Only what is solid matters beyond that.
-    rays.all(point, direction, rays.anySolid() ? std::numeric_limits<float>::infinity() : cover,
-             hits);
-    // Inside of a solid is what is left once more than it is entered.
+namespace {
+
+/// Whether a hit lies so well within its triangle that rounding can't have missed another there.
+bool isSure(const RayHit& hit) {
+    constexpr float kSure = 1e-3f;
+    return hit.u > kSure && hit.v > kSure && hit.u + hit.v < 1 - kSure;
+}
+
+/// Whether a ray to infinity leaves some object more often than it enters it, if its hits say.
+/// \return nothing: it passes by an edge of something solid, and may have met two triangles there
+std::optional<bool> leavesSolid(std::span<const RayMesh> meshes, std::span<const RayHit> hits,
+                                glm::vec3 direction) {
     std::vector<std::pair<ObjectId, int>> left;
-    Lie lie = Lie::free;
     for (const RayHit& hit : hits) {
-        if (hit.distance < cover) lie = Lie::covered;
         if (!meshes[hit.object.value].solid[hit.triangle]) continue;
+        if (!isSure(hit)) return std::nullopt;
         const int side = glm::dot(hit.normal, direction) > 0 ? 1 : -1;
         const auto known = std::find_if(left.begin(), left.end(),
                                         [&](const auto& l) { return l.first == hit.object; });
@@ -139,8 +153,33 @@ Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point
         else
             known->second += side;
     }
-    for (const auto& [object, times] : left)
-        if (times > 0) lie = Lie::buried;
+    return std::ranges::any_of(left, [](const auto& l) { return l.second > 0; });
+}
+
+} // namespace
+
+Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point, glm::vec3 normal,
+          float cover) {
+    // Not quite along the normal, so as not to run along edges that stand on the surface. What is
+    // closed around a point is so in any direction: the first counts that passes by no edge.
+    constexpr std::array<glm::vec3, 5> kAside{{{0.0123f, 0.0234f, -0.0171f},
+                                               {-0.0317f, 0.0139f, 0.0223f},
+                                               {0.0271f, -0.0353f, 0.0119f},
+                                               {0.0149f, 0.0411f, 0.0367f},
+                                               {-0.0437f, -0.0187f, -0.0293f}}};
+    constexpr float kEver = std::numeric_limits<float>::infinity();
+    Lie lie = Lie::free;
+    std::vector<RayHit> hits;
+    for (const glm::vec3& aside : kAside) {
+        const bool first = &aside == kAside.data();
+        const glm::vec3 direction = normal + aside;
+        // Only what is solid matters beyond that.
+        rays.all(point, direction, rays.anySolid() ? kEver : cover, hits);
+        const auto covers = [&](const RayHit& hit) { return hit.distance < cover; };
+        if (first && std::ranges::any_of(hits, covers)) lie = Lie::covered;
+        const std::optional<bool> buried = leavesSolid(meshes, hits, direction);
+        if (buried) return *buried ? Lie::buried : lie;
+    }
     return lie;
 }
 

@@ -38,7 +38,8 @@ float coverDistance(float elementSize, float hover);
 /// the corner ends.
 class ContactResolver {
 public:
-    ContactResolver(const RayScene& rays, std::span<const RayMesh> meshes, float skin,
+    /// All must outlive this.
+    ContactResolver(const RayScene& rays, const std::vector<RayMesh>& meshes, float skin,
                     const std::vector<Vertex>& vertices)
         : rays_(rays), meshes_(meshes), skin_(skin), vertices_(vertices) {}
 
@@ -73,7 +74,7 @@ private:
     glm::vec3 endOfWay(glm::vec3 from, glm::vec3 to, glm::vec3 normal, float cover) const;
 
     const RayScene& rays_;
-    std::span<const RayMesh> meshes_;
+    const std::vector<RayMesh>& meshes_;
     float skin_;
     const std::vector<Vertex>& vertices_;
 };
@@ -84,6 +85,9 @@ struct Fans {
     std::span<const std::uint32_t> at(std::size_t vertex) const {
         return std::span(corners).subspan(first[vertex], first[vertex + 1] - first[vertex]);
     }
+    /// Takes in elements that came to be, of vertices that had none. \pre no vertex behind these
+    /// has any
+    void add(const std::vector<Element>& elements, Range added, Range vertices);
 };
 Fans fansOf(const std::vector<Element>& elements, std::size_t vertexCount);
 

@@ -22,7 +22,7 @@ void makeUnique(std::vector<std::uint32_t>& items) {
 Coverage::Coverage(PatchSet& set, const RayScene& rays)
     : set_(set), rays_(rays), resolver_(rays, set.rayMeshes, set.skin, set.vertices),
       shared_(set.uncoveredElements), fans_(fansOf(shared_, set.vertices.size())) {
-    orderElements();
+    for (std::uint32_t o = 0; o < set_.objects.size(); ++o) orderElements({o});
     std::vector<std::uint32_t> all;
     for (std::uint32_t e = 0; e < shared_.size(); ++e)
         if (set_.objects[set_.elementObject[e].value].present) all.push_back(e);
@@ -31,24 +31,30 @@ Coverage::Coverage(PatchSet& set, const RayScene& rays)
     if (!set_.nodes.empty()) parting_.emplace(set_, fans_, change.patches);
 }
 
-void Coverage::orderElements() {
-    // Patches lie along a curve; elements that no patch owns stay behind the others.
-    for (std::uint32_t o = 0; o < set_.objects.size(); ++o) {
-        const ObjectPart& part = set_.objects[o];
-        const std::size_t first = order_.size();
-        for (std::uint32_t p = part.patches.first; p < part.patches.end(); ++p) {
-            const Patch& patch = set_.patches[p];
-            order_.insert(order_.end(), set_.patchElements.begin() + patch.firstElement,
-                          set_.patchElements.begin() + patch.firstElement + patch.elementCount);
-        }
-        for (std::size_t i = first; i < order_.size(); i += kChunk) {
-            chunkFirst_.push_back(std::uint32_t(i));
-            chunkObject_.push_back({o});
-        }
+void Coverage::add(std::span<const ObjectId> objects) {
+    for (const ObjectId object : objects) {
+        const ObjectPart& part = set_.objects[object.value];
+        fans_.add(shared_, part.elements, part.vertices);
+        orderElements(object);
+        if (parting_) parting_->add(object);
     }
-    chunkFirst_.push_back(std::uint32_t(order_.size()));
-    places_.assign(std::vector<Bounds>(chunkObject_.size()));
-    for (std::size_t c = 0; c < chunkObject_.size(); ++c) updateChunk(c);
+}
+
+/// Patches lie along a curve; elements that no patch owns are left out.
+void Coverage::orderElements(ObjectId object) {
+    const ObjectPart& part = set_.objects[object.value];
+    const std::size_t first = order_.size();
+    for (std::uint32_t p = part.patches.first; p < part.patches.end(); ++p) {
+        const Patch& patch = set_.patches[p];
+        order_.insert(order_.end(), set_.patchElements.begin() + patch.firstElement,
+                      set_.patchElements.begin() + patch.firstElement + patch.elementCount);
+    }
+    for (std::size_t i = first; i < order_.size(); i += kChunk) {
+        chunkObject_.push_back(object);
+        chunkFirst_.push_back(std::uint32_t(std::min<std::size_t>(i + kChunk, order_.size())));
+        places_.append({});
+        updateChunk(chunkObject_.size() - 1);
+    }
 }
 
 Bounds Coverage::boxOf(std::uint32_t element) const {

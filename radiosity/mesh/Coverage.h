@@ -30,6 +30,9 @@ public:
         std::vector<std::uint32_t> patches;  ///< of the mesh: elements have other vertices
         Parting::Change parted;              ///< nothing in a set without nodes
     };
+    /// Objects came to `set` and `rays`, which hide them as yet. \pre their numbers, and those of
+    /// all that they are made of, follow on the others'
+    void add(std::span<const ObjectId> objects);
     /// Objects were posed anew, hidden or shown, in `set` and in `rays`.
     /// \param before their boxes before, empty for those that were hidden [m, world]
     Change update(std::span<const ObjectId> moved, std::span<const Bounds> before);
@@ -39,7 +42,7 @@ public:
 private:
     static constexpr std::uint32_t kChunk = 32;
 
-    void orderElements();
+    void orderElements(ObjectId object);
     void updateChunk(std::size_t chunk);
     void collectNear(const Bounds& box, std::vector<std::uint32_t>& elements) const;
     Bounds boxOf(std::uint32_t element) const;
@@ -53,13 +56,13 @@ private:
     PatchSet& set_;
     const RayScene& rays_;
     ContactResolver resolver_;
-    const std::vector<Element>& shared_;    ///< elements as they are when nothing else is near
-    Fans fans_;                             ///< of those
-    std::vector<std::uint32_t> order_;      ///< elements, object by object along a curve
-    std::vector<ObjectId> chunkObject_;     ///< kChunk consecutive ones of one object
-    std::vector<std::uint32_t> chunkFirst_; ///< into order_; one more than chunks
-    BoundsTree places_;                     ///< of the chunks
-    float largest_ = 0;                     ///< diagonal of an element's box, at most [m]
+    const std::vector<Element>& shared_;       ///< elements as they are when nothing else is near
+    Fans fans_;                                ///< of those
+    std::vector<std::uint32_t> order_;         ///< elements, object by object along a curve
+    std::vector<ObjectId> chunkObject_;        ///< kChunk consecutive ones of one object
+    std::vector<std::uint32_t> chunkFirst_{0}; ///< into order_; one more than chunks
+    BoundsTree places_;                        ///< of the chunks
+    float largest_ = 0;                        ///< diagonal of an element's box, at most [m]
     std::unordered_map<std::uint32_t, Result> results_; ///< of elements that are not all free
     std::unordered_map<std::uint32_t, std::uint32_t>
         own_; ///< private vertex of element * 4 + corner

@@ -65,13 +65,26 @@ glm::vec2 uvOf(const PatchSet& patches, const DrawnHit& hit) {
 }
 
 DrawnSurface::DrawnSurface(const PatchSet& patches)
-    : patches_(patches), partOf_(patches.objects.size()), rays_(meshes(), patches.skin) {
+    : patches_(patches), rays_(meshes(), patches.skin) {
+    hideAbsent();
+}
+
+/// All of it anew: which of two surfaces that lie on each other is met depends on the order of
+/// objects, in which the new ones have their places.
+void DrawnSurface::grow() {
+    rays_ = RayScene(meshes(), patches_.skin);
+    hideAbsent();
+}
+
+void DrawnSurface::hideAbsent() {
     for (std::uint32_t p = 0; p < parts_.size(); ++p)
-        if (!patches.objects[parts_[p].object].present) rays_.show({p}, false);
+        if (!patches_.objects[parts_[p].object].present) rays_.show({p}, false);
     rays_.commit();
 }
 
 std::vector<RayMesh> DrawnSurface::meshes() {
+    parts_.clear();
+    partOf_.resize(patches_.objects.size());
     std::vector<RayMesh> meshes;
     for (std::uint32_t object : objectsByKey(patches_)) {
         partOf_[object] = std::uint32_t(parts_.size());

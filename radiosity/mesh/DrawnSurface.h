@@ -31,6 +31,8 @@ class DrawnSurface {
 public:
     explicit DrawnSurface(const PatchSet& patches);
 
+    /// Takes in objects that came to the patch set.
+    void grow();
     /// Takes in that objects were posed anew, hidden or shown in the patch set.
     void follow(std::span<const ObjectId> objects);
 
@@ -44,6 +46,7 @@ private:
         std::vector<std::uint32_t> triangles; ///< element * 2 + (0: corners 0 1 2, 1: 0 2 3)
     };
     std::vector<RayMesh> meshes();
+    void hideAbsent();
 
     const PatchSet& patches_;
     std::vector<Part> parts_; ///< objects in an order that does not depend on what else there is

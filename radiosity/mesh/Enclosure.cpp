@@ -7,20 +7,19 @@ namespace penumbra {
 void Enclosures::addSurface(const SurfaceMesh& mesh, std::span<const SurfaceMesh* const> siblings,
                             ObjectId object) {
     for (ClosedPart& part : closedParts(mesh, siblings))
-        closed_.push_back({object, std::move(part)});
+        closed_.push_back({object, std::move(part), false});
 }
 
 void Enclosures::addLight(glm::vec3 point, ObjectId object) {
     lights_.push_back({object, point});
 }
 
-/// Where lights are that were not removed [m, world]. \param counts of which objects
-template <class Counts>
-std::vector<glm::vec3> Enclosures::places(const PatchSet& set, const Counts& counts) const {
+std::vector<glm::vec3>
+Enclosures::lights(const std::function<const Pose*(ObjectId)>& poseOf) const {
     std::vector<glm::vec3> places;
     for (const Light& light : lights_)
-        if (counts(light.object) && !set.objects[light.object.value].removed)
-            places.push_back(set.objects[light.object.value].pose.point(light.point));
+        if (const Pose* const pose = poseOf(light.object))
+            places.push_back(pose->point(light.point));
     return places;
 }
 
@@ -31,24 +30,53 @@ bool Enclosures::holds(const PatchSet& set, const Closed& closed,
                        [&](glm::vec3 light) { return closed.part.contains(pose.inverse(light)); });
 }
 
-std::vector<bool> Enclosures::lit(const PatchSet& set) const {
-    const std::vector<glm::vec3> lights = places(set, [](ObjectId) { return true; });
-    std::vector<bool> lit;
-    for (const Closed& closed : closed_) lit.push_back(holds(set, closed, lights));
-    return lit;
+void Enclosures::decide(const PatchSet& set, std::span<const glm::vec3> others) {
+    std::vector<glm::vec3> all =
+        lights([&](ObjectId object) { return &set.objects[object.value].pose; });
+    all.insert(all.end(), others.begin(), others.end());
+    for (Closed& closed : closed_) closed.lit = holds(set, closed, all);
 }
 
-bool Enclosures::changed(const PatchSet& set, std::span<const ObjectId> objects,
-                         const std::vector<bool>& lit) const {
+std::size_t Enclosures::litCount() const {
+    return std::size_t(std::ranges::count(closed_, true, &Closed::lit));
+}
+
+std::vector<ObjectId> Enclosures::changed(const PatchSet& set,
+                                          std::span<const ObjectId> objects) const {
     const auto moved = [&](ObjectId object) {
         return std::find(objects.begin(), objects.end(), object) != objects.end();
     };
-    const std::vector<glm::vec3> all = places(set, [](ObjectId) { return true; });
-    const std::vector<glm::vec3> some = places(set, moved);
-    for (std::size_t c = 0; c < closed_.size(); ++c)
-        if (holds(set, closed_[c], lit[c] || moved(closed_[c].object) ? all : some) != lit[c])
-            return true;
-    return false;
+    const auto there = [&](ObjectId object) {
+        const ObjectPart& part = set.objects[object.value];
+        return part.removed ? nullptr : &part.pose;
+    };
+    const std::vector<glm::vec3> all = lights(there);
+    const std::vector<glm::vec3> some =
+        lights([&](ObjectId object) { return moved(object) ? there(object) : nullptr; });
+    std::vector<ObjectId> changed;
+    for (const Closed& closed : closed_) {
+        const bool isHeld = holds(set, closed, closed.lit || moved(closed.object) ? all : some);
+        if (isHeld != closed.lit && (changed.empty() || changed.back() != closed.object))
+            changed.push_back(closed.object);
+    }
+    return changed;
+}
+
+void Enclosures::add(const Enclosures& others, std::uint32_t firstObject) {
+    for (Closed closed : others.closed_) {
+        closed.object.value += firstObject;
+        closed_.push_back(std::move(closed));
+    }
+    for (Light light : others.lights_) {
+        light.object.value += firstObject;
+        lights_.push_back(light);
+    }
+}
+
+void Enclosures::remove(ObjectId object) {
+    const auto isOf = [&](const auto& one) { return one.object == object; };
+    std::erase_if(closed_, isOf);
+    std::erase_if(lights_, isOf);
 }
 
 } // namespace penumbra

@@ -4,7 +4,9 @@
 #include "radiosity/mesh/PatchSet.h"
 #include "radiosity/surface/SurfaceMesh.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -21,26 +23,35 @@ public:
     /// \param point a hair in front of an emitting face [m, stretched frame of its object]
     void addLight(glm::vec3 point, ObjectId object);
 
-    /// For each closed surface whether it has a light inside, as the objects stand now. Lights that
-    /// are dark or hidden count as well, those that were removed do not.
-    std::vector<bool> lit(const PatchSet& set) const;
-    /// Whether that is no longer so, now that some objects were moved or removed. Only what may
-    /// stand in or around these is checked.
-    /// \param lit of lit(), before
-    bool changed(const PatchSet& set, std::span<const ObjectId> objects,
-                 const std::vector<bool>& lit) const;
+    /// Decides for each closed surface whether it has a light inside, as the objects stand now.
+    /// Lights that are dark or hidden count as well, those that were removed do not.
+    /// \param others lights of objects that are not in the set [m, world]
+    void decide(const PatchSet& set, std::span<const glm::vec3> others);
+    /// Objects with a surface of which that is no longer so, now that some were moved or removed,
+    /// or came. Only what may stand in or around these is checked.
+    std::vector<ObjectId> changed(const PatchSet& set, std::span<const ObjectId> objects) const;
+
+    std::size_t litCount() const; ///< of closed surfaces, as it was decided
+
+    /// Points in front of what emits, of objects that are in the scene [m, world].
+    /// \param poseOf an object's pose, or null: it is not to count
+    std::vector<glm::vec3> lights(const std::function<const Pose*(ObjectId)>& poseOf) const;
+    /// Takes in the surfaces and lights of another set. \param firstObject what its first object is
+    /// here; others follow
+    void add(const Enclosures& others, std::uint32_t firstObject);
+    /// An object is not in the scene any more.
+    void remove(ObjectId object);
 
 private:
     struct Closed {
         ObjectId object;
         ClosedPart part;
+        bool lit = false; ///< as it was decided
     };
     struct Light {
         ObjectId object;
         glm::vec3 point;
     };
-    template <class Counts>
-    std::vector<glm::vec3> places(const PatchSet& set, const Counts& counts) const;
     bool holds(const PatchSet& set, const Closed& closed, std::span<const glm::vec3> lights) const;
 
     std::vector<Closed> closed_;

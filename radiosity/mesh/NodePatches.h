@@ -15,6 +15,9 @@ class NodePatches {
 public:
     /// `set` must outlive this.
     explicit NodePatches(const PatchSet& set);
+    /// Takes in patches of the mesh that came to be, and their nodes. \pre no node behind these has
+    /// any
+    void add(Range patches, Range nodes);
     std::span<const std::uint32_t> of(std::uint32_t node) const {
         const PatchParts& parts = set_->parts;
         if (node + 1 >= first_.size()) {

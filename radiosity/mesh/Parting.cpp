@@ -44,6 +44,7 @@ Parting::Parting(PatchSet& set, const Fans& fans, std::span<const std::uint32_t>
     parts.firstPatch = std::uint32_t(set_.patches.size());
     parts.firstNode = std::uint32_t(set_.nodes.size());
     parts.used.assign(set_.patches.size(), 1);
+    std::fill_n(parts.used.begin() + set_.room.patches.first, set_.room.patches.count, 0);
     parts.vertexCoordinates = set_.vertexCoordinates;
     update(wholes);
     growing_ = false;
@@ -51,6 +52,15 @@ Parting::Parting(PatchSet& set, const Fans& fans, std::span<const std::uint32_t>
     const std::size_t blocks = (set_.nodes.size() - parts.firstNode) / kBlock;
     for (std::size_t i = std::max(kSparePatches, patches); i > 0; --i) addPatch();
     for (std::size_t i = std::max(kSpareBlocks, blocks); i > 0; --i) addBlock();
+}
+
+void Parting::add(ObjectId object) {
+    const ObjectPart& part = set_.objects[object.value];
+    PatchParts& parts = set_.parts;
+    nodePatches_.add(part.patches, part.nodes);
+    std::fill_n(parts.used.begin() + part.patches.first, part.patches.count, 1);
+    for (std::uint32_t v = part.vertices.first; v < part.vertices.end(); ++v)
+        parts.vertexCoordinates[v] = set_.vertexCoordinates[v];
 }
 
 Parting::Change Parting::update(std::span<const std::uint32_t> wholes) {

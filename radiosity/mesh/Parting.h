@@ -27,6 +27,9 @@ public:
     /// \param fans of the mesh without contacts \param wholes patches that contacts concern
     Parting(PatchSet& set, const Fans& fans, std::span<const std::uint32_t> wholes);
 
+    /// An object came to the set and to the fans.
+    void add(ObjectId object);
+
     struct Change {
         std::vector<std::uint32_t> patches; ///< that send from elsewhere, or not, or begin to
         std::vector<std::uint32_t> nodes;   ///< that lie elsewhere, or are new or given back

@@ -142,8 +142,10 @@ void placeObject(PatchSet& set, ObjectId object, const Pose& pose) {
 }
 
 std::size_t PatchSet::patchCount() const {
-    if (parts.used.empty()) return patches.size();
-    return std::size_t(std::count(parts.used.begin(), parts.used.end(), std::uint8_t(1)));
+    std::size_t count = 0;
+    for (std::size_t p = 0; p < patches.size(); ++p)
+        count += (parts.used.empty() || parts.used[p]) && !objects[patches[p].object.value].removed;
+    return count;
 }
 
 std::uint32_t addressOf(const ObjectPart& part, const Receiver& inFrame) {

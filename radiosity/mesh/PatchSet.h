@@ -121,7 +121,7 @@ struct ObjectShape {
 
 /// One rigid piece of the scene, and where its share of a PatchSet's arrays lies.
 struct ObjectPart {
-    std::string path;
+    std::string path;      ///< empty: it is not in the scene any more, nor will it be
     std::uint64_t key = 0; ///< of its path: the same in every scene that has it
     bool present = true;   ///< false: hidden, neither blocks nor sends nor receives
     bool removed = false;  ///< hidden because it is not in the scene any more
@@ -164,6 +164,14 @@ struct PatchParts {
     std::vector<std::uint32_t> sourceBlock;
 };
 
+/// Room for objects that come later: vertices and nodes that are padding, and patches that are not
+/// there. What is behind them, and all that refers to things by their numbers, stays as it is when
+/// objects come.
+struct PatchRoom {
+    ObjectId object; ///< whose blocks these are: one that is hidden, without a path
+    Range vertices, nodes, patches;
+};
+
 /// A scene, meshed: hot loops see these arrays and nothing else. Objects are brought to their poses
 /// by placeObject(), and what they cover of each other, and part, is kept up to date by Coverage.
 ///
@@ -189,6 +197,7 @@ struct PatchSet {
     std::vector<Receiver> nodes;              ///< where indirect light is received
     std::vector<Receiver> uncoveredNodes;     ///< the same when nothing else is near
     PatchParts parts;
+    PatchRoom room;
     std::vector<LitMaterial> materials;
     SurfaceTextures textures;
     std::vector<Emitter> emitters;
@@ -216,7 +225,7 @@ struct PatchSet {
         return (parts.used.empty() || parts.used[patch]) &&
                objects[patches[patch].object.value].present;
     }
-    /// Number of patches that are there, hidden ones included.
+    /// Number of patches of what is in the scene, hidden or not.
     std::size_t patchCount() const;
     /// Calls visit(patch) for what there is of a patch of the mesh: itself, or its parts.
     template <class Visit>

@@ -18,6 +18,14 @@ void PosedPatches::setAlone(std::span<const ObjectId> objects) {
     rays_.commit();
 }
 
+void PosedPatches::add(std::span<const ObjectId> objects) {
+    for (const ObjectId object : objects) {
+        rays_.add(set_.rayMeshes[object.value]);
+        rays_.show(object, false);
+    }
+    coverage_.add(objects);
+}
+
 PosedPatches::Change PosedPatches::pose(std::span<const ObjectPose> wanted) {
     Change change;
     std::vector<Bounds> before;

@@ -23,6 +23,9 @@ public:
     PosedPatches(const PosedPatches&) = delete;
     PosedPatches& operator=(const PosedPatches&) = delete;
 
+    /// Takes in objects that came to the set. They are hidden until they are posed.
+    void add(std::span<const ObjectId> objects);
+
     /// The pose that an object is to have.
     struct ObjectPose {
         ObjectId object;

@@ -181,12 +181,14 @@ void LightingWorker::followScene() {
     const LitScene::Followed followed = lit_->follow(placed);
     for (const Bounds& box : std::exchange(invalid_, {})) lit_->invalidate(box);
     if (followed.rebuilt) return build();
+    if (followed.added) build();
     std::optional<Bounds> moved;
     for (ObjectId object : followed.change.objects) {
         if (!moved) moved.emplace();
         moved->add(boundsOf(lit_->patches(), object));
     }
     viewer_.setMoved(moved);
+    if (followed.added) return;
     publisher_->follow(followed.change);
     if (publisher_->outgrown()) requestStore();
 }

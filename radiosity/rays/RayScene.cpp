@@ -14,6 +14,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <deque>
 #include <string>
 #include <utility>
 #include <vector>
@@ -181,7 +182,7 @@ struct RayScene::Impl {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
     bool broken = false;
-    std::vector<Member> members; // one an object; geometries point to them
+    std::deque<Member> members; // one an object; geometries point to them
 
     Impl() {
         // Embree builds on oneTBB's threads. A number of threads given here would limit the whole
@@ -252,12 +253,15 @@ struct RayScene::Impl {
 
 RayScene::RayScene(std::span<const RayMesh> objects, float skin)
     : impl_(std::make_unique<Impl>()), skin_(skin) {
-    impl_->members.resize(objects.size());
-    const auto solid = [](const RayMesh& mesh) { return std::ranges::count(mesh.solid, 1) > 0; };
-    anySolid_ = std::ranges::any_of(objects, solid);
-    for (std::size_t i = 0; i < objects.size(); ++i)
-        if (!objects[i].triangles.empty()) impl_->add(objects[i], unsigned(i));
+    for (const RayMesh& object : objects) add(object);
     commit();
+}
+
+void RayScene::add(const RayMesh& object) {
+    const auto id = unsigned(impl_->members.size());
+    impl_->members.emplace_back();
+    anySolid_ |= std::ranges::count(object.solid, 1) > 0;
+    if (!object.triangles.empty()) impl_->add(object, id);
 }
 
 void RayScene::move(ObjectId object, std::span<const glm::vec3> vertices) {

@@ -57,6 +57,8 @@ public:
     RayScene(RayScene&&) noexcept;
     RayScene& operator=(RayScene&&) noexcept;
 
+    /// Adds an object, which is seen by rays after commit(). Its number follows on the others'.
+    void add(const RayMesh& object);
     /// Moves an object to new vertices, as many as it has, or hides it. Seen by rays after
     /// commit().
     void move(ObjectId object, std::span<const glm::vec3> vertices);

@@ -41,6 +41,10 @@ public:
         : rows_(rows), known_(rows), blockers_(rows), occluders_(rows) {}
 
     std::size_t size() const { return rows_.size(); }
+    /// Adds empty rows at the end.
+    void grow(std::size_t rows) {
+        rows_.resize(rows), known_.resize(rows), blockers_.resize(rows), occluders_.resize(rows);
+    }
     Row& operator[](std::size_t row) { return rows_[row]; }
     const Row& operator[](std::size_t row) const { return rows_[row]; }
     const std::vector<Row>& rows() const { return rows_; }

@@ -26,12 +26,20 @@ Heights heightsOf(const Bounds& box, const Walls::Plane& plane) {
 float lowest(const Heights& heights) {
     return *std::min_element(heights.begin(), heights.end());
 }
+float highest(const Heights& heights) {
+    return *std::max_element(heights.begin(), heights.end());
+}
 
 } // namespace
 
 Walls::Walls(const PatchSet& set) : set_(set), walls_(set.walls.size()) {
     boxes_.assign(std::vector<Bounds>(walls_.size()));
     for (std::uint32_t o = 0; o < set.objects.size(); ++o) place({o});
+}
+
+void Walls::grow() {
+    for (std::size_t i = walls_.size(); i < set_.walls.size(); ++i) boxes_.append({});
+    walls_.resize(set_.walls.size());
 }
 
 Walls::Sides Walls::sidesOf(const Wall& wall) {
@@ -85,16 +93,17 @@ ObjectId Walls::between(const Bounds& a, const Bounds& b) const {
     return found;
 }
 
-ObjectId Walls::between(const Bounds& a, const Bounds& b,
-                        std::span<const MovedObject> objects) const {
-    if (a.empty() || b.empty()) return {};
-    for (const MovedObject& object : objects) {
-        const Range own = set_.objects[object.object].walls;
-        if (own.count == 0 || !object.present || !shaftMeets(a, b, object.box)) continue;
-        for (std::uint32_t i = own.first; i < own.end(); ++i)
-            if (!boxes_[i].empty() && hides(walls_[i], a, b)) return walls_[i].object;
-    }
-    return {};
+std::vector<std::uint32_t> Walls::beside(const Bounds& a, const Bounds& b) const {
+    std::vector<std::uint32_t> walls;
+    if (a.empty() || b.empty()) return walls;
+    boxes_.query([&](std::size_t n) { return shaftMeets(a, b, boxes_.node(n)); },
+                 [&](std::size_t i) {
+                     const Heights ha = heightsOf(a, walls_[i].plane),
+                                   hb = heightsOf(b, walls_[i].plane);
+                     if ((lowest(ha) > 0 && lowest(hb) < 0) || (highest(ha) < 0 && highest(hb) > 0))
+                         walls.push_back(std::uint32_t(i));
+                 });
+    return walls;
 }
 
 bool Walls::areAmong(std::span<const MovedObject> objects) const {

@@ -11,8 +11,9 @@
 namespace penumbra {
 
 /// The large faces of the objects that are there: walls, floors, partitions. Where one of them
-/// stands between an emitter and a block of receivers no ray is needed to know that all of them are
-/// in its shadow, and the light of a building's other rooms costs nothing here.
+/// stands between an emitter and a receiver no ray is needed to know that it is in its shadow; most
+/// blocks of receivers lie in it as a whole, and the light of a building's other rooms costs
+/// nothing here.
 class Walls {
 public:
     /// Points p with normal . p = offset.
@@ -23,6 +24,8 @@ public:
     /// \param set must outlive this
     explicit Walls(const PatchSet& set);
 
+    /// Takes in walls that came to the set.
+    void grow();
     /// Follows an object that was posed anew, hidden or shown.
     void place(ObjectId object);
 
@@ -30,8 +33,14 @@ public:
     /// Between convex regions all crossings lie within the hull of those of the 8 x 8 segments
     /// between corners, so these decide. Exact up to clearanceAt(), on the side of not hiding.
     ObjectId between(const Bounds& a, const Bounds& b) const;
-    /// The same, of some objects alone.
-    ObjectId between(const Bounds& a, const Bounds& b, std::span<const MovedObject> objects) const;
+    /// Faces that may stand between all of one box and some of another: part of that lies beyond
+    /// them. By number, see isHidden().
+    std::vector<std::uint32_t> beside(const Bounds& a, const Bounds& b) const;
+    /// Whether a face hides a point from all of a box.
+    bool isHidden(std::uint32_t wall, const Bounds& from, glm::vec3 point) const {
+        return hides(walls_[wall], from, {point, point});
+    }
+    ObjectId objectOf(std::uint32_t wall) const { return walls_[wall].object; }
     /// Whether any of some objects has a face that may hide anything.
     bool areAmong(std::span<const MovedObject> objects) const;
 

@@ -49,6 +49,9 @@ public:
 
     /// With the policy bound / cost, until another is set.
     DirtySet(std::size_t rows, const Costs& costs);
+    /// More rows, of which nothing is dirty.
+    void grow(std::size_t rows) { rows_.resize(rows); }
+    std::size_t rows() const { return rows_.size(); }
     /// Another policy for all that is dirty, and for what comes.
     void setPolicy(std::shared_ptr<SchedulingPolicy> policy);
     /// The viewer has moved: priorities are asked for again.

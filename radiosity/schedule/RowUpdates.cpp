@@ -53,6 +53,13 @@ RowUpdates::RowUpdates(const PatchSet& set, const RayScene& rays, RowTable& tabl
     : set_(set), rayScene_(rays), table_(table), blockObjects_(blockObjects), costs_(costs),
       row_(table.size()), dirty_(table.size(), costs) {}
 
+void RowUpdates::grow() {
+    const std::size_t before = dirty_.rows();
+    if (row_ == before) row_ = table_.size(); // all is found as it was
+    dirty_.grow(table_.size());
+    for (std::size_t row = before; row < table_.size(); ++row) setCurrent(row);
+}
+
 void RowUpdates::add(std::vector<ObjectId> objects, std::vector<BlockMask> receivers,
                      std::vector<Bounds> regions) {
     ++edits_;

@@ -30,6 +30,8 @@ public:
     RowUpdates(const RowUpdates&) = delete;
     RowUpdates& operator=(const RowUpdates&) = delete;
 
+    /// The table has more rows than before. They have nothing to catch up with.
+    void grow();
     /// Objects were posed anew, hidden or shown; receivers lie elsewhere. Their own receivers are
     /// to be among these. What crosses one of the regions is to be evaluated anew [m, world].
     void add(std::vector<ObjectId> objects, std::vector<BlockMask> receivers,

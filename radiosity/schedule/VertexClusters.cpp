@@ -19,7 +19,8 @@ VertexClusters::VertexClusters(const PatchSet& patches, std::size_t most) : patc
     std::vector<std::uint32_t> objects;
     for (std::uint32_t b = 0; b < blocks.size(); ++b) {
         objects.push_back(patches.vertexBlockObject[b].value);
-        if (b < patches.firstPrivate / kBlock) // others are of any surface, here and there
+        if (b < patches.firstPrivate / kBlock && // others are of any surface, here and there
+            !patches.room.vertices.contains(b * kBlock))
             blocks[b].box.add(patches.vertices[b * kBlock].position);
     }
     clusters_ = clusterBlocks(blocks, objects, most);

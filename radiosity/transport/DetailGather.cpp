@@ -57,7 +57,24 @@ DetailGather::DetailGather(const PatchSet& patches, NodeHits& nodes)
 
 DetailGather::~DetailGather() = default;
 
+/// The mean.
+DetailGather::Light DetailGather::usual(const std::vector<Light>& lights) {
+    glm::dvec3 sum(0);
+    for (const Light& light : lights)
+        sum += glm::dvec3(light.colour.r, light.colour.g, light.colour.b);
+    const Rgb mean = toRgb(sum / double(std::max<std::size_t>(lights.size(), 1)));
+    return {mean, luminance(mean)};
+}
+
 /// Of what is new nothing is known but what is usual.
+void DetailGather::add(std::span<const ObjectId> objects) {
+    hits_.add(objects);
+    if (sent_.nodes.empty()) return;
+    sent_.all.resize(patches_.elements.size(), usual(sent_.all));
+    sent_.direct.resize(patches_.elements.size(), usual(sent_.direct));
+}
+
+/// Likewise.
 void DetailGather::takeOver(const DetailGather& before, const PatchMatch& match,
                             const NodeHits::Taken& taken) {
     if (!hits_.takeOver(before.hits_, match, taken) || before.sent_.nodes.empty()) return;
@@ -70,13 +87,6 @@ void DetailGather::takeOver(const DetailGather& before, const PatchMatch& match,
         to.assign(numbers.size(), usual);
         for (std::size_t i = 0; i < numbers.size(); ++i)
             if (numbers[i] != PatchMatch::kNew) to[i] = from[numbers[i]];
-    };
-    const auto usual = [](const std::vector<Light>& lights) {
-        glm::dvec3 sum(0);
-        for (const Light& light : lights)
-            sum += glm::dvec3(light.colour.r, light.colour.g, light.colour.b);
-        const Rgb mean = toRgb(sum / double(std::max<std::size_t>(lights.size(), 1)));
-        return Light{mean, luminance(mean)};
     };
     glm::dvec3 nodes(0);
     for (const glm::dvec3 node : before.sent_.nodes) nodes += node;

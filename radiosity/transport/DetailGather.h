@@ -49,6 +49,7 @@ public:
     /// done. \pre nothing was done here, and the nodes took over
     void takeOver(const DetailGather& before, const PatchMatch& match,
                   const NodeHits::Taken& taken);
+    void add(std::span<const ObjectId> objects); ///< see Solver
     /// Takes note of an edit that has been made to the patch set. Traces nothing.
     /// \param moves what the nodes made of the change
     void apply(const SceneChange& change, std::span<const NodeHits::Move> moves);
@@ -93,6 +94,7 @@ private:
         std::vector<glm::dvec3> nodes;  ///< [lux]
     };
     struct Sweep;
+    static Light usual(const std::vector<Light>& lights);
     /// \param bounded bits: rays that count for a luminance of `most` [lm/m^2] at the most
     glm::dvec3 gathered(const Sent& sent, std::span<const std::uint32_t> hits, bool slit,
                         std::uint64_t bounded = 0, float most = 0) const;

@@ -52,6 +52,14 @@ void DetailHits::resize() {
     groups_.resize(patches_.vertices.size() / kGroup);
 }
 
+void DetailHits::add(std::span<const ObjectId> objects) {
+    for (const ObjectId object : objects) {
+        const ObjectPart& part = patches_.objects[object.value];
+        fans_.add(patches_.uncoveredElements, part.elements, part.vertices);
+        nodePatches_.add(part.patches, part.nodes);
+    }
+}
+
 void DetailHits::apply(const SceneChange& change, std::span<const NodeHits::Move> moves) {
     resize();
     for (const auto& [object, before, now] : moves) {

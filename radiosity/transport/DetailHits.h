@@ -53,6 +53,7 @@ public:
     /// \return whether anything was taken
     bool takeOver(const DetailHits& before, const PatchMatch& match, const NodeHits::Taken& taken);
 
+    void add(std::span<const ObjectId> objects); ///< see Solver
     /// \param moves what the nodes made of the change
     void apply(const SceneChange& change, std::span<const NodeHits::Move> moves);
     void invalidate(const Bounds& region); ///< has all that crosses a box [m, world] traced anew

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace penumbra {
 
@@ -29,9 +31,33 @@ DirectLight::DirectLight(const PatchSet& set, const RayScene& rays, int samples)
                {.visit = cost::kDirectVisit, .entry = cost::kDirectEntry}),
       patchTouched_(set.patches.size()), patches_(set.patches.size()),
       patchLit_(set.patches.size()) {
-    for (const Emitter& emitter : set.emitters) emitters_.push_back(sender(emitter, samples));
+    placeEmitters();
     blockPatches_.resize(set.firstPrivate / kBlock);
-    for (const Element& element : set.uncoveredElements) {
+    noteBlocks({0, std::uint32_t(set.elements.size())});
+    std::vector<BlockMask> all;
+    for (std::uint32_t b = 0; b < set.vertices.size() / kBlock; ++b)
+        all.push_back({b, ~std::uint64_t(0)});
+    placeReceivers(all);
+    updates_.add({}, std::move(all));
+}
+
+/// All of them anew: they refer to those of the set, which may lie elsewhere in memory now.
+void DirectLight::placeEmitters() {
+    emitters_.clear();
+    for (const Emitter& emitter : set_.emitters) emitters_.push_back(sender(emitter, samples_));
+    order_.resize(emitters_.size());
+    std::iota(order_.begin(), order_.end(), 0u);
+    const auto address = [&](std::uint32_t e) {
+        const ObjectPart& part = set_.objects[set_.emitters[e].object.value];
+        return std::pair(part.key, e - part.emitters.first);
+    };
+    std::ranges::stable_sort(order_, {}, address);
+}
+
+/// Notes which patches the corners of some elements may light.
+void DirectLight::noteBlocks(Range elements) {
+    for (std::uint32_t e = elements.first; e < elements.end(); ++e) {
+        const Element& element = set_.uncoveredElements[e];
         if (element.patch == Element::kNone) continue;
         for (std::uint32_t v : element.vertices) {
             std::vector<std::uint32_t>& patches = blockPatches_[v / kBlock];
@@ -39,11 +65,18 @@ DirectLight::DirectLight(const PatchSet& set, const RayScene& rays, int samples)
                 patches.push_back(element.patch);
         }
     }
-    std::vector<BlockMask> all;
-    for (std::uint32_t b = 0; b < set.vertices.size() / kBlock; ++b)
-        all.push_back({b, ~std::uint64_t(0)});
-    placeReceivers(all);
-    updates_.add({}, std::move(all));
+}
+
+void DirectLight::add(std::span<const ObjectId> objects) {
+    walls_.grow();
+    placeEmitters();
+    const std::size_t before = table_.size();
+    table_.grow(emitters_.size());
+    for (std::size_t row = before; row < table_.size(); ++row)
+        table_[row].resize(table_.blocks().size());
+    updates_.grow();
+    for (const ObjectId object : objects) noteBlocks(set_.objects[object.value].elements);
+    described_ = false;
 }
 
 std::span<const Receiver> DirectLight::receiversOf(std::size_t block) const {
@@ -113,27 +146,6 @@ std::vector<double> DirectLight::dirtyLight() const {
     return light;
 }
 
-/// Tells which wall hides vertices from an emitter, asked block by block.
-class DirectLight::Hiding {
-public:
-    Hiding(const DirectLight& light, std::uint32_t emitter) : light_(light), emitter_(emitter) {}
-    std::uint32_t emitter() const { return emitter_; }
-    bool isPadding(std::uint32_t vertex) const {
-        return penumbra::isPadding(light_.receivers_[vertex]);
-    }
-    ObjectId wallBefore(std::uint32_t vertex) {
-        if (vertex >= light_.set_.firstPrivate || vertex / kBlock != block_)
-            wall_ = light_.wallBefore(emitter_, vertex);
-        block_ = vertex / kBlock;
-        return wall_;
-    }
-
-private:
-    const DirectLight& light_;
-    std::uint32_t emitter_, block_ = PatchMatch::kNew; ///< of shared vertices, hidden as one
-    ObjectId wall_;
-};
-
 void DirectLight::takeOver(DirectLight& before, const PatchMatch& match) {
     if (!before.described_) before.describeReceivers();
     describeReceivers();
@@ -145,14 +157,9 @@ void DirectLight::takeOver(DirectLight& before, const PatchMatch& match) {
         if (was == PatchMatch::kNew) return;
         const auto row = std::uint32_t(e);
         EntryCarrier carrier = carrying.carrier();
-        std::vector<RowTable::BlockerNote> occluders;
-        const auto invalid = [&](std::uint32_t block, std::span<const std::uint32_t> from) {
-            if (hidesAlike(block, before, carrying)) return std::uint64_t(0);
-            return hiddenOtherwise({*this, row}, block, {before, was}, from, occluders);
-        };
-        anew[e] = carrying.carry({row, was}, before.table_, before.updates_.dirty(), invalid,
-                                 carrier, table_);
-        carryOccluders(row, before, carrying, match, std::move(occluders));
+        anew[e] =
+            carrying.carry({row, was}, before.table_, before.updates_.dirty(), carrier, table_);
+        carryOccluders(row, before, carrying, match);
     });
     for (std::uint32_t e = 0; e < table_.size(); ++e) {
         if (match.emitters[e] == PatchMatch::kNew) continue;
@@ -164,37 +171,22 @@ void DirectLight::takeOver(DirectLight& before, const PatchMatch& match) {
     for (std::uint32_t b = 0; b < table_.blocks().size(); ++b) touchBlock(b);
 }
 
-/// Whether walls that are what they were hide the same of a block: it has the receivers that it
-/// had, and these are hidden as one, or one by one, as before.
-bool DirectLight::hidesAlike(std::uint32_t block, const DirectLight& before,
-                             const RowCarrying& carrying) const {
-    if (!carrying.isWhole(block)) return false;
-    return (block * kBlock < set_.firstPrivate) ==
-           (carrying.wasBlock(block) * kBlock < before.set_.firstPrivate);
-}
-
-/// Of the vertices of a block (bits) those that a wall hid and hides no more, or the other way
-/// round: because they are in the company of others. \param notes receives who hides any
-std::uint64_t DirectLight::hiddenOtherwise(Hiding hides, std::uint32_t block, Hiding hid,
-                                           std::span<const std::uint32_t> from,
-                                           std::vector<RowTable::BlockerNote>& notes) const {
-    std::uint64_t otherwise = 0;
-    for (std::uint32_t r = 0; r < kBlock; ++r) {
-        if (from[r] == PatchMatch::kNew || hid.isPadding(from[r])) continue;
-        const ObjectId wall = hides.wallBefore(block * kBlock + r);
-        if (wall.valid() != hid.wallBefore(from[r]).valid()) otherwise |= std::uint64_t(1) << r;
-        if (wall.valid()) notes.push_back({hides.emitter(), block, wall.value});
-    }
-    return otherwise;
-}
-
-/// Remembers who hides what. \param notes of blocks that are not what they were
+/// Remembers who hid what.
 void DirectLight::carryOccluders(std::uint32_t row, const DirectLight& before,
-                                 const RowCarrying& carrying, const PatchMatch& match,
-                                 std::vector<RowTable::BlockerNote> notes) {
-    const auto were = before.table_.occluders(match.emitters[row]);
+                                 const RowCarrying& carrying, const PatchMatch& match) {
+    const std::uint32_t wasRow = match.emitters[row];
+    const auto were = before.table_.occluders(wasRow);
+    std::vector<RowTable::BlockerNote> notes;
     for (std::uint32_t b = 0; b < table_.blocks().size() && !were.empty(); ++b) {
-        if (!hidesAlike(b, before, carrying)) continue;
+        if (!carrying.isWhole(b)) {
+            for (std::uint32_t v = b * kBlock; v < (b + 1) * kBlock; ++v) {
+                const std::uint32_t was = match.vertices[v];
+                if (was == PatchMatch::kNew || isPadding(before.receivers_[was])) continue;
+                if (const ObjectId wall = before.wallBefore(wasRow, was); wall.valid())
+                    notes.push_back({row, b, match.objects[wall.value]});
+            }
+            continue;
+        }
         const std::uint32_t was = carrying.wasBlock(b);
         auto note = std::lower_bound(were.begin(), were.end(), was,
                                      [](const auto& n, std::uint32_t w) { return n.block < w; });
@@ -299,14 +291,9 @@ bool DirectLight::update(std::size_t effort, double enough) {
     return true;
 }
 
-/// Private corners come and go: what is true of one of them is not to depend on the others.
 ObjectId DirectLight::wallBefore(std::uint32_t emitter, std::uint32_t vertex) const {
-    Bounds receiver = table_.blocks()[vertex / kBlock];
-    if (vertex >= set_.firstPrivate) {
-        receiver = {};
-        receiver.add(receivers_[vertex].position);
-    }
-    return walls_.between(emitters_[emitter].box(), receiver);
+    const glm::vec3 point = receivers_[vertex].position;
+    return walls_.between(emitters_[emitter].box(), {point, point});
 }
 
 /// Bits: receivers of a block that a wall hides from the emitter, so that there need not be an
@@ -316,21 +303,20 @@ std::uint64_t DirectLight::hidden(const DirtyBlock& item, std::span<const MovedO
                                   std::vector<ObjectId>& occluders) const {
     if (item.anew == 0 && !walls_.areAmong(moved)) return 0;
     const Bounds& sender = emitters_[item.row].box();
-    const auto isHidden = [&](const Bounds& box, bool anew) {
-        const ObjectId wall =
-            anew ? walls_.between(sender, box) : walls_.between(sender, box, moved);
-        if (wall.valid() && (occluders.empty() || occluders.back() != wall))
-            occluders.push_back(wall);
-        return wall.valid();
-    };
-    const std::uint32_t first = item.block * kBlock;
-    if (first < set_.firstPrivate)
-        return isHidden(table_.blocks()[item.block], item.anew != 0) ? ~std::uint64_t(0) : 0;
+    const Bounds& block = table_.blocks()[item.block];
+    if (const ObjectId wall = walls_.between(sender, block); wall.valid()) {
+        occluders.push_back(wall);
+        return ~std::uint64_t(0);
+    }
     std::uint64_t found = 0;
-    for (const std::uint32_t r : bitsOf(item.receivers)) {
-        if (isPadding(receivers_[first + r])) continue;
-        const Bounds point{receivers_[first + r].position, receivers_[first + r].position};
-        if (isHidden(point, (item.anew >> r & 1) != 0)) found |= std::uint64_t(1) << r;
+    const auto receivers = receiversOf(item.block);
+    for (const std::uint32_t wall : walls_.beside(sender, block)) {
+        std::uint64_t behind = 0;
+        for (const std::uint32_t r : bitsOf(item.receivers & ~found))
+            if (!isPadding(receivers[r]) && walls_.isHidden(wall, sender, receivers[r].position))
+                behind |= std::uint64_t(1) << r;
+        if (behind != 0) occluders.push_back(walls_.objectOf(wall));
+        found |= behind;
     }
     return found;
 }
@@ -363,7 +349,7 @@ void DirectLight::sumBlock(std::uint32_t block) {
     float* const seen = vertexSeen_.data() + block * kBlock;
     std::fill_n(light, kBlock, Rgb());
     std::fill_n(seen, kBlock, 0.0f);
-    for (std::size_t e = 0; e < emitters_.size(); ++e) {
+    for (const std::uint32_t e : order_) {
         const Rgb exitance = set_.emitters[e].exitance;
         table_[e][block].forEach([&](int r, float factor) {
             light[r] += factor * exitance;

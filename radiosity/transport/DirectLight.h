@@ -23,7 +23,8 @@ namespace penumbra {
 class RowCarrying;
 
 /// The rows of the emitters, and the illuminance of vertices and patches that they make. Sums run
-/// over the emitters in their order: they depend on the rows and not on how these came about.
+/// over the emitters in the order of their objects' paths: they depend on the scene and not on how
+/// it came about.
 class DirectLight {
 public:
     /// Everything is dirty at first. \param samples see SolverOptions. All must outlive this.
@@ -34,6 +35,7 @@ public:
     /// \pre nothing was done here as yet
     void takeOver(DirectLight& before, const PatchMatch& match);
 
+    void add(std::span<const ObjectId> objects); ///< see Solver
     void apply(const SceneChange& change);
     void invalidate(const Bounds& region); ///< see LitScene
     /// Brings rows up to date: a piece of work of about `effort` rays; false: there is none left.
@@ -86,15 +88,11 @@ public:
 
 private:
     RowUpdates::RowFacts factsOf(std::uint32_t row) const;
-    class Hiding;
-    bool hidesAlike(std::uint32_t block, const DirectLight& before,
-                    const RowCarrying& carrying) const;
-    std::uint64_t hiddenOtherwise(Hiding hides, std::uint32_t block, Hiding hid,
-                                  std::span<const std::uint32_t> from,
-                                  std::vector<RowTable::BlockerNote>& notes) const;
     void carryOccluders(std::uint32_t row, const DirectLight& before, const RowCarrying& carrying,
-                        const PatchMatch& match, std::vector<RowTable::BlockerNote> notes);
+                        const PatchMatch& match);
     std::span<const Receiver> receiversOf(std::size_t block) const;
+    void placeEmitters();
+    void noteBlocks(Range elements);
     void placeReceivers(std::vector<BlockMask>& masks);
     void touchBlock(std::uint32_t block);
     void touchPatch(std::uint32_t patch);
@@ -112,6 +110,7 @@ private:
     int samples_;
     Walls walls_;
     std::vector<EmitterSender> emitters_;
+    std::vector<std::uint32_t> order_; ///< of the emitters in sums
     std::vector<Receiver> receivers_;
     std::vector<std::vector<std::uint32_t>> blockPatches_; ///< lit by the vertices of each block
     RowTable table_;

@@ -26,9 +26,8 @@ IndirectLight::IndirectLight(const PatchSet& set, const RayScene& rays, const Di
       senders_(set, clusters), table_(senders_.count()),
       updates_(set, rays, table_, set.nodeBlockObject,
                {.visit = cost::kIndirectVisit, .entry = cost::kIndirectEntry}),
-      sendersReached_(senders_.count()), nodes_(set.nodes.size()), rowSums_(set.nodes.size()),
-      sent_(senders_.count()), residuals_(senders_.count()), colours_(senders_.count()),
-      known_(senders_.count()), kept_(senders_.count()) {
+      nodes_(set.nodes.size()), rowSums_(set.nodes.size()) {
+    growSenders();
     for (std::uint32_t n = 0; n < set.nodes.size(); ++n) nodeKeys_.push_back(addressOfNode(set, n));
     for (std::uint32_t p = 0; p < senders_.patchCount(); ++p) planar_.push_back(isPlanar(p));
     std::vector<BlockMask> all;
@@ -36,6 +35,29 @@ IndirectLight::IndirectLight(const PatchSet& set, const RayScene& rays, const Di
     placeNodes(all);
     reach_.nodes.resize(blockCount());
     coloursChanged();
+}
+
+void IndirectLight::growSenders() {
+    const std::size_t count = senders_.count();
+    table_.grow(count);
+    updates_.grow();
+    sendersReached_.resize(count);
+    sent_.resize(count), residuals_.resize(count), colours_.resize(count);
+    known_.resize(count), kept_.resize(count);
+}
+
+void IndirectLight::add(std::span<const ObjectId> objects) {
+    for (const ObjectId object : objects) {
+        const ObjectPart& part = set_.objects[object.value];
+        senders_.add(object);
+        for (std::uint32_t p = part.patches.first; p < part.patches.end(); ++p)
+            planar_[p] = isPlanar(p);
+        for (std::uint32_t n = part.nodes.first; n < part.nodes.end(); ++n)
+            nodeKeys_[n] = addressOfNode(set_, n);
+    }
+    growSenders();
+    coloursChanged();
+    residualsChanged();
 }
 
 /// Whether a patch sends from one plane.
@@ -118,8 +140,8 @@ void IndirectLight::takeOver(IndirectLight& before, const PatchMatch& match) {
         for (auto s = std::uint32_t(first); s < last; ++s) {
             if (was[s] == ObjectId::kNone) continue;
             table_[s].open(senders_.linkedBlocks(s, linkBoxes_));
-            anew[s] = carrying.carry({s, was[s]}, before.table_, before.updates_.dirty(), {},
-                                     carrier, table_);
+            anew[s] = carrying.carry({s, was[s]}, before.table_, before.updates_.dirty(), carrier,
+                                     table_);
             for (const RowBlock& block : table_[s]) bytes[s] += block.bytes();
         }
     });

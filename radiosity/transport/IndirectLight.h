@@ -37,6 +37,7 @@ public:
     /// been sent through them. \pre nothing was done here as yet
     void takeOver(IndirectLight& before, const PatchMatch& match);
 
+    void add(std::span<const ObjectId> objects); ///< see Solver
     void apply(const SceneChange& change);
     void invalidate(const Bounds& region); ///< see LitScene
     /// The direct light of patches is not what it was. \param litChanged see takeLitChanged()
@@ -123,6 +124,7 @@ private:
     RowUpdates::RowFacts factsOf(std::uint32_t sender) const;
     std::size_t blockCount() const { return set_.nodes.size() / PatchSet::kBlock; }
     void placeNodes(std::span<const BlockMask> masks);
+    void growSenders();
     bool isPlanar(std::uint32_t index) const;
     void linkSender(std::uint32_t sender);
     void linkBlock(std::uint32_t block);

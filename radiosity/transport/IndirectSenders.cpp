@@ -26,31 +26,51 @@ float squaredGap(const Bounds& a, const Bounds& b) {
 } // namespace
 
 IndirectSenders::IndirectSenders(const PatchSet& set, bool clusters)
-    : set_(set), clusterRanges_(set.objects.size()) {
+    : set_(set), clusters_(clusters) {
     const std::size_t patches = set.patches.size();
     boxes_.resize(patches), parents_.assign(patches, Clusters::kNone), areas_.resize(patches);
     keys_.resize(patches), objects_.resize(patches), samples_.resize(patches * kPatchSamples);
     parallelFor(patches, 256, [&](std::size_t first, std::size_t last) {
         for (std::size_t p = first; p < last; ++p) placePatch(std::uint32_t(p));
     });
+    for (std::uint32_t o = 0; o < set.objects.size(); ++o) addObject({o});
     const std::size_t meshed = set.parts.used.empty() ? patches : set.parts.firstPatch;
-    for (std::size_t o = 0; o < set.objects.size(); ++o) {
-        const ObjectPart& part = set.objects[o];
-        std::vector<ClusterPatch> own;
-        for (std::uint32_t i = 0; i < part.patches.count && clusters; ++i)
-            own.push_back({part.patches.first + i, part.shape.patches[i].position,
-                           part.shape.patches[i].normal, areas_[part.patches.first + i]});
-        clusterRanges_[o].first = count();
-        addFamily(own);
-        clusterRanges_[o].count = count() - clusterRanges_[o].first;
-    }
     for (std::size_t p = meshed; p < patches; ++p) placePatch(std::uint32_t(p)); // with parents
-    for (std::uint32_t s = 0; s < count(); ++s)
-        if (parents_[s] == Clusters::kNone && (s < meshed || s >= patches)) roots_.push_back(s);
-    firstChild_.assign(count() - patches + 1, 0);
-    const auto isChild = [&](std::uint32_t s) {
-        return parents_[s] != Clusters::kNone && (s < meshed || s >= patches);
+    listChildren();
+}
+
+void IndirectSenders::add(ObjectId object) {
+    const Range patches = set_.objects[object.value].patches;
+    for (std::uint32_t p = patches.first; p < patches.end(); ++p) placePatch(p);
+    addObject(object);
+    listChildren();
+}
+
+void IndirectSenders::addObject(ObjectId object) {
+    const ObjectPart& part = set_.objects[object.value];
+    std::vector<ClusterPatch> own;
+    for (std::uint32_t i = 0; i < part.patches.count && clusters_; ++i)
+        own.push_back({part.patches.first + i, part.shape.patches[i].position,
+                       part.shape.patches[i].normal, areas_[part.patches.first + i]});
+    const std::uint32_t first = count();
+    addFamily(own);
+    clusterRanges_.push_back({first, count() - first});
+}
+
+/// What clusters are made of, and all that is in none.
+void IndirectSenders::listChildren() {
+    const std::uint32_t patches = patchCount();
+    const std::uint32_t meshed = set_.parts.used.empty() ? patches : set_.parts.firstPatch;
+    const auto counts = [&](std::uint32_t s) {
+        return s >= patches || (s < meshed && set_.patches[s].elementCount > 0);
     };
+    roots_.clear();
+    for (std::uint32_t s = 0; s < count(); ++s)
+        if (parents_[s] == Clusters::kNone && counts(s)) roots_.push_back(s);
+    const auto isChild = [&](std::uint32_t s) {
+        return parents_[s] != Clusters::kNone && counts(s);
+    };
+    firstChild_.assign(count() - patches + 1, 0);
     for (std::uint32_t s = 0; s < count(); ++s)
         if (isChild(s)) ++firstChild_[parents_[s] - patches + 1];
     for (std::size_t c = 1; c < firstChild_.size(); ++c) firstChild_[c] += firstChild_[c - 1];

@@ -27,6 +27,9 @@ public:
     /// `set` must outlive this. \param clusters if false there are none
     IndirectSenders(const PatchSet& set, bool clusters);
 
+    /// Takes in an object that came to the set. \pre its number follows on the others'
+    void add(ObjectId object);
+
     std::uint32_t count() const { return std::uint32_t(boxes_.size()); }
     std::uint32_t patchCount() const { return std::uint32_t(set_.patches.size()); }
     Range clustersOf(ObjectId object) const { return clusterRanges_[object.value]; }
@@ -71,7 +74,9 @@ private:
         Clusters clusters;
         std::uint32_t first = 0; ///< sender index of its first cluster
     };
+    void addObject(ObjectId object);
     void addFamily(std::span<const ClusterPatch> patches);
+    void listChildren();
     void listQuarters(const Family& family);
     bool sendsLike(std::uint32_t index, const IndirectSenders& others, std::uint32_t other) const;
     void placePatches(Range patches);
@@ -82,6 +87,7 @@ private:
     }
 
     const PatchSet& set_;
+    bool clusters_;                    ///< whether there are any
     std::vector<Family> families_;     ///< one an object
     std::vector<Range> clusterRanges_; ///< one an object
     std::vector<Bounds> boxes_;

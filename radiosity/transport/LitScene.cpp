@@ -1,27 +1,49 @@
 #include "radiosity/transport/LitScene.h"
 
+#include "radiosity/mesh/Additions.h"
 #include "radiosity/rays/Margins.h"
 #include "radiosity/rays/Shaft.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Material.h"
-#include "scenegraph/Mesh.h"
 
 #include <algorithm>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 
 namespace penumbra {
 
+namespace {
+
+using ObjectsByPath = std::unordered_map<std::string_view, const Object*>;
+
+ObjectsByPath objectsByPath(const PlacedScene& scene) {
+    ObjectsByPath objects;
+    for (const Object& object : scene.objects) objects[object.path] = &object;
+    return objects;
+}
+
+} // namespace
+
 LitScene::LitScene(const PlacedScene& scene, const MeshingOptions& meshing,
-                   const SolverOptions& solving)
-    : solving_(solving), meshed_(std::make_unique<Meshed>(buildPatches(scene, meshing), solving)),
-      pieces_(piecesOf(scene)) {}
+                   const SolverOptions& solving, bool room)
+    : solving_(solving), room_(room),
+      meshed_(std::make_unique<Meshed>(mesh(scene, meshing, room), solving)) {
+    pieces_.note(scene);
+}
 
 LitScene::~LitScene() = default;
+
+BuiltPatches LitScene::mesh(const PlacedScene& scene, const MeshingOptions& sizes, bool room) {
+    BuiltPatches built = buildPatches(scene, sizes);
+    if (room) makeRoom(built.patches);
+    return built;
+}
 
 /// Meshes the scene anew, and takes over all that still holds.
 void LitScene::rebuild(const PlacedScene& scene) {
     Meshed& before = *meshed_;
-    BuiltPatches built = buildPatches(scene, sizesOf(patches()));
+    BuiltPatches built = mesh(scene, sizesOf(patches()), room_);
     const bool settled = before.solver.state() == SolutionState::exact;
     keepGone(before.built.patches, built.patches, !settled);
     auto now = std::make_unique<Meshed>(std::move(built), solving_);
@@ -29,73 +51,55 @@ void LitScene::rebuild(const PlacedScene& scene) {
     now->posed.setAlone(match.changed);
     now->solver.takeOver(before.solver, match);
     meshed_ = std::move(now);
-    pieces_ = piecesOf(scene);
+    pieces_ = {};
+    pieces_.note(scene);
 }
 
-LitScene::Pieces LitScene::piecesOf(const PlacedScene& scene) {
-    Pieces pieces;
-    const auto add = [&](const auto& placed) {
-        pieces[scene.objects[placed.object.value].path].push_back(
-            {placed.node, placed.node->weak_from_this().lock(), placed.path, placed.toObject});
-    };
-    for (const auto& mesh : scene.meshes) add(mesh);
-    for (const auto& light : scene.lights) add(light);
-    return pieces;
-}
-
-/// Whether all objects that are there are made of the same pieces.
-bool LitScene::samePieces(const PlacedScene& now) const {
-    struct Matched {
-        const std::vector<Piece>* pieces = nullptr;
-        std::size_t seen = 0;
-    };
-    std::vector<Matched> objects(now.objects.size());
-    for (std::size_t o = 0; o < objects.size(); ++o) {
-        const auto known = pieces_.find(now.objects[o].path);
-        if (known == pieces_.end()) return false;
-        objects[o].pieces = &known->second;
-    }
-    const auto isNext = [&](const auto& placed) {
-        auto& [pieces, seen] = objects[placed.object.value];
-        if (seen == pieces->size()) return false;
-        const Piece& piece = (*pieces)[seen++];
-        return piece.node == placed.node && piece.path == placed.path &&
-               piece.frame == placed.toObject;
-    };
-    return std::all_of(now.meshes.begin(), now.meshes.end(), isNext) &&
-           std::all_of(now.lights.begin(), now.lights.end(), isNext) &&
-           std::all_of(objects.begin(), objects.end(),
-                       [](const Matched& m) { return m.seen == m.pieces->size(); });
-}
-
-/// Whether the scene is made of the same pieces; objects may be missing.
-bool LitScene::sameStructure(const PlacedScene& now, const ObjectsByPath& objects) const {
-    if (!samePieces(now)) return false;
-    for (const ObjectPart& part : built().patches.objects) {
+/// Objects, by their numbers in `now`, that are not meshed as they are: new ones, and those of
+/// other pieces or another scale.
+std::vector<ObjectId> LitScene::unknownObjects(const PlacedScene& now) const {
+    std::vector<ObjectId> unknown = pieces_.others(now);
+    const ObjectsByPath objects = objectsByPath(now);
+    for (const ObjectPart& part : patches().objects) {
         const auto found = objects.find(part.path);
         if (found == objects.end()) continue;
-        if (placementOf(found->second->toWorld).stretch != part.stretch) return false;
+        const ObjectId object{std::uint32_t(found->second - now.objects.data())};
+        if (placementOf(found->second->toWorld).stretch != part.stretch &&
+            std::ranges::find(unknown, object) == unknown.end())
+            unknown.push_back(object);
     }
-    return true;
+    return unknown;
 }
 
-/// Whether colours and luminances can be taken in: what never emitted has no rows to emit through.
-bool LitScene::followColours(SceneChange& change) {
-    PatchSet& set = meshed_->built.patches;
-    const auto lightOf = [](const LightSource& source) {
-        return source.light ? source.light->luminance() : source.material->emission();
-    };
+/// Objects, by their numbers in `now`, with a material that shines and did not when they were
+/// meshed: there are no rows that it could emit through.
+std::vector<ObjectId> LitScene::beginToShine(const PlacedScene& now) const {
+    const PatchSet& set = patches();
+    std::vector<std::uint8_t> begins(set.materials.size());
     for (std::size_t m = 0; m < set.materials.size(); ++m) {
         const LightSource& source = built().materialSources[m];
         if (!source.material || !source.material->emissive()) continue;
         // What is dark in a texture has no emitters, however brightly it would shine.
         if (source.material->textures().emission && maxChannel(set.materials[m].emission) > 0)
             continue;
-        const bool emits = std::any_of(
-            built().emitterSources.begin(), built().emitterSources.end(),
-            [&](const LightSource& emitter) { return emitter.material == source.material; });
-        if (!emits) return false;
+        begins[m] = std::ranges::none_of(built().emitterSources, [&](const LightSource& emitter) {
+            return emitter.material == source.material;
+        });
     }
+    std::vector<std::uint8_t> found(set.objects.size());
+    for (std::size_t e = 0; e < set.elements.size(); ++e)
+        if (begins[set.elements[e].material]) found[set.elementObject[e].value] = 1;
+    std::vector<ObjectId> objects;
+    for (std::uint32_t o = 0; o < found.size(); ++o)
+        if (found[o]) objects.push_back({o});
+    return numbersIn(now, objects);
+}
+
+void LitScene::followColours(SceneChange& change) {
+    PatchSet& set = meshed_->built.patches;
+    const auto lightOf = [](const LightSource& source) {
+        return source.light ? source.light->luminance() : source.material->emission();
+    };
     for (std::size_t m = 0; m < set.materials.size(); ++m) {
         const LightSource& source = built().materialSources[m];
         LitMaterial now = set.materials[m];
@@ -112,12 +116,50 @@ bool LitScene::followColours(SceneChange& change) {
         set.emitters[e].exitance = exitance;
         change.emitters.push_back(e);
     }
+}
+
+/// Meshes objects that are unknown and takes them in, hidden, in place of what has their paths.
+/// \return false: there is no room for them, or it can't be told which is which
+bool LitScene::addObjects(const PlacedScene& now, std::span<const ObjectId> objects) {
+    if (solver().directOnly() && !solving_.directOnly) return false; // nothing was lit
+    std::unordered_map<std::string_view, std::size_t> paths;
+    for (const Object& object : now.objects) ++paths[object.path];
+    const ObjectsByPath places = objectsByPath(now);
+    PatchSet& set = meshed_->built.patches;
+    const PlacedScene part = partOf(now, objects);
+    std::vector<ObjectId> replaced;
+    std::vector<Pose> poses;
+    for (const ObjectPart& known : set.objects) {
+        const auto place = places.find(known.path);
+        poses.push_back(place != places.end() ? placementOf(place->second->toWorld).pose : Pose());
+    }
+    for (const Object& object : part.objects) {
+        if (paths[object.path] > 1) return false;
+        for (std::uint32_t o = 0; o < set.objects.size(); ++o)
+            if (set.objects[o].path == object.path) replaced.push_back({o});
+    }
+    const auto others = meshed_->built.enclosures.lights([&](ObjectId o) -> const Pose* {
+        const bool is = places.contains(set.objects[o.value].path);
+        return is && std::ranges::find(replaced, o) == replaced.end() ? &poses[o.value] : nullptr;
+    });
+    BuiltPatches built = buildObjects(part, sizesOf(set), others);
+    const auto added = penumbra::addObjects(meshed_->built, built);
+    if (!added) return false;
+    for (const ObjectId object : replaced) {
+        set.objects[object.value].path.clear();
+        meshed_->built.enclosures.remove(object);
+    }
+    meshed_->posed.add(*added);
+    solver().add(*added);
+    pieces_.note(part);
     return true;
 }
 
-/// \return objects that were moved or removed: lights may be in other closed things than before
-std::vector<ObjectId> LitScene::followObjects(const ObjectsByPath& objects, SceneChange& change) {
+/// \return objects that were moved or removed, or came: lights may be in other closed things than
+/// before
+std::vector<ObjectId> LitScene::followObjects(const PlacedScene& now, SceneChange& change) {
     PatchSet& set = meshed_->built.patches;
+    const ObjectsByPath objects = objectsByPath(now);
     std::vector<PosedPatches::ObjectPose> wanted;
     std::vector<ObjectId> replaced;
     for (std::uint32_t o = 0; o < set.objects.size(); ++o) {
@@ -140,23 +182,43 @@ std::vector<ObjectId> LitScene::followObjects(const ObjectsByPath& objects, Scen
     return replaced;
 }
 
+/// Takes in objects that are unknown, and where all of them are.
+/// \param change of colours \return false: the scene is to be meshed anew
+bool LitScene::take(const PlacedScene& now, std::span<const ObjectId> unknown, SceneChange change,
+                    Followed& followed) {
+    if (!unknown.empty() && !addObjects(now, unknown)) return false;
+    followed.added |= !unknown.empty();
+    const std::vector<ObjectId> replaced = followObjects(now, change);
+    solver().apply(change);
+    followed.change.add(change);
+    if (meshed_->posed.exhausted()) return false;
+    const std::vector<ObjectId> open =
+        numbersIn(now, built().enclosures.changed(patches(), replaced)); // lights got in or out
+    return open.empty() || take(now, open, {}, followed);
+}
+
+/// What objects of the patch set are called in `now`, those that are there.
+std::vector<ObjectId> LitScene::numbersIn(const PlacedScene& now,
+                                          std::span<const ObjectId> objects) const {
+    const ObjectsByPath places = objectsByPath(now);
+    std::vector<ObjectId> numbers;
+    for (const ObjectId object : objects)
+        if (const auto found = places.find(patches().objects[object.value].path);
+            found != places.end())
+            numbers.push_back({std::uint32_t(found->second - now.objects.data())});
+    return numbers;
+}
+
 LitScene::Followed LitScene::follow(const PlacedScene& now) {
     Followed followed;
-    ObjectsByPath objects;
-    for (const Object& object : now.objects) objects[object.path] = &object;
-    if (!sameStructure(now, objects) || !followColours(followed.change)) {
-        rebuild(now);
-        followed = {true, {}};
-        return followed;
-    }
-    const std::vector<ObjectId> replaced = followObjects(objects, followed.change);
-    solver().apply(followed.change);
-    if (meshed_->posed.exhausted() ||
-        built().enclosures.changed(built().patches, replaced, built().enclosuresLit)) {
-        rebuild(now);
-        followed = {true, {}};
-    }
-    return followed;
+    std::vector<ObjectId> unknown = unknownObjects(now);
+    for (const ObjectId object : beginToShine(now))
+        if (std::ranges::find(unknown, object) == unknown.end()) unknown.push_back(object);
+    SceneChange colours;
+    followColours(colours);
+    if (take(now, unknown, colours, followed)) return followed;
+    rebuild(now);
+    return {true, false, {}};
 }
 
 void LitScene::invalidate(const Bounds& box) {

@@ -3,11 +3,13 @@
 
 #include "radiosity/mesh/BuildPatches.h"
 #include "radiosity/mesh/PosedPatches.h"
+#include "radiosity/mesh/ScenePieces.h"
 #include "radiosity/transport/SceneChange.h"
 #include "radiosity/transport/Solver.h"
 #include "scenegraph/Objects.h"
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -18,14 +20,18 @@ namespace penumbra {
 
 /// Everything that is computed from a scene graph: patches, rays, what covers what, and light.
 ///
-/// Objects that are moved, hidden, shown or removed, and colours and luminances that change are
-/// taken in by follow() at a cost that goes with the change. Edits of geometry or of scale, things
-/// that are added, and a light that gets into or out of something closed mesh the scene anew.
+/// Objects that are moved, hidden, shown, removed or added, of another scale or other meshes,
+/// lights that get into something closed or out of it, materials that begin to shine, and colours
+/// and luminances that change are taken in by follow() at a cost that goes with the change. The
+/// scene is meshed anew where there is no room for what comes (Additions.h), which is seldom.
 class LitScene {
 public:
     /// Meshes; solves nothing yet. Keeps meshes and lights alive until the next follow(), if they
-    /// are held by shared pointers. \throws Error
-    LitScene(const PlacedScene& scene, const MeshingOptions& meshing, const SolverOptions& solving);
+    /// are held by shared pointers.
+    /// \param room whether there is to be room for objects that come later; if not, each of them
+    /// has the scene meshed anew, to compare with \throws Error
+    LitScene(const PlacedScene& scene, const MeshingOptions& meshing, const SolverOptions& solving,
+             bool room = true);
     ~LitScene();
     LitScene(const LitScene&) = delete;
     LitScene& operator=(const LitScene&) = delete;
@@ -33,7 +39,8 @@ public:
     /// What was made of an edit.
     struct Followed {
         bool rebuilt = false; ///< the scene was meshed anew: patches(), rays(), solver() are others
-        SceneChange change;   ///< else: what of the patch set
+        bool added = false; ///< else: whether objects were added to patches(), in `change` as well
+        SceneChange change; ///< else: what of the patch set
     };
     /// Takes in how the scene is now. \throws Error if it can't be meshed
     Followed follow(const PlacedScene& now);
@@ -56,16 +63,6 @@ public:
     const std::vector<std::string>& warnings() const { return meshed_->built.warnings; }
 
 private:
-    /// One mesh or light of an object: what may not change.
-    struct Piece {
-        const void* node = nullptr;
-        std::shared_ptr<const Node> kept; ///< it, with its materials, though the scene may drop it
-        std::string path;
-        glm::dmat4 frame{1.0}; ///< in its object's frame
-    };
-    using Pieces = std::unordered_map<std::string, std::vector<Piece>>; ///< by object
-    using ObjectsByPath = std::unordered_map<std::string_view, const Object*>;
-
     /// What is made anew when the scene is meshed. Each refers to those before it.
     struct Meshed {
         BuiltPatches built;
@@ -75,16 +72,22 @@ private:
             : built(std::move(patches)), posed(built.patches),
               solver(built.patches, posed.rays(), solving) {}
     };
+    static BuiltPatches mesh(const PlacedScene& scene, const MeshingOptions& sizes, bool room);
     void rebuild(const PlacedScene& scene);
-    static Pieces piecesOf(const PlacedScene& scene);
-    bool samePieces(const PlacedScene& now) const;
-    bool sameStructure(const PlacedScene& now, const ObjectsByPath& objects) const;
-    bool followColours(SceneChange& change);
-    std::vector<ObjectId> followObjects(const ObjectsByPath& objects, SceneChange& change);
+    std::vector<ObjectId> unknownObjects(const PlacedScene& now) const;
+    std::vector<ObjectId> beginToShine(const PlacedScene& now) const;
+    void followColours(SceneChange& change);
+    bool addObjects(const PlacedScene& now, std::span<const ObjectId> objects);
+    std::vector<ObjectId> followObjects(const PlacedScene& now, SceneChange& change);
+    bool take(const PlacedScene& now, std::span<const ObjectId> unknown, SceneChange change,
+              Followed& followed);
+    std::vector<ObjectId> numbersIn(const PlacedScene& now,
+                                    std::span<const ObjectId> objects) const;
 
     SolverOptions solving_;
+    bool room_;
     std::unique_ptr<Meshed> meshed_;
-    Pieces pieces_;
+    ScenePieces pieces_;
 };
 
 } // namespace penumbra

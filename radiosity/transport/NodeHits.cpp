@@ -117,6 +117,11 @@ void NodeHits::takeNodes(const NodeHits& before, std::span<const std::uint32_t> 
         if (anew[group] != 0) dirty_.add(group, anew[group]);
 }
 
+void NodeHits::add() {
+    surface_.grow();
+    boxes_.resize(patches_.objects.size());
+}
+
 std::vector<NodeHits::Move> NodeHits::apply(const SceneChange& change) {
     surface_.follow(change.objects);
     resize();

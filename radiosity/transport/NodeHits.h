@@ -47,6 +47,7 @@ public:
     /// \pre nothing was done here
     Taken takeOver(const NodeHits& before, const PatchMatch& match);
 
+    void add(); ///< takes in objects that came to the patch set, hidden
     /// Takes note of an edit that has been made to the patch set. Traces nothing.
     std::vector<Move> apply(const SceneChange& change);
     void invalidate(const Bounds& region); ///< has all that crosses a box [m, world] traced anew

@@ -69,8 +69,7 @@ std::uint64_t RowCarrying::take(std::uint32_t block, Row& before, EntryCarrier& 
 }
 
 std::vector<BlockMask> RowCarrying::carry(Place place, RowTable& before, const DirtySet& pending,
-                                          const Invalid& invalid, EntryCarrier& carrier,
-                                          RowTable& now) const {
+                                          EntryCarrier& carrier, RowTable& now) const {
     const std::vector<std::uint32_t> dirty = pending.urgent(place.was, -1);
     std::vector<BlockMask> anew;
     std::vector<RowTable::BlockerNote> notes;
@@ -82,7 +81,6 @@ std::vector<BlockMask> RowCarrying::carry(Place place, RowTable& before, const D
         const std::uint64_t known = take(b, before[place.was], carrier, block);
         std::uint64_t again = known_[b] & ~known;
         if (!dirty.empty()) again |= amongBlocks(from, dirty);
-        if (invalid) again |= invalid(b, from);
         if (again != 0) anew.push_back({b, again});
         block.forEachBlocker([&](std::uint32_t object) {
             notes.push_back({place.row, b, object});

@@ -7,7 +7,6 @@
 #include "radiosity/transport/PatchMatch.h"
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -26,9 +25,6 @@ public:
     struct Place {
         std::uint32_t row = 0, was = 0;
     };
-    /// Bits: receivers of a block, given with their numbers before, whose entries do not hold.
-    using Invalid =
-        std::function<std::uint64_t(std::uint32_t block, std::span<const std::uint32_t> from)>;
     /// Whether a block has the receivers of one that was there before, in the same order.
     bool isWhole(std::uint32_t block) const { return whole_[block] != PatchMatch::kNew; }
     /// Which one. \pre isWhole(block)
@@ -39,8 +35,7 @@ public:
     /// \param carrier one a thread
     /// \return entries to be evaluated anew, besides those of receivers that are new
     std::vector<BlockMask> carry(Place place, RowTable& before, const DirtySet& pending,
-                                 const Invalid& invalid, EntryCarrier& carrier,
-                                 RowTable& now) const;
+                                 EntryCarrier& carrier, RowTable& now) const;
 
     /// Receivers that were not there before.
     std::vector<BlockMask> unknown() const;

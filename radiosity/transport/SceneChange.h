@@ -19,6 +19,19 @@ struct SceneChange {
     std::vector<std::uint32_t> emitters; ///< of another exitance
     bool colours = false;                ///< some reflectance or emission
 
+    void add(const SceneChange& more) {
+        const auto append = [](auto& to, const auto& from) {
+            to.insert(to.end(), from.begin(), from.end());
+        };
+        append(objects, more.objects);
+        append(vertices, more.vertices);
+        append(nodes, more.nodes);
+        append(patches, more.patches);
+        append(senders, more.senders);
+        append(parted, more.parted);
+        append(emitters, more.emitters);
+        colours |= more.colours;
+    }
     bool empty() const {
         return objects.empty() && vertices.empty() && nodes.empty() && patches.empty() &&
                emitters.empty() && senders.empty() && parted.empty() && !colours;

@@ -84,6 +84,20 @@ void Solver::takeOver(Solver& before, const PatchMatch& match) {
     begin();
 }
 
+void Solver::add(std::span<const ObjectId> objects) {
+    direct_.add(objects);
+    if (indirect_) {
+        nodeHits_->add();
+        indirect_->add(objects);
+        if (detail_) detail_->add(objects);
+    }
+    if (!seen_) return;
+    raysBefore_ += seen_->rays();
+    seen_.reset();
+    inViewOrder_ = false;
+    attend(*attention_);
+}
+
 void Solver::apply(const SceneChange& change) {
     if (change.empty()) return;
     direct_.apply(change);
@@ -335,7 +349,7 @@ WorkDone Solver::done() const {
     done.rays = direct_.updates().rays().total();
     done.blocks = direct_.updates().blocksVisited();
     done.nodes = set_.nodes.size();
-    if (seen_) done.rays += seen_->rays();
+    done.rays += raysBefore_ + (seen_ ? seen_->rays() : 0);
     if (!indirect_) return done;
     done.rays += indirect_->updates().rays().total() + indirect_->buildRays().total();
     done.rays += nodeHits_->count().rays;

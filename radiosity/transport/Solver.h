@@ -112,6 +112,9 @@ public:
     /// alone
     void takeOver(Solver& before, const PatchMatch& match);
 
+    /// Takes note of objects that came to the patch set and the ray scene, which hide them as yet.
+    /// \pre something was lit before, unless it is for direct light only
+    void add(std::span<const ObjectId> objects);
     /// Takes note of an edit that has been made to the patch set and the ray scene. Traces nothing.
     void apply(const SceneChange& change);
     /// Takes note that light which ends in a box or crosses it [m, world] is to be evaluated anew.
@@ -214,6 +217,7 @@ private:
     DirectLight direct_;
     std::optional<Attention> attention_;      ///< of the viewer, if there is one
     std::shared_ptr<ViewPriority> seen_;      ///< what they see, once there was a viewer
+    std::uint64_t raysBefore_ = 0;            ///< of such before this one
     bool inViewOrder_ = false;                ///< direct light is updated by its priorities
     std::unique_ptr<NodeHits> nodeHits_;      ///< null: direct light only
     std::unique_ptr<IndirectLight> indirect_; ///< likewise

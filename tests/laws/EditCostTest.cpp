@@ -84,10 +84,15 @@ TEST_F(EditCost, RepaintingTracesNoRayEvenWhereNothingWasReflectedBefore) {
     expectNoRay("painted again");
 }
 
-TEST_F(EditCost, WhatDidNotShineWhenTheSceneWasMeshedIsMeshedAnewToShine) {
+TEST_F(EditCost, WhatDidNotShineWhenTheSceneWasMeshedIsAloneMeshedAnewToShine) {
     // An emitting face is cut and sampled as one, which is decided when meshing.
     room.black->setEmission(Rgb(1));
-    EXPECT_TRUE(lit.follow(placeScene(room.scene)).rebuilt);
+    const LitScene::Followed followed = lit.follow(placeScene(room.scene));
+    EXPECT_FALSE(followed.rebuilt);
+    EXPECT_TRUE(followed.added);
+    lit.solver().settle();
+    room.black->setEmission(Rgb(2));
+    expectNoRay("brightened");
 }
 
 TEST_F(EditCost, FollowingNoEditChangesNothing) {
@@ -168,11 +173,13 @@ TEST(EditCostOfRooms, WhatIsBroughtInResizedOrTakenOutCostsTheRaysOfAMove) {
         LitScene lit(placeScene(scene), {.patchSize = 0.5f, .elementSize = 0.125f},
                      {.directOnly = directOnly, .detail = false});
         lit.solver().settle();
-        const auto raysOf = [&](bool rebuilds) {
+        const auto raysOf = [&](bool adds) {
             const std::uint64_t before = lit.solver().done().rays;
-            EXPECT_EQ(lit.follow(placeScene(scene)).rebuilt, rebuilds);
+            const LitScene::Followed followed = lit.follow(placeScene(scene));
+            EXPECT_FALSE(followed.rebuilt);
+            EXPECT_EQ(followed.added, adds);
             lit.solver().settle();
-            return double(lit.solver().done().rays - (rebuilds ? 0 : before));
+            return double(lit.solver().done().rays - before);
         };
         boxes.front()->setMatrix(moved(0.2, 0.1, 0));
         const double move = raysOf(false);

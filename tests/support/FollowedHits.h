@@ -33,7 +33,7 @@ void expectEditsInStepsEndAsNew(const Work& work, const Difference& difference) 
         for (int edit = 0; edit < 12; ++edit) {
             said += room.edit();
             const LitScene::Followed followed = lit.follow(placeScene(room.scene()));
-            if (followed.rebuilt)
+            if (followed.rebuilt || followed.added)
                 hits = std::make_unique<Hits>(lit.patches());
             else
                 hits->apply(followed.change);

@@ -208,7 +208,8 @@ void compareDrawn(Comparison& with, const Lighting& a, const Lighting& b, const 
 std::string difference(const LitScene& one, const LitScene& other) {
     Comparison with{one.patches(), other.patches(), {}};
     std::map<std::string, const ObjectPart*> parts;
-    for (const ObjectPart& part : with.b.objects) parts[part.path] = &part;
+    for (const ObjectPart& part : with.b.objects)
+        if (!part.path.empty()) parts[part.path] = &part;
     for (const ObjectPart& part : with.b.objects)
         with.expect(!part.present ||
                         std::any_of(with.a.objects.begin(), with.a.objects.end(),

@@ -56,6 +56,8 @@ void LightPublisher::setStore(std::unique_ptr<StoreWriter> store) {
 }
 
 void LightPublisher::touch(std::uint32_t block) {
+    const PatchSet& set = scene_.patches();
+    if (set.objects[set.vertexBlockObject[block].value].path.empty()) return; // nobody draws it
     if (touched_.size() <= block) touched_.resize(std::max(block + 1, blockCount()));
     if (touched_[block] != Touched::no) return;
     touched_[block] = Touched::yes;

@@ -117,15 +117,17 @@ std::vector<std::byte> describeMesh(const LitScene& scene, const SceneReplica& g
     ByteWriter out;
     writeHead(out, scene, graph);
     for (std::uint32_t o = 0; o < set.objects.size(); ++o) {
-        const ObjectPart& part = set.objects[o];
+        static const ObjectPart kNothing; // what has no path is in the scene no more
+        const bool isThere = !set.objects[o].path.empty();
+        const ObjectPart& part = isThere ? set.objects[o] : kNothing;
         out.text(part.path);
         out.put(inverseOrOne(glm::dmat4(part.stretch)));
         out.put(part.vertices.first / kBlock);
-        out.put(std::uint32_t(part.present));
+        out.put(std::uint32_t(isThere && part.present));
         const std::uint32_t blocks = (part.vertices.count + kBlock - 1) / kBlock;
         writeVertices(out, part, blocks * kBlock);
-        writeElements(out, set, o, elements[o]);
-        writeRays(out, part, set.rayMeshes[o]);
+        writeElements(out, set, o, isThere ? elements[o] : std::vector<std::uint32_t>());
+        writeRays(out, part, isThere ? set.rayMeshes[o] : RayMesh());
         writeEmitters(out, scene, graph, part);
     }
     return out.take();

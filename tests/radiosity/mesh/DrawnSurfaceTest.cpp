@@ -34,7 +34,7 @@ TEST(DrawnSurface, ThatFollowedEditsIsThatOfTheSceneAsItStands) {
         for (int edit = 0; edit < 12; ++edit) {
             said += room.edit();
             const LitScene::Followed followed = lit.follow(placeScene(room.scene()));
-            if (followed.rebuilt)
+            if (followed.rebuilt || followed.added)
                 surface = std::make_unique<DrawnSurface>(lit.patches());
             else
                 surface->follow(followed.change.objects);

@@ -48,6 +48,7 @@ protected:
         room.show([](const LitMeshData&, std::size_t) { return Rgb(); });
         const Rgb exitance = room.room.light->luminance() * 3.14159265f;
         for (const LitObject& object : room.room.node->objects()) {
+            if (!object.geometry) continue;
             const LitMeshData& data = object.geometry->data();
             for (std::size_t v = 0; v < data.positions.size(); ++v) {
                 const float whole = room.unoccluded(object, now, v);

@@ -46,6 +46,7 @@ public:
     void show(const LightOf& light) {
         shown.clear();
         for (const LitObject& object : room.node->objects()) {
+            if (!object.geometry) continue; // there is nothing of it
             const LitMeshData& data = object.geometry->data();
             ShownLight& to = shown[object.geometry.get()];
             for (std::size_t v = 0; v < data.positions.size(); ++v)

@@ -33,7 +33,8 @@ struct PosedRoom : PreviewRoom {
         EXPECT_TRUE(settle());
         show(ownLight);
         for (const LitObject& object : room.node->objects())
-            for (std::size_t v = 0; v < object.geometry->data().positions.size(); ++v)
+            for (std::size_t v = 0; object.geometry && v < object.geometry->data().positions.size();
+                 ++v)
                 shown[object.geometry.get()].factors[v] =
                     LightFactors(object.geometry->data().direct[v].r / exitance().r);
     }
@@ -85,6 +86,7 @@ std::size_t differing(PosedRoom& before, PosedRoom& after, SceneStatePtr then = 
     std::size_t wrong = 0;
     const auto objects = before.room.node->objects();
     for (std::size_t o = 0; o < objects.size(); ++o) {
+        if (!objects[o].geometry) continue;
         const LitGeometry& geometry = *objects[o].geometry;
         const std::vector<float> is = drawnLight(geometry, &before.shown.at(&geometry));
         const std::vector<float> shouldBe =
