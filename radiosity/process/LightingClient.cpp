@@ -64,7 +64,7 @@ void LightingClient::launch() {
         block.viewer = getpid();
         ring_.emplace(block.ring, block.ringBytes);
         queue_.clear();
-        granted_ = opened_ = 0;
+        granted_ = opened_ = storeNumber_ = 0;
         grantedRegion_.reset();
         status_ = {};
         ungranted_ = 0;
@@ -99,18 +99,36 @@ void LightingClient::distrust(const std::string& why) {
     failed(why);
 }
 
+/// The scene with all edits so far: what was sent before counts no more.
 void LightingClient::sendScene() {
     hopeless_ = false;
+    if (unlitSince_ == 0) unlitSince_ = steadySeconds();
     if (!control_) return;
     ByteWriter task;
     writeTask_(task);
-    RegionPtr region = link_->regions().create(task.bytes().size());
+    sendRegion(MessageKind::scene, task);
+}
+
+/// What is too long for the ring goes in a region of its own.
+void LightingClient::sendRegion(MessageKind kind, const ByteWriter& content) {
+    RegionPtr region = link_->regions().create(content.bytes().size());
     region->reserve();
-    std::copy(task.bytes().begin(), task.bytes().end(), region->bytes().begin());
-    ByteWriter body = messageOf(MessageKind::scene);
+    std::copy(content.bytes().begin(), content.bytes().end(), region->bytes().begin());
+    ByteWriter body = messageOf(kind);
     body.text(region->name());
-    queue_.putScene(body.take(), std::move(region));
+    if (kind == MessageKind::scene)
+        queue_.putScene(body.take(), std::move(region));
+    else
+        queue_.putGrowth(body.take(), std::move(region));
+}
+
+void LightingClient::send(const SceneGrowth& growth) {
+    hopeless_ = false;
     if (unlitSince_ == 0) unlitSince_ = steadySeconds();
+    if (!control_) return; // the next worker gets it with the scene
+    ByteWriter content;
+    write(content, growth);
+    sendRegion(MessageKind::growth, content);
 }
 
 void LightingClient::send(const GraphEdit& edit) {
@@ -216,6 +234,9 @@ void LightingClient::readStatus() {
 void LightingClient::grantStore() {
     StoreRequest request;
     if (!control().request.read(request) || request.number <= granted_) return;
+    openStore(); // what was granted before may be ready by now, and is not to be lost
+    if (request.store != 0 && request.store != storeNumber_)
+        throw Error("the process asks for memory for nothing");
     if (request.bytes > options_.mostMemory) {
         say("radiosity: the light of this scene takes " + std::to_string(request.bytes >> 20) +
             " MB, more than the " + std::to_string(options_.mostMemory >> 20) +
@@ -227,6 +248,7 @@ void LightingClient::grantStore() {
     }
     grantedRegion_ = link_->regions().create(request.bytes);
     granted_ = request.number;
+    grantedFor_ = request.store;
     StoreGrant grant;
     grant.number = granted_;
     grant.name.set(grantedRegion_->name());
@@ -236,8 +258,14 @@ void LightingClient::grantStore() {
 
 void LightingClient::openStore() {
     if (!grantedRegion_ || !storeReady(*grantedRegion_, granted_)) return;
-    store_ = std::make_shared<StoreReader>(grantedRegion_, granted_);
+    auto store = std::make_shared<StoreReader>(grantedRegion_, granted_);
     grantedRegion_->unlink();
+    if (grantedFor_ != 0) {
+        store_->add(std::move(store));
+    } else {
+        store_ = std::move(store);
+        storeNumber_ = granted_;
+    }
     grantedRegion_.reset();
     opened_ = granted_;
     retryDelay_ = 0; // it works

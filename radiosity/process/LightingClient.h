@@ -34,8 +34,8 @@ public:
     void start();
     void stop();
 
-    /// There is a new scene: what was sent before counts no more.
-    void sendScene();
+    /// Things have come to the scene.
+    void send(const SceneGrowth& growth);
     void send(const GraphEdit& edit);
     void invalidate(const Bounds& box);
     void setCamera(const View& view);
@@ -60,6 +60,8 @@ private:
     void launch();
     void failed(const std::string& why);
     void say(const std::string& text);
+    void sendScene();
+    void sendRegion(MessageKind kind, const ByteWriter& content);
     void sendValue(std::uint64_t key, MessageKind kind, std::uint32_t value);
     void watch(double passed);
     void grantStore();
@@ -85,6 +87,8 @@ private:
     std::uint64_t granted_ = 0, opened_ = 0;
     RegionPtr grantedRegion_;
     std::shared_ptr<StoreReader> store_;
+    std::uint64_t storeNumber_ = 0; ///< of store_
+    std::uint64_t grantedFor_ = 0;  ///< StoreRequest::store of the last grant
 
     WorkerStatus status_;
     WorkerWatch watch_;

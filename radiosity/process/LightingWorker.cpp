@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <string_view>
+#include <unordered_set>
 #include <utility>
 
 namespace penumbra {
@@ -24,6 +26,15 @@ constexpr std::size_t kMostSums = 1 << 16; ///< of direct light in one turn [ray
 [[noreturn]] void senseless(const char* what) {
     throw Error(std::string("radiosity: ") + what +
                 " makes no sense (is the viewer another version of the program?)");
+}
+
+/// Whether nothing of what was lit is left.
+bool isAnother(const PatchSet& set, const PlacedScene& now) {
+    std::unordered_set<std::string_view> paths;
+    for (const Object& object : now.objects) paths.insert(object.path);
+    return !paths.empty() && std::ranges::none_of(set.objects, [&](const ObjectPart& object) {
+        return paths.contains(object.path);
+    });
 }
 
 } // namespace
@@ -91,6 +102,9 @@ void LightingWorker::take(MessageKind kind, ByteReader& message) {
     case MessageKind::scene:
         takeScene(message.text());
         break;
+    case MessageKind::growth:
+        takeGrowth(message.text());
+        break;
     case MessageKind::edit: {
         const auto edit = readGraphEdit(message);
         if (!edit || !graph_ || !graph_->apply(*edit)) senseless("an edit");
@@ -131,11 +145,24 @@ void LightingWorker::take(MessageKind kind, ByteReader& message) {
     }
 }
 
-void LightingWorker::takeScene(const std::string& region) {
-    const RegionPtr opened = regions_.open(region);
+RegionPtr LightingWorker::opened(const std::string& region) {
+    RegionPtr opened = regions_.open(region);
     if (!opened) senseless("the name of a scene");
     opened->unlink();
-    ByteReader reader(opened->bytes());
+    return opened;
+}
+
+void LightingWorker::takeGrowth(const std::string& region) {
+    const RegionPtr content = opened(region);
+    ByteReader reader(content->bytes());
+    const auto growth = readSceneGrowth(reader);
+    if (!growth || !graph_ || !graph_->apply(*growth)) senseless("what comes to the scene");
+    edited_ = true;
+}
+
+void LightingWorker::takeScene(const std::string& region) {
+    const RegionPtr content = opened(region);
+    ByteReader reader(content->bytes());
     task_ = readLightingTask(reader);
     if (!task_) senseless("a scene");
     viewer_.setPolicy(task_->solving.policy);
@@ -178,19 +205,31 @@ void LightingWorker::followScene() {
     if (!graph_) return;
     if (!lit_) return build();
     const PlacedScene placed = placeScene(graph_->scene());
+    if (isAnother(lit_->patches(), placed)) {
+        publisher_.reset();
+        lit_.reset();
+        return build();
+    }
     const LitScene::Followed followed = lit_->follow(placed);
     for (const Bounds& box : std::exchange(invalid_, {})) lit_->invalidate(box);
     if (followed.rebuilt) return build();
-    if (followed.added) build();
     std::optional<Bounds> moved;
     for (ObjectId object : followed.change.objects) {
         if (!moved) moved.emplace();
         moved->add(boundsOf(lit_->patches(), object));
     }
     viewer_.setMoved(moved);
-    if (followed.added) return;
+    show(followed);
+}
+
+/// Has what an edit changed published.
+void LightingWorker::show(const LitScene::Followed& followed) {
+    if (followed.added) publisher_->grow();
     publisher_->follow(followed.change);
-    if (publisher_->outgrown()) requestStore();
+    if (publisher_->outgrown() || (followed.added && !publisher_->hasStore()))
+        requestStore();
+    else if (followed.added)
+        requestAddition();
 }
 
 /// Meshes the scene, if that was not done, and asks for a store to publish it in.
@@ -217,8 +256,20 @@ void LightingWorker::requestStore() {
     shape_.meshBytes = mesh_.size();
     shape_.blocks = blocks + std::max(kLeastSpare, blocks / 4);
     shape_.firstPrivate = lit_->patches().firstPrivate / PatchSet::kBlock;
+    request(shape_.bytes(), 0);
+}
+
+/// Asks for memory for the mesh of the objects that have come.
+void LightingWorker::requestAddition() {
+    mesh_ = describeMesh(*lit_, *graph_, described_);
+    request(additionShape(mesh_).bytes(), store_);
+}
+
+/// \param store see StoreRequest
+void LightingWorker::request(std::uint64_t bytes, std::uint64_t store) {
     ++request_.number;
-    request_.bytes = shape_.bytes();
+    request_.bytes = bytes;
+    request_.store = store;
     control_.request.write(request_);
 }
 
@@ -226,11 +277,17 @@ void LightingWorker::openStore() {
     StoreGrant grant;
     if (!control_.grant.read(grant) || grant.number != request_.number) return;
     const RegionPtr region = regions_.open(grant.name.text());
-    if (!region || region->bytes().size() < shape_.bytes()) senseless("the memory for results");
+    if (!region || region->bytes().size() < request_.bytes) senseless("the memory for results");
     region->reserve();
     region->unlink();
     control_.opened.store(request_.number, std::memory_order_release);
-    publisher_->setStore(std::make_unique<StoreWriter>(region, request_.number, shape_, mesh_));
+    if (request_.store != 0) {
+        publisher_->addMesh(region, request_.number, mesh_);
+    } else {
+        publisher_->setStore(std::make_unique<StoreWriter>(region, request_.number, shape_, mesh_));
+        store_ = request_.number;
+    }
+    described_ = std::uint32_t(lit_->patches().objects.size());
     mesh_ = {};
 }
 
@@ -273,14 +330,14 @@ void LightingWorker::solve(double budget) {
     const auto progress = [&](const char* phase, double done) {
         status_.task.set(phase);
         status_.progress = done;
-        directDone_ |= std::strcmp(phase, "direct light") != 0;
+        if (std::strcmp(phase, "direct light") != 0) directIsDone();
     };
     Solver& solver = lit_->solver();
     viewer_.update(solver, steadySeconds());
     const bool done = solver.stepUntil(aim_, budget, progress);
     if (done) workLeft_ = std::exchange(aim_, SolutionState::exact) != SolutionState::exact;
     pace_.worked(steadySeconds(), solver.direct().dirtyKnown());
-    directDone_ |= done;
+    if (done) directIsDone();
     status_.phase = WorkerStatus::solving;
     if (directDone_) solver.sumUp(kMostSums); // the first light comes all at once
     if (done || steadySeconds() >= nextScan_) {
@@ -289,6 +346,11 @@ void LightingWorker::solve(double budget) {
     } else {
         publisher_->directWorked();
     }
+}
+
+void LightingWorker::directIsDone() {
+    directDone_ = true;
+    publisher_->directIsDone();
 }
 
 /// This scene can't be lit; the next one, or an edit, may change that.

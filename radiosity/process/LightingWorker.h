@@ -42,16 +42,22 @@ public:
 private:
     void receive();
     void take(MessageKind kind, ByteReader& message);
+    RegionPtr opened(const std::string& region);
     void takeScene(const std::string& region);
+    void takeGrowth(const std::string& region);
     void takeLights(ByteReader& message);
     void followScene();
     void build();
     void requestStore();
+    void requestAddition();
+    void request(std::uint64_t bytes, std::uint64_t store);
+    void show(const LitScene::Followed& followed);
     void openStore();
     bool mayFollow() const;
     std::uint64_t followed() const;
     bool work(double budget);
     void solve(double budget);
+    void directIsDone();
     void stateSolution();
     void showWork();
     void fail(const std::string& why);
@@ -87,7 +93,9 @@ private:
 
     StoreRequest request_;
     StoreShape shape_;
-    std::vector<std::byte> mesh_; ///< until a store is granted
+    std::uint64_t store_ = 0;     ///< number of the store that is in use
+    std::uint32_t described_ = 0; ///< objects of which the mesh is in it
+    std::vector<std::byte> mesh_; ///< until memory for it is granted
     WorkerStatus status_;
 };
 

@@ -13,7 +13,9 @@ ByteWriter messageOf(MessageKind kind) {
 }
 
 void MessageQueue::put(std::uint64_t key, std::vector<std::byte> body) {
-    const auto same = std::find_if(queue_.begin(), queue_.end(),
+    const auto last =
+        std::find_if(queue_.rbegin(), queue_.rend(), [](const Message& m) { return m.region; });
+    const auto same = std::find_if(last.base(), queue_.end(),
                                    [&](const Message& m) { return key != kNoKey && m.key == key; });
     if (same != queue_.end())
         *same = {key, std::move(body)};
@@ -23,6 +25,10 @@ void MessageQueue::put(std::uint64_t key, std::vector<std::byte> body) {
 
 void MessageQueue::putScene(std::vector<std::byte> body, RegionPtr region) {
     std::erase_if(queue_, [](const Message& m) { return m.key < kCamera || m.region; });
+    queue_.push_back({kNoKey, std::move(body), std::move(region)});
+}
+
+void MessageQueue::putGrowth(std::vector<std::byte> body, RegionPtr region) {
     queue_.push_back({kNoKey, std::move(body), std::move(region)});
 }
 

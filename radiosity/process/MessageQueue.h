@@ -17,8 +17,9 @@ namespace penumbra {
 ByteWriter messageOf(MessageKind kind);
 
 /// Messages wait here until there is room for them in the ring; a later one replaces an earlier one
-/// of the same thing. So the queue is bounded by the number of things in the scene, and nothing but
-/// what is outdated is dropped. A region that a message names lives until the worker has taken the
+/// of the same thing, but not across one that says what things there are. So the queue is bounded
+/// by the number of things that were in the scene, and nothing but what is outdated is dropped. A
+/// region that a message names lives until the worker has taken the
 /// message.
 class MessageQueue {
 public:
@@ -30,6 +31,8 @@ public:
     void put(std::uint64_t key, std::vector<std::byte> body);
     /// A whole scene: earlier scenes and edits that are still here count no more.
     void putScene(std::vector<std::byte> body, RegionPtr region);
+    /// Things that come: edits before it are about what there was, later ones about what there is.
+    void putGrowth(std::vector<std::byte> body, RegionPtr region);
     /// Moves what there is room for into the ring. \return whether anything was
     bool send(RingSender& ring);
     /// The worker has taken all messages up to this serial number.

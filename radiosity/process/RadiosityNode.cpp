@@ -86,14 +86,10 @@ void RadiosityNode::Impl::diff() {
             std::holds_alternative<SetMaterial>(edit) || std::holds_alternative<SetLuminance>(edit);
         gate.add(std::move(edit));
     }
+    if (change.growth) client.send(*change.growth);
     const std::vector<GraphEdit> due = gate.takeDue();
-    if (change.structure) {
-        for (const GraphEdit& edit : due) table.report(edit);
-        client.sendScene();
-        ++updates;
-    } else {
-        send(due);
-    }
+    updates += change.growth && due.empty();
+    send(due);
 }
 
 void RadiosityNode::Impl::place(const Group& root) {
@@ -103,10 +99,8 @@ void RadiosityNode::Impl::place(const Group& root) {
 }
 
 void RadiosityNode::Impl::send(const std::vector<GraphEdit>& edits) {
-    for (const GraphEdit& edit : edits) {
-        table.report(edit);
-        client.send(edit);
-    }
+    for (const GraphEdit& edit : edits)
+        if (table.report(edit)) client.send(edit); // else it is of what is gone
     updates += !edits.empty();
 }
 
@@ -183,7 +177,7 @@ void RadiosityNode::Impl::showObjects(Group& lit, bool moved) {
         if (found == byPath.end()) continue;
         object.toNode = placed.objects[found->second].toWorld;
         branch[o].second->setMatrix(object.toNode * object.toObject);
-        isLit[found->second] = object.geometry != nullptr;
+        isLit[found->second] |= object.geometry != nullptr;
     }
     unlit.clear();
     for (const Placed<Mesh>& mesh : placed.meshes)

@@ -20,7 +20,7 @@ namespace penumbra {
 // Whoever reads it checks it: the writer may have gone mad.
 
 /// Rises with every change of the layout or of the messages.
-constexpr std::uint32_t kProtocolVersion = 9;
+constexpr std::uint32_t kProtocolVersion = 10;
 constexpr std::uint64_t kControlMagic = 0x314c5254434e5550; // "PUNCTRL1"
 constexpr std::size_t kRingBytes = std::size_t(1) << 20;
 
@@ -45,6 +45,7 @@ struct SharedText {
 /// What the messages begin with; after the serial number [8 bytes] comes what the kind says.
 enum class MessageKind : std::uint32_t {
     scene,         ///< name of a region with a LightingTask and a SceneSnapshot
+    growth,        ///< name of a region with a SceneGrowth
     edit,          ///< GraphEdit
     invalidate,    ///< Bounds
     camera,        ///< View
@@ -78,6 +79,8 @@ struct WorkerStatus {
 /// The worker asks for memory to publish in, the node grants it.
 struct StoreRequest {
     std::uint64_t number = 0, bytes = 0;
+    std::uint64_t store =
+        0; ///< number of the store that it is to hold more of the mesh of; 0: none
 };
 struct StoreGrant {
     std::uint64_t number = 0;

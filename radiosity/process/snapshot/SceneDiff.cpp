@@ -76,7 +76,6 @@ std::uint32_t SceneDiff::enter(const NodePtr& node) {
     seen_.emplace_back();
     snapshot_.nodes.emplace_back();
     snapshot_.nodes[number].name = node->name();
-    grown_ = true;
     describe(number);
     NodeSnapshot& snapshot = snapshot_.nodes[number];
     const NodeSnapshot& seen = seen_[number];
@@ -128,10 +127,8 @@ void SceneDiff::diffNode(std::uint32_t number, Change& change) {
     const NodeSnapshot before = seen_[number];
     describe(number);
     const NodeSnapshot& now = seen_[number];
-    if (now.beginsObject != before.beginsObject) {
-        snapshot_.nodes[number].beginsObject = now.beginsObject;
-        change.structure = true;
-    }
+    if (now.beginsObject != before.beginsObject)
+        change.edits.push_back(SetBeginsObject{number, now.beginsObject});
     if (now.matrix != before.matrix) change.edits.push_back(SetMatrix{number, now.matrix});
     if (now.visible != before.visible) change.edits.push_back(SetVisible{number, now.visible});
     if (now.luminance != before.luminance)
@@ -141,31 +138,41 @@ void SceneDiff::diffNode(std::uint32_t number, Change& change) {
 
 SceneDiff::Change SceneDiff::diff() {
     Change change;
-    grown_ = false;
-    const std::size_t known = nodes_.size();
+    const std::size_t known = nodes_.size(), knownMaterials = materials_.size();
     for (std::uint32_t n = 0; n < known; ++n)
         if (nodes_[n].node && nodes_[n].node->revision() != nodes_[n].revision) diffNode(n, change);
-    for (std::uint32_t m = 0; m < materials_.size(); ++m) {
+    for (std::uint32_t m = 0; m < knownMaterials; ++m) {
         auto& [material, revision] = materials_[m];
         if (!material || std::exchange(revision, material->revision()) == revision) continue;
-        const MaterialSnapshot& reported = snapshot_.materials[m];
-        (void)reported;
         change.edits.push_back(SetMaterial{m, material->reflectance(), material->emission()});
     }
-    change.structure |= grown_;
-    if (change.structure) {
-        std::erase_if(change.edits, [&](const GraphEdit& edit) {
-            return std::holds_alternative<SetChildren>(edit) && apply(snapshot_, edit);
-        });
-        dropUnreachable();
-    }
+    if (nodes_.size() > known) change.growth = takeGrowth(known, knownMaterials, change);
     return change;
 }
 
-/// Forgets what has been taken out of the graph: it might be gone for good.
-void SceneDiff::dropUnreachable() {
+/// \param nodes, materials as many there were before; the others have come
+SceneGrowth SceneDiff::takeGrowth(std::size_t nodes, std::size_t materials, Change& change) {
+    SceneGrowth growth;
+    growth.firstNode = std::uint32_t(nodes);
+    growth.firstMaterial = std::uint32_t(materials);
+    std::erase_if(change.edits, [&](const GraphEdit& edit) {
+        const auto* const children = std::get_if<SetChildren>(&edit);
+        if (!children || !report(edit)) return false;
+        growth.children.push_back(*children);
+        return true;
+    });
+    growth.gone = dropUnreachable();
+    std::erase_if(growth.gone, [&](std::uint32_t n) { return n >= nodes; });
+    growth.nodes.assign(snapshot_.nodes.begin() + std::ptrdiff_t(nodes), snapshot_.nodes.end());
+    growth.materials.assign(snapshot_.materials.begin() + std::ptrdiff_t(materials),
+                            snapshot_.materials.end());
+    return growth;
+}
+
+/// Forgets what has been taken out of the graph: it might be gone for good. \return such nodes
+std::vector<std::uint32_t> SceneDiff::dropUnreachable() {
     std::vector<std::uint8_t> nodes(nodes_.size(), 0), materials(materials_.size(), 0);
-    std::vector<std::uint32_t> open{0};
+    std::vector<std::uint32_t> open{0}, gone;
     nodes[0] = 1;
     while (!open.empty()) {
         const NodeSnapshot& snapshot = snapshot_.nodes[open.back()];
@@ -180,12 +187,15 @@ void SceneDiff::dropUnreachable() {
         nodes_[n] = {};
         seen_[n] = {};
         snapshot_.nodes[n] = {};
+        gone.push_back(n);
     }
     for (std::uint32_t m = 0; m < materials.size(); ++m) {
         if (materials[m] || !materials_[m].material) continue;
         materialNumbers_.erase(materials_[m].material.get());
         materials_[m] = {};
+        snapshot_.materials[m].textures = {};
     }
+    return gone;
 }
 
 } // namespace penumbra

@@ -20,15 +20,16 @@ public:
     explicit SceneDiff(const Group& root);
 
     struct Change {
-        bool structure = false; ///< there are new things: the snapshot is to be sent whole
+        std::optional<SceneGrowth> growth; ///< comes before the edits
         std::vector<GraphEdit> edits;
-        bool any() const { return structure || !edits.empty(); }
+        bool any() const { return growth || !edits.empty(); }
     };
-    /// What was edited since this was called last. New things, and which things there are, enter
-    /// the snapshot here; other edits do when they are sent.
+    /// What was edited since this was called last. New things enter the snapshot here, and with
+    /// them which things there are; other edits do when they are sent.
     Change diff();
     /// An edit goes to the worker.
-    void report(const GraphEdit& edit) { apply(snapshot_, edit); }
+    /// \return false: what it is of is there no more
+    bool report(const GraphEdit& edit) { return apply(snapshot_, edit); }
 
     const SceneSnapshot& snapshot() const { return snapshot_; }
     std::optional<std::uint32_t> numberOf(const Node& node) const;
@@ -50,7 +51,8 @@ private:
     std::vector<std::uint32_t> enterChildren(const Group& group);
     void describe(std::uint32_t number);
     void diffNode(std::uint32_t number, Change& change);
-    void dropUnreachable();
+    SceneGrowth takeGrowth(std::size_t nodes, std::size_t materials, Change& change);
+    std::vector<std::uint32_t> dropUnreachable();
 
     std::vector<Watched> nodes_;
     std::vector<WatchedMaterial> materials_;
@@ -59,7 +61,6 @@ private:
     std::vector<NodeSnapshot>
         seen_; ///< what matters of each node at its revision; no names, meshes
     SceneSnapshot snapshot_;
-    bool grown_ = false;
 };
 
 } // namespace penumbra

@@ -9,22 +9,27 @@ using Kind = NodeSnapshot::Kind;
 }
 
 SceneReplica::SceneReplica(SceneSnapshot snapshot) : snapshot_(std::move(snapshot)) {
-    for (std::uint32_t m = 0; m < snapshot_.materials.size(); ++m) {
+    makeThings(0, 0);
+    scene_.root = std::static_pointer_cast<Group>(nodes_[0]);
+}
+
+/// Makes the materials and nodes of the snapshot from these on.
+void SceneReplica::makeThings(std::size_t firstMaterial, std::size_t firstNode) {
+    for (std::size_t m = firstMaterial; m < snapshot_.materials.size(); ++m) {
         const MaterialSnapshot& from = snapshot_.materials[m];
         const auto material = std::make_shared<Material>(from.name, from.textures);
         material->setReflectance(from.reflectance);
         material->setEmission(from.emission);
         materials_.push_back(material);
-        numbers_[material.get()] = m;
+        numbers_[material.get()] = std::uint32_t(m);
     }
-    for (std::uint32_t n = 0; n < snapshot_.nodes.size(); ++n) {
+    for (std::size_t n = firstNode; n < snapshot_.nodes.size(); ++n) {
         nodes_.push_back(makeNode(snapshot_.nodes[n]));
-        if (nodes_[n]) numbers_[nodes_[n].get()] = n;
+        if (nodes_[n]) numbers_[nodes_[n].get()] = std::uint32_t(n);
         snapshot_.nodes[n].mesh.reset();
     }
-    for (std::uint32_t n = 0; n < nodes_.size(); ++n)
-        if (nodes_[n]) adopt(n);
-    scene_.root = std::static_pointer_cast<Group>(nodes_[0]);
+    for (std::size_t n = firstNode; n < nodes_.size(); ++n)
+        if (nodes_[n]) adopt(std::uint32_t(n));
 }
 
 NodePtr SceneReplica::makeNode(const NodeSnapshot& snapshot) const {
@@ -81,11 +86,26 @@ struct SceneReplica::Editor {
         copy.materials_[e.material]->setEmission(e.emission);
     }
     void operator()(const SetChildren& e) const { copy.adopt(e.node); }
+    void operator()(const SetBeginsObject& e) const {
+        node<Transform>(e.node).setBeginsObject(e.beginsObject);
+    }
 };
 
 bool SceneReplica::apply(const GraphEdit& edit) {
     if (!penumbra::apply(snapshot_, edit)) return false;
     std::visit(Editor{*this}, edit);
+    return true;
+}
+
+bool SceneReplica::apply(const SceneGrowth& growth) {
+    if (!penumbra::apply(snapshot_, growth)) return false;
+    makeThings(growth.firstMaterial, growth.firstNode);
+    for (const SetChildren& edit : growth.children)
+        if (nodes_[edit.node]) adopt(edit.node);
+    for (const std::uint32_t gone : growth.gone) {
+        numbers_.erase(nodes_[gone].get());
+        nodes_[gone].reset();
+    }
     return true;
 }
 

@@ -18,6 +18,7 @@ public:
 
     /// \return whether it can be done, see apply()
     bool apply(const GraphEdit& edit);
+    bool apply(const SceneGrowth& growth);
 
     const Scene& scene() const { return scene_; }
     /// Numbers in the snapshot; kNone: it is none of these.
@@ -27,6 +28,7 @@ public:
 
 private:
     struct Editor;
+    void makeThings(std::size_t firstMaterial, std::size_t firstNode);
     NodePtr makeNode(const NodeSnapshot& snapshot) const;
     void adopt(std::uint32_t node);
 

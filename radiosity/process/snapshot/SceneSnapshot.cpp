@@ -74,6 +74,12 @@ struct Applier {
         snapshot.nodes[edit.node].children = std::move(before);
         return false;
     }
+    bool operator()(const SetBeginsObject& edit) const {
+        NodeSnapshot* const found = node(snapshot, edit.node, Kind::transform);
+        if (!found) return false;
+        found->beginsObject = edit.beginsObject;
+        return true;
+    }
 };
 
 } // namespace
@@ -85,12 +91,46 @@ std::uint64_t keyOf(const GraphEdit& edit) {
         std::uint32_t operator()(const SetLuminance& e) const { return e.node; }
         std::uint32_t operator()(const SetMaterial& e) const { return e.material; }
         std::uint32_t operator()(const SetChildren& e) const { return e.node; }
+        std::uint32_t operator()(const SetBeginsObject& e) const { return e.node; }
     };
     return std::uint64_t(edit.index()) << 32 | std::visit(Target{}, edit);
 }
 
 bool apply(SceneSnapshot& snapshot, const GraphEdit& edit) {
     return std::visit(Applier{snapshot}, edit);
+}
+
+bool apply(SceneSnapshot& snapshot, const SceneGrowth& growth) {
+    std::vector<NodeSnapshot>& nodes = snapshot.nodes;
+    if (growth.firstNode != nodes.size() || growth.firstMaterial != snapshot.materials.size())
+        return false;
+    nodes.insert(nodes.end(), growth.nodes.begin(), growth.nodes.end());
+    snapshot.materials.insert(snapshot.materials.end(), growth.materials.begin(),
+                              growth.materials.end());
+    for (const SetChildren& edit : growth.children) {
+        if (edit.node >= nodes.size() || !hasChildren(nodes[edit.node].kind)) return false;
+        nodes[edit.node].children = edit.children;
+    }
+    for (const std::uint32_t gone : growth.gone) {
+        if (gone >= nodes.size()) return false;
+        nodes[gone] = {};
+    }
+    return makesSense(snapshot);
+}
+
+bool makesSense(const SceneSnapshot& snapshot) {
+    const bool nodes = std::ranges::all_of(snapshot.nodes, [&](const NodeSnapshot& node) {
+        return (node.kind != Kind::transform || finite(node.matrix)) &&
+               (node.kind != Kind::light || isLight(node.luminance)) &&
+               known(snapshot, node.children) &&
+               std::ranges::all_of(node.materials, [&](std::uint32_t material) {
+                   return material < snapshot.materials.size();
+               });
+    });
+    return nodes && walkable(snapshot) &&
+           std::ranges::all_of(snapshot.materials, [](const MaterialSnapshot& material) {
+               return isLight(material.reflectance) && isLight(material.emission);
+           });
 }
 
 bool walkable(const SceneSnapshot& snapshot) {

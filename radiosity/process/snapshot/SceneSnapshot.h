@@ -65,21 +65,42 @@ struct SetChildren {
     std::uint32_t node;
     std::vector<std::uint32_t> children;
 };
-using GraphEdit = std::variant<SetMatrix, SetVisible, SetLuminance, SetMaterial, SetChildren>;
+struct SetBeginsObject {
+    std::uint32_t node;
+    bool beginsObject;
+};
+using GraphEdit =
+    std::variant<SetMatrix, SetVisible, SetLuminance, SetMaterial, SetChildren, SetBeginsObject>;
+
+/// Things that come to a snapshot, and what becomes of the others for it. Numbers are not used
+/// again: what comes follows what was ever there.
+struct SceneGrowth {
+    std::uint32_t firstNode = 0, firstMaterial = 0; ///< how many there were
+    std::vector<NodeSnapshot> nodes;
+    std::vector<MaterialSnapshot> materials;
+    std::vector<SetChildren> children; ///< of nodes that were there
+    std::vector<std::uint32_t> gone;   ///< nodes that are in the graph no more
+};
 
 /// The same for two edits of the same thing.
 std::uint64_t keyOf(const GraphEdit& edit);
 
 /// \return false, and nothing is done: there is no such thing, or its value can't be
 bool apply(SceneSnapshot& snapshot, const GraphEdit& edit);
+/// \return false: it makes no sense, and the snapshot none any more
+bool apply(SceneSnapshot& snapshot, const SceneGrowth& growth);
 
 /// Whether the graph has no circles, and not so many paths that nobody could walk them.
 bool walkable(const SceneSnapshot& snapshot);
+/// Whether all numbers are those of things, all values can be, and the graph can be walked.
+bool makesSense(const SceneSnapshot& snapshot);
 
 void write(ByteWriter& out, const SceneSnapshot& snapshot);
 void write(ByteWriter& out, const GraphEdit& edit);
+void write(ByteWriter& out, const SceneGrowth& growth);
 /// \return none: it is not one, or not one that can be walked
 std::optional<SceneSnapshot> readSceneSnapshot(ByteReader& in);
 std::optional<GraphEdit> readGraphEdit(ByteReader& in);
+std::optional<SceneGrowth> readSceneGrowth(ByteReader& in);
 
 } // namespace penumbra

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace penumbra {
 
@@ -192,58 +193,81 @@ Edit readTarget(ByteReader& in) {
     return edit;
 }
 
-/// Whether all numbers are those of things, and all values can be.
-bool sound(SceneSnapshot& snapshot) {
-    for (std::uint32_t n = 0; n < snapshot.nodes.size(); ++n) {
-        NodeSnapshot& node = snapshot.nodes[n];
-        if (node.kind == Kind::transform && !apply(snapshot, SetMatrix{n, node.matrix}))
-            return false;
-        if (node.kind == Kind::light && !apply(snapshot, SetLuminance{n, node.luminance}))
-            return false;
-        for (std::uint32_t child : node.children)
-            if (child >= snapshot.nodes.size() || snapshot.nodes[child].kind == Kind::none)
-                return false;
-        for (std::uint32_t material : node.materials)
-            if (material >= snapshot.materials.size()) return false;
+void writeMaterials(ByteWriter& out, std::span<const MaterialSnapshot> materials) {
+    out.put(std::uint64_t(materials.size()));
+    std::vector<MaterialTextures> textures;
+    for (const MaterialSnapshot& material : materials) {
+        out.text(material.name);
+        out.put(material.reflectance);
+        out.put(material.emission);
+        textures.push_back(material.textures);
     }
-    for (std::uint32_t m = 0; m < snapshot.materials.size(); ++m) {
-        const MaterialSnapshot& material = snapshot.materials[m];
-        if (!apply(snapshot, SetMaterial{m, material.reflectance, material.emission})) return false;
+    writeTextures(out, textures);
+}
+
+std::vector<MaterialSnapshot> readMaterials(ByteReader& in) {
+    std::vector<MaterialSnapshot> materials(in.count(sizeof(std::uint64_t) + 2 * sizeof(Rgb)));
+    for (MaterialSnapshot& material : materials) {
+        material.name = in.text();
+        material.reflectance = in.get<Rgb>();
+        material.emission = in.get<Rgb>();
     }
-    return walkable(snapshot);
+    const auto textures = readTextures(in, materials.size());
+    for (std::size_t m = 0; m < textures.size(); ++m) materials[m].textures = textures[m];
+    return materials;
+}
+
+void writeNodes(ByteWriter& out, std::span<const NodeSnapshot> nodes) {
+    out.put(std::uint64_t(nodes.size()));
+    for (const NodeSnapshot& node : nodes) writeNode(out, node);
+}
+
+std::vector<NodeSnapshot> readNodes(ByteReader& in) {
+    std::vector<NodeSnapshot> nodes;
+    const std::size_t count = in.count(sizeof(Kind));
+    for (std::size_t n = 0; n < count && in.ok(); ++n) nodes.push_back(readNode(in));
+    return nodes;
 }
 
 } // namespace
 
 void write(ByteWriter& out, const SceneSnapshot& snapshot) {
-    out.put(std::uint64_t(snapshot.materials.size()));
-    for (const MaterialSnapshot& material : snapshot.materials) {
-        out.text(material.name);
-        out.put(material.reflectance);
-        out.put(material.emission);
-    }
-    std::vector<MaterialTextures> textures;
-    for (const MaterialSnapshot& material : snapshot.materials)
-        textures.push_back(material.textures);
-    writeTextures(out, textures);
-    out.put(std::uint64_t(snapshot.nodes.size()));
-    for (const NodeSnapshot& node : snapshot.nodes) writeNode(out, node);
+    writeMaterials(out, snapshot.materials);
+    writeNodes(out, snapshot.nodes);
 }
 
 std::optional<SceneSnapshot> readSceneSnapshot(ByteReader& in) {
     SceneSnapshot snapshot;
-    snapshot.materials.resize(in.count(sizeof(std::uint64_t) + 2 * sizeof(Rgb)));
-    for (MaterialSnapshot& material : snapshot.materials) {
-        material.name = in.text();
-        material.reflectance = in.get<Rgb>();
-        material.emission = in.get<Rgb>();
-    }
-    const auto textures = readTextures(in, snapshot.materials.size());
-    for (std::size_t m = 0; m < textures.size(); ++m) snapshot.materials[m].textures = textures[m];
-    const std::size_t nodes = in.count(sizeof(Kind));
-    for (std::size_t n = 0; n < nodes && in.ok(); ++n) snapshot.nodes.push_back(readNode(in));
-    if (!in.ok() || !sound(snapshot)) return std::nullopt;
+    snapshot.materials = readMaterials(in);
+    snapshot.nodes = readNodes(in);
+    if (!in.ok() || !makesSense(snapshot)) return std::nullopt;
     return snapshot;
+}
+
+void write(ByteWriter& out, const SceneGrowth& growth) {
+    out.put(growth.firstNode);
+    out.put(growth.firstMaterial);
+    writeMaterials(out, growth.materials);
+    writeNodes(out, growth.nodes);
+    out.put(std::uint64_t(growth.children.size()));
+    for (const SetChildren& edit : growth.children) out.put(edit.node), out.list(edit.children);
+    out.list(growth.gone);
+}
+
+std::optional<SceneGrowth> readSceneGrowth(ByteReader& in) {
+    SceneGrowth growth;
+    growth.firstNode = in.get<std::uint32_t>();
+    growth.firstMaterial = in.get<std::uint32_t>();
+    growth.materials = readMaterials(in);
+    growth.nodes = readNodes(in);
+    growth.children.resize(in.count(sizeof(std::uint32_t) + sizeof(std::uint64_t)));
+    for (SetChildren& edit : growth.children) {
+        edit.node = in.get<std::uint32_t>();
+        edit.children = in.list<std::uint32_t>();
+    }
+    growth.gone = in.list<std::uint32_t>();
+    if (!in.ok()) return std::nullopt;
+    return growth;
 }
 
 void write(ByteWriter& out, const GraphEdit& edit) {
@@ -259,6 +283,9 @@ void write(ByteWriter& out, const GraphEdit& edit) {
             out.put(e.material), out.put(e.reflectance), out.put(e.emission);
         }
         void operator()(const SetChildren& e) const { out.put(e.node), out.list(e.children); }
+        void operator()(const SetBeginsObject& e) const {
+            out.put(e.node), out.put(std::uint8_t(e.beginsObject));
+        }
     };
     std::visit(Fields{out}, edit);
 }
@@ -290,6 +317,11 @@ std::optional<GraphEdit> readGraphEdit(ByteReader& in) {
     case 4: {
         auto& e = edit.emplace<SetChildren>(readTarget<SetChildren>(in));
         e.children = in.list<std::uint32_t>();
+        break;
+    }
+    case 5: {
+        auto& e = edit.emplace<SetBeginsObject>(readTarget<SetBeginsObject>(in));
+        e.beginsObject = in.get<std::uint8_t>() != 0;
         break;
     }
     default:

@@ -26,14 +26,32 @@ bool differs(const glm::dvec3& a, const glm::dvec3& b, bool exact) {
 
 } // namespace
 
-LightPublisher::LightPublisher(LitScene& scene)
-    : scene_(scene), elementNumber_(numberElements(scene.patches())),
-      patchBlocks_(scene.patches().patches.size()), nodes_(scene.patches().nodes.size()) {
-    const PatchSet& set = scene.patches();
-    for (std::uint32_t v = 0; v < set.vertices.size(); ++v) {
+LightPublisher::LightPublisher(LitScene& scene) : scene_(scene) {
+    grow();
+}
+
+void LightPublisher::grow() {
+    const PatchSet& set = scene_.patches();
+    numberElements(set, elementNumber_);
+    patchBlocks_.resize(set.patches.size());
+    nodes_.resize(set.nodes.size());
+    for (; objects_ < set.objects.size(); ++objects_) take(set.objects[objects_]);
+    if (!lights_.empty() && emitters_ != set.emitters.size())
+        setPreviewLights(previewSet_, std::exchange(previewed_, {}));
+}
+
+/// The vertices of an object that is known now.
+void LightPublisher::take(const ObjectPart& object) {
+    const PatchSet& set = scene_.patches();
+    for (std::uint32_t v = object.vertices.first; v < object.vertices.end(); ++v) {
         const std::uint32_t patch = set.vertexCoordinates[v].patch;
         if (patch != Element::kNone) noteBlock(set.wholeOf(patch), v / kBlock);
+        if (v % kBlock == 0) touch(v / kBlock);
     }
+}
+
+void LightPublisher::directIsDone() {
+    objectsLit_ = objects_;
 }
 
 /// A block has a vertex that is lit by the nodes of a patch of the mesh, or of its parts.
@@ -70,7 +88,8 @@ void LightPublisher::touchStale(std::uint32_t block) {
 }
 
 bool LightPublisher::canPublish(std::uint32_t block) const {
-    return block < store_->shape().blocks && scene_.solver().direct().summed(block);
+    return block < store_->shape().blocks && scene_.solver().direct().summed(block) &&
+           scene_.patches().vertexBlockObject[block].value < objectsLit_;
 }
 
 void LightPublisher::follow(const SceneChange& change) {
@@ -86,10 +105,13 @@ void LightPublisher::follow(const SceneChange& change) {
 void LightPublisher::setPreviewLights(std::uint32_t serial, const std::vector<std::string>& paths) {
     const PatchSet& set = scene_.patches();
     previewSet_ = serial;
+    previewed_ = paths;
+    emitters_ = set.emitters.size();
     lights_.clear();
     lights_.resize(paths.size());
     others_ = {};
     for (std::uint32_t e = 0; e < set.emitters.size(); ++e) {
+        if (set.objects[set.emitters[e].object.value].path.empty()) continue; // was replaced
         const auto path = std::find(paths.begin(), paths.end(), set.emitters[e].path);
         LightRows& rows =
             path != paths.end() ? lights_[std::size_t(path - paths.begin())] : others_;

@@ -18,7 +18,8 @@ namespace penumbra {
 /// writes these, a bounded number at a time.
 class LightPublisher {
 public:
-    /// \param scene must outlive this, and not be meshed anew
+    /// \param scene must outlive this, and not be meshed anew: objects that are added are told by
+    /// grow()
     explicit LightPublisher(LitScene& scene);
 
     /// Where to publish from now on: everything.
@@ -27,6 +28,10 @@ public:
     /// Whether there are more blocks than the store has room for: it needs another one.
     bool outgrown() const;
     std::uint32_t blockCount() const;
+    /// More of the mesh. \pre hasStore()
+    void addMesh(RegionPtr region, std::uint64_t number, std::span<const std::byte> mesh) {
+        store_->add(std::move(region), number, mesh);
+    }
 
     /// Lights of which each one's own part is published as well, see RadiosityNode.
     /// \param serial of this set, not 0
@@ -38,6 +43,11 @@ public:
     /// Whether all that was found to be stale has been published as such.
     bool staleShown() const { return staleToShow_ == 0; }
 
+    /// Objects were added to the patches.
+    void grow();
+    /// All direct light is known, that of objects which were added included: they are published
+    /// from now on.
+    void directIsDone();
     /// An edit was taken in.
     void follow(const SceneChange& change);
     /// The solver has worked: compares the blocks of direct light that it reported as changed.
@@ -55,6 +65,7 @@ public:
 private:
     void noteBlock(std::uint32_t patch, std::uint32_t block);
     void markPatches(std::vector<DirtyStatus>& work) const;
+    void take(const ObjectPart& object);
     void touch(std::uint32_t block);
     void touchStale(std::uint32_t block);
     bool canPublish(std::uint32_t block) const;
@@ -75,11 +86,14 @@ private:
     std::unique_ptr<StoreWriter> store_;
     std::vector<std::uint32_t> elementNumber_;            ///< see numberElements()
     std::vector<std::vector<std::uint32_t>> patchBlocks_; ///< by patches of the mesh
+    std::size_t objects_ = 0, objectsLit_ = 0;            ///< that are known; that may be published
     std::vector<glm::dvec3> nodes_;                       ///< illuminance that is published [lux]
     std::vector<Rgb> detail_; ///< what fine shadows added when it was settled last [lux]
     std::uint32_t previewSet_ = 0;
-    std::vector<LightRows> lights_; ///< previewed ones,
-    LightRows others_;              ///< and all that are not
+    std::vector<std::string> previewed_; ///< paths of that set
+    std::size_t emitters_ = 0;           ///< that were there then
+    std::vector<LightRows> lights_;      ///< previewed ones,
+    LightRows others_;                   ///< and all that are not
     enum class Touched : std::uint8_t { no, yes, stale };
     std::vector<std::uint32_t> left_;
     std::vector<Touched> touched_;

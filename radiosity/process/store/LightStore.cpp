@@ -11,7 +11,7 @@ namespace penumbra {
 
 namespace {
 
-constexpr std::uint64_t kMagic = 0x3245524f54535550; // "PUSTORE2"
+constexpr std::uint64_t kMagic = 0x3345524f54535550; // "PUSTORE3"
 constexpr std::size_t kBlockWords = sizeof(LightBlock) / 8;
 constexpr std::size_t kBaseWords = offsetof(LightBlock, corners) / 8;
 constexpr std::size_t kCornerWords = offsetof(LightBlock, lights) / 8 - kBaseWords;
@@ -96,6 +96,15 @@ StoreWriter::StoreWriter(RegionPtr region, std::uint64_t number, const StoreShap
     header_.ready.store(1, std::memory_order_release);
 }
 
+StoreShape additionShape(std::span<const std::byte> mesh) {
+    return {mesh.size(), 0, 0};
+}
+
+void StoreWriter::add(RegionPtr region, std::uint64_t number, std::span<const std::byte> mesh) {
+    const StoreWriter addition(std::move(region), number, additionShape(mesh), mesh);
+    header_.additions.fetch_add(1, std::memory_order_release);
+}
+
 void StoreWriter::setUsed(std::uint32_t blocks) {
     assert(blocks <= shape_.blocks);
     header_.used.store(blocks, std::memory_order_release);
@@ -153,11 +162,26 @@ StoreReader::StoreReader(RegionPtr region, std::uint64_t number)
     if (shape_.meshBytes > size || shape_.blocks > size / sizeof(LightBlock) ||
         shape_.firstPrivate > shape_.blocks || shape_.bytes() > size)
         refuse("its sizes can't be");
-    mesh_ = region_->bytes().subspan(meshAt(), shape_.meshBytes);
+    meshes_.push_back(region_->bytes().subspan(meshAt(), shape_.meshBytes));
     sequences_ = at<SharedCount>(*region_, sequencesAt(shape_));
     blocks_ = at<SharedWord>(*region_, blocksAt(shape_));
     work_ = at<SharedWord>(*region_, workAt(shape_));
     known_.resize(shape_.blocks);
+}
+
+void StoreReader::add(std::shared_ptr<StoreReader> addition) {
+    meshes_.push_back(addition->meshes_.front());
+    additions_.push_back(std::move(addition));
+}
+
+std::size_t StoreReader::meshesReady() const {
+    return 1 + std::size_t(header_.additions.load(std::memory_order_acquire));
+}
+
+void StoreReader::again(std::uint32_t block) {
+    known_[block] = 0;
+    publishedKnown_ = ~std::uint64_t(0);
+    current_ = false;
 }
 
 bool StoreReader::readBlock(std::uint32_t block, LightBlock& light, std::uint32_t& sequence) const {

@@ -45,6 +45,7 @@ struct StoreShape {
 };
 
 /// Begins a store. What follows: mesh, sequence numbers, blocks, dirty status, each aligned to 64.
+/// What comes to the mesh later lies in a store of its own, one without blocks.
 struct StoreHeader {
     std::uint64_t magic;
     std::uint64_t number; ///< of the request
@@ -54,6 +55,7 @@ struct StoreHeader {
     std::atomic<std::uint64_t> published; ///< rises with every block that is written
     /// Which question for the dirty set its table answers: a number of the node's; 0: none.
     std::atomic<std::uint32_t> dirtyFor;
+    std::atomic<std::uint32_t> additions; ///< to the mesh, that are ready to be read
 };
 
 /// The worker's end.
@@ -64,6 +66,8 @@ public:
                 std::span<const std::byte> mesh);
 
     const StoreShape& shape() const { return shape_; }
+    /// More of the mesh. \param region zeroed, of additionShape(mesh).bytes()
+    void add(RegionPtr region, std::uint64_t number, std::span<const std::byte> mesh);
     void setUsed(std::uint32_t blocks);
     /// Writes a block; one that says the same as before is not written again.
     void write(std::uint32_t block, const LightBlock& light);
@@ -88,7 +92,12 @@ public:
     StoreReader(RegionPtr region, std::uint64_t number);
 
     const StoreShape& shape() const { return shape_; }
-    std::span<const std::byte> mesh() const { return mesh_; }
+    /// The mesh, and what has come to it since, in order.
+    const std::vector<std::span<const std::byte>>& meshes() const { return meshes_; }
+    /// More of the mesh: a store of its own.
+    void add(std::shared_ptr<StoreReader> addition);
+    /// How many meshes() there are to be, as the worker says.
+    std::size_t meshesReady() const;
 
     /// Blocks that were written since they were read, at most so many; goes on where it stopped.
     /// Those that are being written come another time.
@@ -97,6 +106,8 @@ public:
         LightBlock light;
     };
     void read(std::size_t most, std::vector<Got>& got);
+    /// A block that was read is to be read again.
+    void again(std::uint32_t block);
     /// The dirty status of all blocks; empty: it is not about this question.
     void readDirty(std::uint32_t question, std::vector<DirtyStatus>& work) const;
     /// Whether the last read() has brought all that was published before it.
@@ -107,7 +118,8 @@ private:
 
     RegionPtr region_;
     StoreShape shape_;
-    std::span<const std::byte> mesh_;
+    std::vector<std::span<const std::byte>> meshes_;
+    std::vector<std::shared_ptr<StoreReader>> additions_; ///< hold the meshes behind the first
     const StoreHeader& header_;
     const SharedCount* sequences_;
     const SharedWord* blocks_;
@@ -117,6 +129,9 @@ private:
     bool current_ = false;
     std::uint32_t next_ = 0;
 };
+
+/// The shape of a store of nothing but a mesh.
+StoreShape additionShape(std::span<const std::byte> mesh);
 
 /// Whether a region holds a store of this number that is ready to be read.
 bool storeReady(Region& region, std::uint64_t number);

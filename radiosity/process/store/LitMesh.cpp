@@ -109,14 +109,15 @@ std::vector<LitMeshEmitter> readEmitters(ByteReader& in) {
 
 } // namespace
 
-std::vector<std::byte> describeMesh(const LitScene& scene, const SceneReplica& graph) {
+std::vector<std::byte> describeMesh(const LitScene& scene, const SceneReplica& graph,
+                                    std::uint32_t first) {
     const PatchSet& set = scene.patches();
     std::vector<std::vector<std::uint32_t>> elements(set.objects.size());
     for (std::uint32_t e = 0; e < set.elements.size(); ++e)
-        elements[set.elementObject[e].value].push_back(e);
+        if (set.elementObject[e].value >= first) elements[set.elementObject[e].value].push_back(e);
     ByteWriter out;
     writeHead(out, scene, graph);
-    for (std::uint32_t o = 0; o < set.objects.size(); ++o) {
+    for (std::uint32_t o = first; o < set.objects.size(); ++o) {
         static const ObjectPart kNothing; // what has no path is in the scene no more
         const bool isThere = !set.objects[o].path.empty();
         const ObjectPart& part = isThere ? set.objects[o] : kNothing;
@@ -133,20 +134,32 @@ std::vector<std::byte> describeMesh(const LitScene& scene, const SceneReplica& g
     return out.take();
 }
 
-std::vector<std::uint32_t> numberElements(const PatchSet& set) {
-    std::vector<std::uint32_t> count(set.objects.size()), number(set.elements.size());
-    for (std::size_t e = 0; e < number.size(); ++e) number[e] = count[set.elementObject[e].value]++;
-    return number;
+void numberElements(const PatchSet& set, std::vector<std::uint32_t>& number) {
+    std::vector<std::uint32_t> count(set.objects.size());
+    for (std::size_t e = number.size(); e < set.elements.size(); ++e)
+        number.push_back(count[set.elementObject[e].value]++);
 }
 
 LitMeshReader::LitMeshReader(std::span<const std::byte> bytes, std::uint32_t blocks)
     : reader_(bytes), blocks_(blocks) {
+    readHead();
+}
+
+void LitMeshReader::goOn(std::span<const std::byte> bytes) {
+    reader_ = ByteReader(bytes);
+    readHead();
+}
+
+void LitMeshReader::readHead() {
+    const std::size_t materials = head_.materials.size();
     head_.sizes = reader_.get<MeshingOptions>();
     head_.objects = reader_.get<std::uint32_t>();
     head_.materials = reader_.list<LitMeshMaterial>();
     for (float size : {head_.sizes.patchSize, head_.sizes.elementSize})
         if (!std::isfinite(size) || size < 0) reader_.fail();
-    if (!reader_.ok()) head_ = {};
+    // Objects that were read before have some of these materials.
+    if (head_.objects < next_ || head_.materials.size() < materials) reader_.fail();
+    if (!reader_.ok()) head_ = {}, next_ = 0;
 }
 
 std::optional<LitMeshObject> LitMeshReader::next() {

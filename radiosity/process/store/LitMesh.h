@@ -52,19 +52,24 @@ struct LitMeshMaterial {
 };
 
 struct LitMeshHead {
-    MeshingOptions sizes; ///< that it was meshed with
-    std::uint32_t objects = 0;
+    MeshingOptions sizes;      ///< that it was meshed with
+    std::uint32_t objects = 0; ///< in all, those that were described before included
     std::vector<LitMeshMaterial> materials;
 };
 
 /// The mesh of a scene as it was built, each object in its stretched frame.
-std::vector<std::byte> describeMesh(const LitScene& scene, const SceneReplica& graph);
+/// \param first of the objects that are described; those before it were already
+std::vector<std::byte> describeMesh(const LitScene& scene, const SceneReplica& graph,
+                                    std::uint32_t first = 0);
 
 /// Reads a mesh object by object, so that nobody has to wait for all of it.
 class LitMeshReader {
 public:
     /// \param blocks vertices are there for as many
     LitMeshReader(std::span<const std::byte> bytes, std::uint32_t blocks);
+
+    /// Goes on with objects that were described later. \pre done()
+    void goOn(std::span<const std::byte> bytes);
 
     bool ok() const { return reader_.ok(); }
     const LitMeshHead& head() const { return head_; }
@@ -73,6 +78,7 @@ public:
     std::optional<LitMeshObject> next();
 
 private:
+    void readHead();
     bool sound(const LitMeshObject& object) const;
 
     ByteReader reader_;
@@ -85,7 +91,8 @@ private:
 /// in the order of LitMeshObject::elements; kNoCorner: none.
 constexpr std::uint32_t kNoCorner = 0xffffffffu;
 
-/// Elements in the order of their objects.
-std::vector<std::uint32_t> numberElements(const PatchSet& set);
+/// Numbers the elements that have no number yet, in the order of their objects. \pre all elements
+/// of an object have one, or none
+void numberElements(const PatchSet& set, std::vector<std::uint32_t>& number);
 
 } // namespace penumbra

@@ -52,7 +52,7 @@ std::vector<EmissiveMesh> emissiveOf(std::vector<LitMeshEmitter> emitters) {
 } // namespace
 
 LitObjects::LitObjects(std::shared_ptr<StoreReader> store, const Lights& lights)
-    : store_(std::move(store)), mesh_(store_->mesh(), store_->shape().firstPrivate),
+    : store_(std::move(store)), mesh_(store_->meshes().front(), store_->shape().firstPrivate),
       lights_(lights), slots_(store_->shape().blocks) {
     if (!mesh_.ok()) senseless();
 }
@@ -69,7 +69,7 @@ void LitObjects::setLights(const Lights& lights) {
 
 void LitObjects::take(const Colour& colour) {
     const double start = steadySeconds();
-    while (!mesh_.done() && steadySeconds() - start < kMostTime) takeObject(colour);
+    while (readMesh() && steadySeconds() - start < kMostTime) takeObject(colour);
     if (!mesh_.done()) return;
     got_.clear();
     store_->read(kMostBlocks, got_);
@@ -78,6 +78,15 @@ void LitObjects::take(const Colour& colour) {
     writeTriangles();
     for (std::uint32_t o = 0; o < parts_.size(); ++o)
         if (!entries_[o].geometry && parts_[o].missing == 0) finish(o);
+}
+
+/// \return whether there are objects to take
+bool LitObjects::readMesh() {
+    while (mesh_.done() && meshes_ < store_->meshes().size()) {
+        mesh_.goOn(store_->meshes()[meshes_++]);
+        if (!mesh_.ok()) senseless();
+    }
+    return !mesh_.done();
 }
 
 void LitObjects::takeDirty(std::uint32_t question) {
@@ -95,6 +104,7 @@ void LitObjects::takeObject(const Colour& colour) {
     if (!object) senseless();
     const auto number = std::uint32_t(entries_.size());
     Part part;
+    part.replaces = meshes_ > 1 && replace(object->path);
     const std::size_t vertices = object->positions.size();
     part.data.positions = std::move(object->positions);
     part.data.normals = std::move(object->normals);
@@ -129,6 +139,23 @@ void LitObjects::takeObject(const Colour& colour) {
                         emissiveOf(std::move(object->emitters))});
 }
 
+/// Objects of this path get light no more. \return whether there are any
+bool LitObjects::replace(const std::string& path) {
+    bool any = false;
+    for (std::size_t o = 0; o < entries_.size(); ++o) {
+        if (entries_[o].path != path) continue;
+        any = parts_[o].replaced = true;
+        missing_ -= std::exchange(parts_[o].missing, 0);
+    }
+    return any;
+}
+
+void LitObjects::dropReplaced(const std::string& path) {
+    for (std::size_t o = 0; o < entries_.size(); ++o)
+        if (parts_[o].replaced && entries_[o].path == path) entries_[o] = {};
+    ++revision_;
+}
+
 /// Changes an object's data, wherever it is, in a way that concerns its triangles.
 void LitObjects::edit(std::uint32_t object, const std::function<void(LitMeshData&)>& change) {
     if (entries_[object].geometry)
@@ -138,7 +165,6 @@ void LitObjects::edit(std::uint32_t object, const std::function<void(LitMeshData
 }
 
 void LitObjects::takePrivate(const StoreReader::Got& got, Slot& slot) {
-    if (got.light.object >= parts_.size()) senseless();
     Part& part = parts_[got.light.object];
     slot = {got.light.object, std::uint32_t(part.standsFor.size() / kBlock), true};
     part.standsFor.resize(part.standsFor.size() + kBlock, kNoCorner);
@@ -151,6 +177,11 @@ void LitObjects::takePrivate(const StoreReader::Got& got, Slot& slot) {
 }
 
 void LitObjects::takeBlock(const StoreReader::Got& got) {
+    if (got.light.object >= parts_.size()) {
+        if (meshes_ == store_->meshesReady()) senseless();
+        return store_->again(got.block); // its object is on its way
+    }
+    if (parts_[got.light.object].replaced) return;
     Slot& slot = slots_[got.block];
     const bool isPrivate = got.block >= store_->shape().firstPrivate;
     if (isPrivate && slot.object == Slot::kNone) takePrivate(got, slot);
@@ -233,11 +264,13 @@ void LitObjects::writeTriangles() {
 }
 
 std::optional<PatchSet> LitObjects::patches() const {
-    return readPatches(store_->mesh(), store_->shape().firstPrivate);
+    return readPatches(store_->meshes(), store_->shape().firstPrivate);
 }
 
 void LitObjects::finish(std::uint32_t object) {
     Part& part = parts_[object];
+    if (part.replaced) return;
+    if (std::exchange(part.replaces, false)) dropReplaced(std::string(entries_[object].path));
     if (part.data.indices.empty()) return; // nothing to draw
     entries_[object].geometry = std::make_shared<PublishedGeometry>(
         entries_[object].path, ObjectId{object}, std::exchange(part.data, {}),

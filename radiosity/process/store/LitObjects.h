@@ -18,7 +18,8 @@
 namespace penumbra {
 
 /// The objects of one store: read one after the other, then lit block by block. An object is there
-/// when all blocks that it had from the start have light.
+/// when all blocks that it had from the start have light. One that comes later takes the place of
+/// another of its path once it is there.
 class LitObjects {
 public:
     using Colour = std::function<LitMaterial(const LitMeshMaterial&)>;
@@ -39,7 +40,9 @@ public:
     void takeDirty(std::uint32_t question);
     /// By object, one a block of its geometry; empty: it is not known.
     const std::vector<std::vector<DirtyStatus>>& work() const { return work_; }
-    bool complete() const { return mesh_.done() && missing_ == 0; }
+    bool complete() const {
+        return mesh_.done() && meshes_ == store_->meshes().size() && missing_ == 0;
+    }
     /// Whether there is nothing to take in.
     bool current() const { return complete() && store_->current(); }
 
@@ -67,6 +70,8 @@ private:
         std::vector<std::uint32_t> firstIndex;
         std::vector<std::uint32_t> standsFor; ///< of private vertices, kNoCorner for others
         std::uint32_t missing = 0;            ///< blocks without light
+        bool replaces = false;                ///< others, once it is there
+        bool replaced = false;                ///< gets light no more
         std::vector<std::uint32_t> changed;   ///< elements whose indices are to be written
     };
     struct Slot {
@@ -74,7 +79,10 @@ private:
         bool lit = false;
         static constexpr std::uint32_t kNone = 0xffffffffu;
     };
+    bool readMesh();
     void takeObject(const Colour& colour);
+    bool replace(const std::string& path);
+    void dropReplaced(const std::string& path);
     void takeBlock(const StoreReader::Got& got);
     void takePrivate(const StoreReader::Got& got, Slot& slot);
     void follow(Part& part, std::uint32_t firstVertex, const LightBlock& light);
@@ -86,6 +94,7 @@ private:
 
     std::shared_ptr<StoreReader> store_;
     LitMeshReader mesh_;
+    std::size_t meshes_ = 1; ///< of the store's, that were begun
     Lights lights_;
     std::vector<Entry> entries_;
     std::vector<Part> parts_;

@@ -73,14 +73,19 @@ void addObject(LitMeshObject object, PatchSet& set) {
 
 } // namespace
 
-std::optional<PatchSet> readPatches(std::span<const std::byte> mesh, std::uint32_t blocks) {
+std::optional<PatchSet> readPatches(std::span<const std::span<const std::byte>> meshes,
+                                    std::uint32_t blocks) {
+    if (meshes.empty()) return std::nullopt;
     PatchSet set;
-    LitMeshReader reader(mesh, blocks);
-    if (!reader.ok()) return std::nullopt;
-    while (!reader.done()) {
-        std::optional<LitMeshObject> object = reader.next();
-        if (!object) return std::nullopt;
-        addObject(std::move(*object), set);
+    LitMeshReader reader(meshes.front(), blocks);
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        if (m > 0) reader.goOn(meshes[m]);
+        if (!reader.ok()) return std::nullopt;
+        while (!reader.done()) {
+            std::optional<LitMeshObject> object = reader.next();
+            if (!object) return std::nullopt;
+            addObject(std::move(*object), set);
+        }
     }
     const MeshingOptions& sizes = reader.head().sizes;
     set.patchSize = sizes.patchSize;

@@ -15,9 +15,10 @@ namespace penumbra {
 /// has no nodes, colours or emitters. Objects are absent, and lie in frames of their own: see
 /// PosedPatches::pose().
 ///
-/// \param mesh  as describeMesh() wrote it, or anything else
+/// \param meshes as describeMesh() wrote them, or anything else: the first, and what came to it
 /// \param blocks vertices are there for as many
 /// \return      none: this is no mesh
-std::optional<PatchSet> readPatches(std::span<const std::byte> mesh, std::uint32_t blocks);
+std::optional<PatchSet> readPatches(std::span<const std::span<const std::byte>> meshes,
+                                    std::uint32_t blocks);
 
 } // namespace penumbra

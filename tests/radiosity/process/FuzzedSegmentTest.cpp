@@ -73,9 +73,15 @@ TEST(FuzzedSegment, NoByteOfItCanCrashOrHangEitherSide) {
     Mutator mutator(1);
     unsigned restarts = 0;
     int stuck = 0;
+    NodePtr shelf;
     for (int done = 0; done < mutations; ++done) {
         mutator.mutate(link.watched);
         if (done % 3 == 0) room.box->setMatrix(moved(0.1 * double(mutator.below(10)), 0, 0));
+        if (done % 7 == 0) { // something comes, or goes
+            if (shelf) room.node->remove(shelf);
+            shelf = shelf ? nullptr : object("shelf", floorData(0, 1, 0, 1, 0.5));
+            if (shelf) room.node->add(shelf);
+        }
         link.step();
         room.node->update();
         if (done % 100 == 50) room.node->watchDirty(false), room.node->watchDirty(true);

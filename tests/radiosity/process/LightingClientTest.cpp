@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 namespace penumbra {
 
 namespace {
@@ -25,12 +28,17 @@ struct SteppedRoom {
     }
 };
 
-TEST(LightingClient, ASceneStaysUntilItIsOpenedThoughAnEarlierOneIsTaken) {
+NodePtr shelfAt(float height) {
+    return object("shelf" + std::to_string(int(100 * height)),
+                  boxData({1, 1, height}, {1.5f, 1.5f, height + 0.05f}, false));
+}
+
+TEST(LightingClient, WhatComesStaysUntilItIsOpenedThoughTheSceneIsTaken) {
     SteppedRoom stepped;
     RadiosityNode& node = *stepped.room.node;
     ASSERT_TRUE(stepped.settle()) << describe(node);
-    stepped.room.box->setBeginsObject(false); // meshed anew, so the scene goes out once more
-    node.update(); // and so it does; what the worker says is of the first one
+    node.add(shelfAt(1));
+    node.update(); // it goes out; what the worker says is of the scene
     stepped.link->step();
     node.update();
     EXPECT_EQ(node.state().restarts, 0u) << describe(node);
@@ -39,16 +47,23 @@ TEST(LightingClient, ASceneStaysUntilItIsOpenedThoughAnEarlierOneIsTaken) {
     EXPECT_EQ(stepped.room.difference(), "");
 }
 
-TEST(LightingClient, OfSeveralScenesOnTheirWayEachIsThere) {
+TEST(LightingClient, WhatComesBitByBitIsThereWithTheEditsInBetween) {
     SteppedRoom stepped;
     RadiosityNode& node = *stepped.room.node;
-    node.update(); // the first
-    for (const bool begins : {false, true, false}) {
-        stepped.room.box->setBeginsObject(begins);
+    node.update(); // the scene
+    std::vector<NodePtr> shelves;
+    for (const float height : {1.0f, 1.2f, 1.4f}) {
+        shelves.push_back(shelfAt(height));
+        node.add(shelves.back());
+        stepped.room.box->setMatrix(moved(0.1 * height, 0, 0));
         node.update();
     }
-    stepped.link->step(); // takes in all of them
+    node.remove(shelves[1]);
+    stepped.room.box->setBeginsObject(false);
+    node.update();
+    stepped.link->step(); // takes in all of that
     stepped.room.box->setBeginsObject(true);
+    node.add(shelfAt(1.6f));
     node.update();
     ASSERT_TRUE(stepped.settle()) << describe(node);
     EXPECT_EQ(node.state().restarts, 0u) << describe(node);

@@ -49,6 +49,54 @@ TEST(RadiosityNode, FollowsWhateverIsEditedBelowIt) {
     EXPECT_EQ(room.difference(), "") << "moved where something is no more";
 }
 
+const LitObject* find(const RadiosityNode& node, const std::string& path) {
+    const auto objects = node.objects();
+    const auto found = std::ranges::find(objects, path, &LitObject::path);
+    return found != objects.end() ? &*found : nullptr;
+}
+
+TEST(RadiosityNode, DrawsWhatComesAndKeepsWhatThereIs) {
+    LitRoom room;
+    ASSERT_TRUE(updateUntilSettled(*room.node));
+    const auto box = find(*room.node, "/box")->geometry;
+    room.node->add(object("shelf", boxData({1, 1, 1}, {1.5f, 1.5f, 1.1f}, false)));
+    ASSERT_TRUE(updateUntilSettled(*room.node));
+    ASSERT_TRUE(find(*room.node, "/shelf") && find(*room.node, "/shelf")->geometry);
+    EXPECT_EQ(find(*room.node, "/box")->geometry, box) << "the same surface";
+    EXPECT_EQ(room.difference(), "");
+    room.node->setPreviewLights({"/lamp/light"});
+    ASSERT_TRUE(updateUntilSettled(*room.node));
+    EXPECT_EQ(room.difference(), "");
+}
+
+TEST(RadiosityNode, WhatIsMadeAnewIsDrawnAsItWasUntilItIsLit) {
+    LitRoom room;
+    ASSERT_TRUE(updateUntilSettled(*room.node));
+    const auto before = find(*room.node, "/box")->geometry;
+    bool gone = false;
+    room.box->setMatrix(glm::scale(glm::dmat4(1.0), glm::dvec3(1.5, 1, 1)));
+    ASSERT_TRUE(updateUntil(*room.node, [&] {
+        const LitObject* const box = find(*room.node, "/box");
+        gone |= !box || !box->geometry || !room.node->unlit().empty();
+        return room.node->state().reached(SolutionState::exact);
+    }));
+    EXPECT_FALSE(gone);
+    EXPECT_NE(find(*room.node, "/box")->geometry, before);
+    EXPECT_EQ(std::ranges::count(room.node->objects(), "/box", &LitObject::path), 1);
+    EXPECT_EQ(room.difference(), "");
+}
+
+TEST(RadiosityNode, AnotherSceneIsMeshedAsOneOfItsOwn) {
+    LitRoom room;
+    ASSERT_TRUE(updateUntilSettled(*room.node));
+    while (!room.node->children().empty()) room.node->remove(NodePtr(room.node->children().back()));
+    room.node->add(object("hall", boxData({0, 0, 0}, {6, 5, 4}, true)));
+    room.node->add(std::make_shared<Light>("sun", SphereShape{0.2f}, Rgb(100)));
+    ASSERT_TRUE(updateUntilSettled(*room.node)) << describe(*room.node);
+    EXPECT_EQ(room.difference(), "");
+    EXPECT_EQ(find(*room.node, "/box"), nullptr) << "nothing is kept of the other one";
+}
+
 TEST(RadiosityNode, DrawsAMovedObjectAtItsPlaceAtOnceWithTheLightThatItHad) {
     LitRoom room;
     ASSERT_TRUE(updateUntilSettled(*room.node));

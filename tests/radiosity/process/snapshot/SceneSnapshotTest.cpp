@@ -20,6 +20,17 @@ std::vector<std::byte> bytesOf(const SceneSnapshot& snapshot) {
     return out.take();
 }
 
+std::vector<std::byte> bytesOf(const SceneGrowth& growth) {
+    ByteWriter out;
+    write(out, growth);
+    return out.take();
+}
+
+std::optional<SceneGrowth> readGrowth(const std::vector<std::byte>& bytes) {
+    ByteReader in(bytes);
+    return readSceneGrowth(in);
+}
+
 std::optional<LightingTask> read(const std::vector<std::byte>& bytes) {
     ByteReader in(bytes);
     return readLightingTask(in);
@@ -60,25 +71,72 @@ TEST(SceneSnapshot, ACopyIsTheSameSceneAndStaysItThroughAllEdits) {
         table.diff();
         auto task = read(bytesOf(table.snapshot()));
         ASSERT_TRUE(task);
-        auto copy = std::make_unique<SceneReplica>(std::move(task->scene));
+        SceneReplica copy(std::move(task->scene));
         for (int edit = 0; edit < 40; ++edit) {
             const std::string what = room.edit();
             const SceneDiff::Change change = table.diff();
-            if (change.structure) {
-                for (const GraphEdit& e : change.edits) table.report(e);
-                copy = std::make_unique<SceneReplica>(read(bytesOf(table.snapshot()))->scene);
-            } else {
-                for (const GraphEdit& e : change.edits) {
-                    table.report(e);
-                    EXPECT_TRUE(copy->apply(e));
-                }
+            if (change.growth) {
+                EXPECT_TRUE(copy.apply(readGrowth(bytesOf(*change.growth)).value()));
             }
-            ASSERT_EQ(difference(placeScene(room.scene()), placeScene(copy->scene())), "")
+            for (const GraphEdit& e : change.edits)
+                if (table.report(e)) EXPECT_TRUE(copy.apply(e));
+            ASSERT_EQ(difference(placeScene(room.scene()), placeScene(copy.scene())), "")
                 << "seed " << seed << " " << what;
         }
         const SceneReplica late(read(bytesOf(table.snapshot()))->scene); // all edits so far at once
         EXPECT_EQ(difference(placeScene(room.scene()), placeScene(late.scene())), "");
     }
+}
+
+TEST(SceneSnapshot, WhatComesAndGoesAgainLeavesWhatStaysAsItIs) {
+    EditableRoom room(2);
+    SceneDiff table(*room.scene().root);
+    table.diff();
+    SceneReplica copy(read(bytesOf(table.snapshot()))->scene);
+    const Node* const first = copy.scene().root->children().front().get();
+    const NodePtr shelf = object("shelf", floorData(0, 1, 0, 1, 0.5));
+    std::size_t nodes = 0;
+    for (int i = 0; i < 3; ++i) {
+        room.scene().root->add(shelf);
+        EXPECT_EQ(table.diff().growth.has_value(), i == 0) << "it is known, until others come";
+        room.scene().root->remove(shelf);
+        EXPECT_FALSE(table.diff().growth);
+        nodes = table.snapshot().nodes.size();
+    }
+    room.scene().root->add(object("desk", floorData(0, 1, 0, 1, 0.4)));
+    const SceneDiff::Change change = table.diff();
+    ASSERT_TRUE(change.growth);
+    EXPECT_EQ(change.growth->firstNode, nodes);
+    EXPECT_FALSE(table.numberOf(*shelf)) << "forgotten";
+    SceneReplica late(read(bytesOf(table.snapshot()))->scene);
+    EXPECT_EQ(difference(placeScene(room.scene()), placeScene(late.scene())), "");
+    EXPECT_EQ(copy.scene().root->children().front().get(), first);
+}
+
+TEST(SceneSnapshot, GrowthThatWasTamperedWithIsReadOrRefusedButNeverBelieved) {
+    EditableRoom room(4);
+    SceneDiff table(*room.scene().root);
+    table.diff();
+    const std::vector<std::byte> before = bytesOf(table.snapshot());
+    room.scene().root->remove(NodePtr(room.scene().root->children().back()));
+    room.scene().root->add(object("shelf", floorData(0, 1, 0, 1, 0.5)));
+    const std::vector<std::byte> good = bytesOf(table.diff().growth.value());
+    ASSERT_TRUE(SceneReplica(read(before)->scene).apply(readGrowth(good).value()));
+    std::mt19937 random(1);
+    int refused = 0;
+    for (int i = 0; i < 3000; ++i) {
+        std::vector<std::byte> bytes = good;
+        for (unsigned k = 0; k <= random() % 4; ++k)
+            bytes[random() % bytes.size()] = std::byte(random());
+        if (random() % 4 == 0) bytes.resize(random() % bytes.size());
+        const auto growth = readGrowth(bytes);
+        SceneReplica copy(read(before)->scene);
+        if (growth && copy.apply(*growth))
+            placeScene(copy.scene());
+        else
+            ++refused;
+    }
+    EXPECT_GT(refused, 500);
 }
 
 TEST(SceneSnapshot, NormalsOfAMeshGoWithIt) {
@@ -92,9 +150,9 @@ TEST(SceneSnapshot, NormalsOfAMeshGoWithIt) {
 }
 
 TEST(SceneSnapshot, EditsOutliveBeingWrittenDown) {
-    const std::vector<GraphEdit> edits{SetMatrix{3, glm::dmat4(2.0)}, SetVisible{4, false},
-                                       SetLuminance{5, Rgb(1, 2, 3)},
-                                       SetMaterial{6, Rgb(0.1f), Rgb(7)}, SetChildren{7, {8, 9}}};
+    const std::vector<GraphEdit> edits{
+        SetMatrix{3, glm::dmat4(2.0)},     SetVisible{4, false},   SetLuminance{5, Rgb(1, 2, 3)},
+        SetMaterial{6, Rgb(0.1f), Rgb(7)}, SetChildren{7, {8, 9}}, SetBeginsObject{8, true}};
     std::vector<std::uint64_t> keys;
     for (const GraphEdit& edit : edits) {
         ByteWriter out;

@@ -50,7 +50,7 @@ LightBlock blockOf(std::uint32_t value, bool lights = false) {
 
 TEST(LightStore, GivesEachBlockOnceAndAgainWhenItSaysSomethingElse) {
     Store store;
-    EXPECT_EQ(store.reader.mesh().size(), 8u);
+    EXPECT_EQ(store.reader.meshes().front().size(), 8u);
     EXPECT_TRUE(store.read().empty());
     store.writer.write(3, blockOf(1));
     store.writer.write(7, blockOf(2));
@@ -64,6 +64,24 @@ TEST(LightStore, GivesEachBlockOnceAndAgainWhenItSaysSomethingElse) {
     EXPECT_TRUE(store.read().empty());
     store.writer.write(3, blockOf(4));
     EXPECT_EQ(store.read().size(), 1u);
+}
+
+TEST(LightStore, MoreOfTheMeshLiesInAStoreOfItsOwn) {
+    Store store;
+    const std::vector<std::byte> more(24, std::byte(9));
+    const RegionPtr region = store.regions->create(additionShape(more).bytes());
+    EXPECT_FALSE(storeReady(*region, 6));
+    store.writer.add(region, 6, more);
+    ASSERT_TRUE(storeReady(*region, 6));
+    EXPECT_EQ(store.reader.meshesReady(), 2u);
+    store.reader.add(std::make_shared<StoreReader>(region, 6));
+    ASSERT_EQ(store.reader.meshes().size(), 2u);
+    EXPECT_TRUE(std::ranges::equal(store.reader.meshes()[1], more));
+    store.writer.write(3, blockOf(1));
+    EXPECT_EQ(store.read().size(), 1u);
+    EXPECT_TRUE(store.read().empty());
+    store.reader.again(3);
+    EXPECT_EQ(store.read().size(), 1u) << "asked for again";
 }
 
 TEST(LightStore, ABoundedReadGoesOnWhereItStopped) {

@@ -88,7 +88,7 @@ TEST(LitPatches, AMeshThatShinesDoesSoFromTheWorkersEmitters) {
 TEST(LitPatches, WhatIsNoMeshIsNotRead) {
     EXPECT_FALSE(readPatches({}, 10).has_value());
     const std::vector<std::byte> noise(4096, std::byte{0x5a});
-    EXPECT_FALSE(readPatches(noise, 10).has_value());
+    EXPECT_FALSE(readPatches(std::vector<std::span<const std::byte>>{noise}, 10).has_value());
 }
 
 } // namespace
