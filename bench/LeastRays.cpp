@@ -44,7 +44,9 @@ bool meets(const ShadowRays& rays, int i, const Bounds& box) {
 class Counter {
 public:
     Counter(const PatchSet& set, int samples, const SceneChange& change)
-        : set_(set), object_(change.objects.front()), box_(boundsOf(set, object_)) {
+        : set_(set), object_(change.objects.front()), box_(boundsOf(set, object_)),
+          own_(set.objects.size()) {
+        for (const ObjectId object : change.objects) own_[object.value] = 1;
         const int base = std::min(samples, RowBlock::kSize);
         for (const Emitter& emitter : set.emitters)
             senders_.emplace_back(emitter, base, std::min(4 * base, RowBlock::kSize));
@@ -59,18 +61,19 @@ public:
         std::vector<RowBlock::Draft> was(kBlock), is(kBlock);
         before.decode(was);
         after.decode(is);
-        const bool sends = set_.emitters[row].object == object_;
-        const bool receives = set_.vertexBlockObject[block] == object_;
+        const ObjectId from = set_.emitters[row].object, at = set_.vertexBlockObject[block];
+        const bool self = own_[from.value] && from == at;
+        const bool own = own_[from.value] || own_[at.value];
         const auto found = elsewhere_.find(block);
         const std::uint64_t elsewhere = found == elsewhere_.end() ? 0 : found->second;
         for (std::uint32_t r = 0; r < kBlock; ++r) {
             if (!(is[r].formFactor > 0)) continue;
             const Pair pair{senders_[row], set_.vertices[block * kBlock + r].receiver, was[r],
                             is[r]};
-            if (sends && receives) {
+            if (self) {
                 ++sum.selfEntries;
                 sum.selfRays += takeAll(pair, 0, nullptr);
-            } else if (sends || receives) {
+            } else if (own) {
                 ++sum.ownEntries;
                 sum.own += takeAll(pair, 0, &packets);
             } else if (elsewhere >> r & 1 || !(was[r].formFactor > 0)) {
@@ -132,6 +135,7 @@ private:
     const PatchSet& set_;
     ObjectId object_;
     Bounds box_;
+    std::vector<std::uint8_t> own_; ///< by object
     std::vector<EmitterSender> senders_;
     std::unordered_map<std::uint32_t, std::uint64_t> elsewhere_; ///< vertices, block by block
 };

@@ -11,12 +11,14 @@
 
 namespace penumbra {
 
-/// Direct light, one object moved. Of every pair of an emitter and a vertex:
+/// Direct light, one object moved; others may have been meshed anew for it where they stand. Of
+/// every pair of an emitter and a vertex:
 ///
-/// - own: the emitter or the vertex belongs to the object, not both: every sample;
+/// - own: the emitter or the vertex belongs to one of these objects, not both to the same: every
+///   sample;
 /// - uncovered: the object laid bare or covered the vertex, which is lit elsewhere now: every
 ///   sample;
-/// - released: samples that the object is on record for blocking before the move;
+/// - released: samples that the moved object is on record for blocking before the move;
 /// - met: samples that were visible and whose segment meets the object's box after it;
 /// - refined: samples that are taken after the move only, since the first ones disagree now.
 ///
@@ -32,8 +34,8 @@ struct LeastRays {
     std::uint64_t total() const { return own + uncovered + released + met + refined; }
 };
 
-/// \param set, rays after the move \param samples see SolverOptions
-/// \param before rows of a new solver before the move \param after rows after it
+/// \param set, rays after the move \param change the moved object is the first one \param samples
+/// see SolverOptions \param before rows of a new solver before the move \param after rows after it
 LeastRays leastRays(const PatchSet& set, const RayScene& rays, int samples,
                     const SceneChange& change, std::span<const Row> before,
                     std::span<const Row> after);

@@ -35,13 +35,14 @@ MoveCost MoveRun::go(Pose place) {
     cost.follow = all.wall() - cost.place;
     lit_->solver().settle(SolutionState::certified);
     cost.certify = all.wall() - cost.place - cost.follow;
+    const double certifiedCpu = all.cpu();
     cost.certified = lit_->solver().statistics();
     cost.certified.direct = cost.certified.direct - statistics_.direct;
     cost.certified.indirect = cost.certified.indirect - statistics_.indirect;
-    const double counted = all.wall() - cost.place - cost.follow - cost.certify;
+    const Stopwatch rest; // counting is no part of the move
     lit_->solver().settle();
-    cost.settle = all.wall() - cost.place - cost.follow - counted;
-    cost.cpu = all.cpu();
+    cost.settle = cost.certify + rest.wall();
+    cost.cpu = certifiedCpu + rest.cpu();
     if (followed.rebuilt) throw Error("the move made the scene be meshed anew");
     cost.change = std::move(followed.change);
     const SolveStatistics now = lit_->solver().statistics();

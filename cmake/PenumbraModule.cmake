@@ -12,9 +12,13 @@ function(penumbra_module name)
     PRIVATE ${ARG_THIRD_PARTY} Penumbra::warnings)
 endfunction()
 
-# One test program a folder; every case becomes a CTest test named <name>.<Suite>.<Case>.
+# One test program a folder; every case becomes a CTest test named <name>.<Suite>.<Case>. Random tests try the same
+# every time, TRIES things each (100 if that is not said).
 function(penumbra_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;USES;THIRD_PARTY" ${ARGN})
+  cmake_parse_arguments(ARG "" "TRIES" "SOURCES;USES;THIRD_PARTY" ${ARGN})
+  if(NOT ARG_TRIES)
+    set(ARG_TRIES 100)
+  endif()
   add_executable(test_${name} ${ARG_SOURCES})
   list(TRANSFORM ARG_USES PREPEND Penumbra::)
   target_link_libraries(test_${name} PRIVATE
@@ -22,5 +26,5 @@ function(penumbra_test name)
   target_compile_definitions(test_${name} PRIVATE
     PENUMBRA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PENUMBRA_PROGRAM="${PROJECT_BINARY_DIR}/penumbra")
   gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST
-    PROPERTIES TIMEOUT 300 ENVIRONMENT RC_PARAMS=seed=1) # random tests try the same every time
+    PROPERTIES TIMEOUT 300 ENVIRONMENT "RC_PARAMS=seed=1 max_success=${ARG_TRIES}")
 endfunction()

@@ -86,6 +86,7 @@ std::vector<ObjectId> LitScene::beginToShine(const PlacedScene& now) const {
             return emitter.material == source.material;
         });
     }
+    if (std::ranges::find(begins, 1) == begins.end()) return {};
     std::vector<std::uint8_t> found(set.objects.size());
     for (std::size_t e = 0; e < set.elements.size(); ++e)
         if (begins[set.elements[e].material]) found[set.elementObject[e].value] = 1;
