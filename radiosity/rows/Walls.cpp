@@ -10,23 +10,40 @@ namespace penumbra {
 
 namespace {
 
-using Heights = std::array<float, 8>;
+/// Of a box's corners, or of a point, above a plane [m].
+template <std::size_t kCount>
+using Heights = std::array<float, kCount>;
 
-/// Of a box's corners above a plane [m].
-Heights heightsOf(const Bounds& box, const Walls::Plane& plane) {
-    Heights heights;
-    for (std::size_t i = 0; i < 8; ++i) {
-        const glm::vec3 corner{i & 1 ? box.upper.x : box.lower.x, i & 2 ? box.upper.y : box.lower.y,
-                               i & 4 ? box.upper.z : box.lower.z};
-        heights[i] = glm::dot(plane.normal, corner) - plane.offset;
-    }
+float heightOf(glm::vec3 point, const Walls::Plane& plane) {
+    return glm::dot(plane.normal, point) - plane.offset;
+}
+
+Heights<8> heightsOf(const Bounds& box, const Walls::Plane& plane) {
+    Heights<8> heights;
+    for (std::size_t i = 0; i < 8; ++i)
+        heights[i] = heightOf({i & 1 ? box.upper.x : box.lower.x, i & 2 ? box.upper.y : box.lower.y,
+                               i & 4 ? box.upper.z : box.lower.z},
+                              plane);
     return heights;
 }
 
-float lowest(const Heights& heights) {
+Heights<1> heightsOf(glm::vec3 point, const Walls::Plane& plane) {
+    return {heightOf(point, plane)};
+}
+
+float magnitudeOf(const Bounds& box) {
+    return magnitude(box);
+}
+float magnitudeOf(glm::vec3 point) {
+    return magnitude({point, point});
+}
+
+template <std::size_t kCount>
+float lowest(const Heights<kCount>& heights) {
     return *std::min_element(heights.begin(), heights.end());
 }
-float highest(const Heights& heights) {
+template <std::size_t kCount>
+float highest(const Heights<kCount>& heights) {
     return *std::max_element(heights.begin(), heights.end());
 }
 
@@ -63,24 +80,33 @@ void Walls::place(ObjectId object) {
     }
 }
 
-bool Walls::hides(const Sides& wall, const Bounds& a, const Bounds& b) const {
+/// \param b a box or a point
+template <class There>
+bool Walls::hides(const Sides& wall, const Bounds& a, const There& b) const {
     const float margin =
-        clearanceAt(set_.skin, std::max({magnitude(wall.box), magnitude(a), magnitude(b)}));
-    Heights ha = heightsOf(a, wall.plane), hb = heightsOf(b, wall.plane);
+        clearanceAt(set_.skin, std::max({magnitude(wall.box), magnitude(a), magnitudeOf(b)}));
+    auto ha = heightsOf(a, wall.plane);
+    auto hb = heightsOf(b, wall.plane);
     const float sign = ha[0] > 0 ? 1.0f : -1.0f;
-    for (std::size_t i = 0; i < 8; ++i) ha[i] *= sign, hb[i] *= -sign;
+    for (float& height : ha) height *= sign;
+    for (float& height : hb) height *= -sign;
     if (lowest(ha) < margin || lowest(hb) < margin) return false;
     // The segment between corners i and j meets the plane at (hb_j a_i + ha_i b_j) / (ha_i + hb_j).
     for (const Plane& edge : wall.edges) {
         const Plane inside{edge.normal, edge.offset + margin};
-        const Heights ea = heightsOf(a, inside), eb = heightsOf(b, inside);
-        float least = 0;
-        for (std::size_t i = 0; i < 8; ++i)
-            for (std::size_t j = 0; j < 8; ++j)
-                least = std::min(least, hb[j] * ea[i] + ha[i] * eb[j]);
-        if (least < 0) return false;
+        const auto ea = heightsOf(a, inside);
+        const auto eb = heightsOf(b, inside);
+        unsigned outside = 0; // counted, not compared: so a compiler takes eight at a time
+        for (std::size_t j = 0; j < eb.size(); ++j)
+            for (std::size_t i = 0; i < ea.size(); ++i)
+                outside += hb[j] * ea[i] + ha[i] * eb[j] < 0 ? 1u : 0u;
+        if (outside > 0) return false;
     }
     return true;
+}
+
+bool Walls::isHidden(std::uint32_t wall, const Bounds& from, glm::vec3 point) const {
+    return hides(walls_[wall], from, point);
 }
 
 ObjectId Walls::between(const Bounds& a, const Bounds& b) const {
@@ -98,8 +124,8 @@ std::vector<std::uint32_t> Walls::beside(const Bounds& a, const Bounds& b) const
     if (a.empty() || b.empty()) return walls;
     boxes_.query([&](std::size_t n) { return shaftMeets(a, b, boxes_.node(n)); },
                  [&](std::size_t i) {
-                     const Heights ha = heightsOf(a, walls_[i].plane),
-                                   hb = heightsOf(b, walls_[i].plane);
+                     const auto ha = heightsOf(a, walls_[i].plane);
+                     const auto hb = heightsOf(b, walls_[i].plane);
                      if ((lowest(ha) > 0 && lowest(hb) < 0) || (highest(ha) < 0 && highest(hb) > 0))
                          walls.push_back(std::uint32_t(i));
                  });

@@ -37,9 +37,7 @@ public:
     /// them. By number, see isHidden().
     std::vector<std::uint32_t> beside(const Bounds& a, const Bounds& b) const;
     /// Whether a face hides a point from all of a box.
-    bool isHidden(std::uint32_t wall, const Bounds& from, glm::vec3 point) const {
-        return hides(walls_[wall], from, {point, point});
-    }
+    bool isHidden(std::uint32_t wall, const Bounds& from, glm::vec3 point) const;
     ObjectId objectOf(std::uint32_t wall) const { return walls_[wall].object; }
     /// Whether any of some objects has a face that may hide anything.
     bool areAmong(std::span<const MovedObject> objects) const;
@@ -52,7 +50,8 @@ private:
         Bounds box;
     };
     static Sides sidesOf(const Wall& wall);
-    bool hides(const Sides& wall, const Bounds& a, const Bounds& b) const;
+    template <class There>
+    bool hides(const Sides& wall, const Bounds& a, const There& b) const;
 
     const PatchSet& set_;
     std::vector<Sides> walls_; ///< one a wall of the set
