@@ -105,12 +105,9 @@ void LightingWorker::take(MessageKind kind, ByteReader& message) {
     case MessageKind::growth:
         takeGrowth(message.text());
         break;
-    case MessageKind::edit: {
-        const auto edit = readGraphEdit(message);
-        if (!edit || !graph_ || !graph_->apply(*edit)) senseless("an edit");
-        edited_ = true;
+    case MessageKind::edit:
+        takeEdit(message);
         break;
-    }
     case MessageKind::invalidate:
         invalid_.push_back(message.get<Bounds>());
         edited_ = true;
@@ -121,12 +118,9 @@ void LightingWorker::take(MessageKind kind, ByteReader& message) {
     case MessageKind::camera:
         viewer_.setCamera(message.get<View>());
         break;
-    case MessageKind::policy: {
-        const auto policy = message.get<std::uint32_t>();
-        if (policy > std::uint32_t(PolicyKind::random)) senseless("a scheduling policy");
-        viewer_.setPolicy(PolicyKind(policy));
+    case MessageKind::policy:
+        takePolicy(message);
         break;
-    }
     case MessageKind::grab: // what is in a hand is known by its moving
     case MessageKind::release:
     case MessageKind::trigger: // what is held back is held by the node
@@ -143,6 +137,18 @@ void LightingWorker::take(MessageKind kind, ByteReader& message) {
     default:
         message.fail();
     }
+}
+
+void LightingWorker::takeEdit(ByteReader& message) {
+    const auto edit = readGraphEdit(message);
+    if (!edit || !graph_ || !graph_->apply(*edit)) senseless("an edit");
+    edited_ = true;
+}
+
+void LightingWorker::takePolicy(ByteReader& message) {
+    const auto policy = message.get<std::uint32_t>();
+    if (policy > std::uint32_t(PolicyKind::random)) senseless("a scheduling policy");
+    viewer_.setPolicy(PolicyKind(policy));
 }
 
 RegionPtr LightingWorker::opened(const std::string& region) {

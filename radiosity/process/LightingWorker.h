@@ -45,6 +45,8 @@ private:
     RegionPtr opened(const std::string& region);
     void takeScene(const std::string& region);
     void takeGrowth(const std::string& region);
+    void takeEdit(ByteReader& message);
+    void takePolicy(ByteReader& message);
     void takeLights(ByteReader& message);
     void followScene();
     void build();
