@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -137,7 +136,8 @@ bool isSure(const RayHit& hit) {
     return hit.u > kSure && hit.v > kSure && hit.u + hit.v < 1 - kSure;
 }
 
-/// Whether a ray to infinity leaves some object more often than it enters it, if its hits say.
+/// Whether a ray leaves some object more often than it enters it, if its hits say: all of those of
+/// objects that it may begin in.
 /// \return nothing: it passes by an edge of something solid, and may have met two triangles there
 std::optional<bool> leavesSolid(std::span<const RayMesh> meshes, std::span<const RayHit> hits,
                                 glm::vec3 direction) {
@@ -167,14 +167,13 @@ Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point
                                                {0.0271f, -0.0353f, 0.0119f},
                                                {0.0149f, 0.0411f, 0.0367f},
                                                {-0.0437f, -0.0187f, -0.0293f}}};
-    constexpr float kEver = std::numeric_limits<float>::infinity();
     Lie lie = Lie::free;
     std::vector<RayHit> hits;
     for (const glm::vec3& aside : kAside) {
         const bool first = &aside == kAside.data();
         const glm::vec3 direction = normal + aside;
-        // Only what is solid matters beyond that.
-        rays.all(point, direction, rays.anySolid() ? kEver : cover, hits);
+        // Beyond that only what is solid and may be around the point matters.
+        rays.all(point, direction, std::max(cover, rays.solidsEnd(point, direction)), hits);
         const auto covers = [&](const RayHit& hit) { return hit.distance < cover; };
         if (first && std::ranges::any_of(hits, covers)) lie = Lie::covered;
         const std::optional<bool> buried = leavesSolid(meshes, hits, direction);

@@ -4,6 +4,7 @@
 #include "base/Error.h"
 #include "base/MemoryError.h"
 #include "radiosity/rays/Margins.h"
+#include "radiosity/rays/Shaft.h"
 #include "radiosity/rays/Traceable.h"
 
 #include <embree3/rtcore.h>
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <cstring>
 #include <deque>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -177,7 +179,8 @@ struct RayScene::Impl {
         RTCGeometry geometry = nullptr;
         Triangles triangles;
         RTCScene alone = nullptr;
-        bool moved = false;
+        bool moved = false, shown = true;
+        Bounds solid; ///< around it, if it has solid triangles [m]
     };
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
@@ -260,7 +263,8 @@ RayScene::RayScene(std::span<const RayMesh> objects, float skin)
 void RayScene::add(const RayMesh& object) {
     const auto id = unsigned(impl_->members.size());
     impl_->members.emplace_back();
-    anySolid_ |= std::ranges::count(object.solid, 1) > 0;
+    solids_.append({});
+    if (std::ranges::count(object.solid, 1) > 0) placeSolid({id}, object.vertices);
     if (!object.triangles.empty()) impl_->add(object, id);
 }
 
@@ -273,7 +277,16 @@ void RayScene::move(ObjectId object, std::span<const glm::vec3> vertices) {
     rtcUpdateGeometryBuffer(member.geometry, RTC_BUFFER_TYPE_VERTEX, 0);
     if (member.triangles.sift()) rtcUpdateGeometryBuffer(member.geometry, RTC_BUFFER_TYPE_INDEX, 0);
     rtcCommitGeometry(member.geometry);
+    if (!member.solid.empty()) placeSolid(object, vertices);
     setAlone(object);
+}
+
+void RayScene::placeSolid(ObjectId object, std::span<const glm::vec3> vertices) {
+    Bounds box;
+    for (const glm::vec3 vertex : vertices) box.add(vertex);
+    Impl::Member& member = impl_->members[object.value];
+    member.solid = grown(box, clearanceAt(skin_, magnitude(box)));
+    solids_.set(object.value, member.shown ? member.solid : Bounds());
 }
 
 void RayScene::show(ObjectId object, bool visible) {
@@ -284,6 +297,8 @@ void RayScene::show(ObjectId object, bool visible) {
     else
         rtcDisableGeometry(member.geometry);
     rtcCommitGeometry(member.geometry);
+    member.shown = visible;
+    solids_.set(object.value, visible ? member.solid : Bounds());
     setAlone(object);
 }
 
@@ -391,6 +406,22 @@ void RayScene::all(glm::vec3 origin, glm::vec3 direction, float reach,
     QueryContext context;
     context.all = &hits;
     intersect(impl_->scene, context, origin, direction, reach);
+}
+
+float RayScene::solidsEnd(glm::vec3 origin, glm::vec3 direction) const {
+    float end = 0;
+    solids_.query([&](std::size_t n) { return solids_.node(n).contains(origin); },
+                  [&](std::size_t object) {
+                      float least = std::numeric_limits<float>::infinity();
+                      for (int k = 0; k < 3; ++k) {
+                          const Bounds& box = solids_[object];
+                          const float side = direction[k] > 0 ? box.upper[k] : box.lower[k];
+                          if (direction[k] != 0)
+                              least = std::min(least, (side - origin[k]) / direction[k]);
+                      }
+                      end = std::max(end, least);
+                  });
+    return end;
 }
 
 RayHit RayScene::nearest(glm::vec3 origin, glm::vec3 direction, float reach, Faces faces) const {

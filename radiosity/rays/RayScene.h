@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Bounds.h"
+#include "base/BoundsTree.h"
 #include "base/ObjectId.h"
 #include "radiosity/rays/NearestHit.h"
 #include "radiosity/rays/RayMesh.h"
@@ -83,19 +84,21 @@ public:
     /// All triangles on a ray up to `reach` times the length of `direction`, in no order; `hits` is
     /// emptied first.
     void all(glm::vec3 origin, glm::vec3 direction, float reach, std::vector<RayHit>& hits) const;
-    /// Whether any object has solid triangles, see RayMesh.
-    bool anySolid() const { return anySolid_; }
+    /// How far a ray must go to leave every object with solid triangles (see RayMesh) that may hold
+    /// its origin, in lengths of `direction`: out of their boxes. 0: none may.
+    float solidsEnd(glm::vec3 origin, glm::vec3 direction) const;
 
 private:
     float reach(glm::vec3 origin, glm::vec3 direction) const;
+    void placeSolid(ObjectId object, std::span<const glm::vec3> vertices);
     void trace(void* scene, ShadowRays& rays) const;
     RayHit nearestIn(void* scene, glm::vec3 origin, glm::vec3 direction, float reach,
                      Faces faces) const;
 
     struct Impl;
     std::unique_ptr<Impl> impl_;
-    float skin_ = 0; ///< [m]
-    bool anySolid_ = false;
+    float skin_ = 0;    ///< [m]
+    BoundsTree solids_; ///< around objects with solid triangles; of others and hidden ones empty
 };
 
 } // namespace penumbra

@@ -29,28 +29,29 @@ void RowTable::listBlockers(std::uint32_t row, std::uint32_t block, const RowBlo
     entries.forEachBlocker([&](std::uint32_t object) { notes.push_back({row, block, object}); });
 }
 
-/// Run by run of the same row: few one by one, many in one go.
+/// Run by run of the same row. Most are known: few that are not go to their places one by one.
 void RowTable::insert(std::vector<Keys>& lists, std::span<const BlockerNote> notes) {
     constexpr std::size_t kFew = 8;
+    Keys fresh;
     for (std::size_t first = 0, end = 0; first < notes.size(); first = end) {
         const std::uint32_t row = notes[first].row;
         while (end < notes.size() && notes[end].row == row) ++end;
         Keys& list = lists[row];
-        const std::size_t before = list.size();
+        fresh.clear();
         for (const auto& note : notes.subspan(first, end - first)) {
             const std::uint64_t key = std::uint64_t(note.object) << 32 | note.block;
-            if (end - first > kFew) {
-                list.push_back(key);
-                continue;
-            }
-            const auto place = std::lower_bound(list.begin(), list.end(), key);
-            if (place == list.end() || *place != key) list.insert(place, key);
+            if (!std::binary_search(list.begin(), list.end(), key)) fresh.push_back(key);
         }
-        if (end - first <= kFew) continue;
-        const auto middle = list.begin() + std::ptrdiff_t(before);
-        std::sort(middle, list.end());
-        std::inplace_merge(list.begin(), middle, list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
+        std::sort(fresh.begin(), fresh.end());
+        fresh.erase(std::unique(fresh.begin(), fresh.end()), fresh.end());
+        if (fresh.size() <= kFew) {
+            for (const std::uint64_t key : fresh)
+                list.insert(std::upper_bound(list.begin(), list.end(), key), key);
+        } else {
+            const auto known = std::ptrdiff_t(list.size());
+            list.insert(list.end(), fresh.begin(), fresh.end());
+            std::inplace_merge(list.begin(), list.begin() + known, list.end());
+        }
     }
 }
 

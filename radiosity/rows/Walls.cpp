@@ -109,6 +109,10 @@ bool Walls::isHidden(std::uint32_t wall, const Bounds& from, glm::vec3 point) co
     return hides(walls_[wall], from, point);
 }
 
+bool Walls::isHidden(std::uint32_t wall, const Bounds& from, const Bounds& box) const {
+    return hides(walls_[wall], from, box);
+}
+
 ObjectId Walls::between(const Bounds& a, const Bounds& b) const {
     ObjectId found;
     if (walls_.empty() || a.empty() || b.empty()) return found;
@@ -119,16 +123,32 @@ ObjectId Walls::between(const Bounds& a, const Bounds& b) const {
     return found;
 }
 
+bool Walls::isBeside(std::size_t wall, const Bounds& a, const Bounds& b) const {
+    const auto ha = heightsOf(a, walls_[wall].plane);
+    const auto hb = heightsOf(b, walls_[wall].plane);
+    return (lowest(ha) > 0 && lowest(hb) < 0) || (highest(ha) < 0 && highest(hb) > 0);
+}
+
 std::vector<std::uint32_t> Walls::beside(const Bounds& a, const Bounds& b) const {
     std::vector<std::uint32_t> walls;
     if (a.empty() || b.empty()) return walls;
     boxes_.query([&](std::size_t n) { return shaftMeets(a, b, boxes_.node(n)); },
                  [&](std::size_t i) {
-                     const auto ha = heightsOf(a, walls_[i].plane);
-                     const auto hb = heightsOf(b, walls_[i].plane);
-                     if ((lowest(ha) > 0 && lowest(hb) < 0) || (highest(ha) < 0 && highest(hb) > 0))
-                         walls.push_back(std::uint32_t(i));
+                     if (isBeside(i, a, b)) walls.push_back(std::uint32_t(i));
                  });
+    return walls;
+}
+
+std::vector<std::uint32_t> Walls::beside(const Bounds& a, const Bounds& b,
+                                         std::span<const MovedObject> objects) const {
+    std::vector<std::uint32_t> walls;
+    if (a.empty() || b.empty()) return walls;
+    for (const MovedObject& object : objects) {
+        if (!object.present) continue;
+        const Range all = set_.objects[object.object].walls;
+        for (std::uint32_t i = all.first; i < all.end(); ++i)
+            if (shaftMeets(a, b, boxes_[i]) && isBeside(i, a, b)) walls.push_back(i);
+    }
     return walls;
 }
 

@@ -36,8 +36,12 @@ public:
     /// Faces that may stand between all of one box and some of another: part of that lies beyond
     /// them. By number, see isHidden().
     std::vector<std::uint32_t> beside(const Bounds& a, const Bounds& b) const;
-    /// Whether a face hides a point from all of a box.
+    /// Those of them of some objects.
+    std::vector<std::uint32_t> beside(const Bounds& a, const Bounds& b,
+                                      std::span<const MovedObject> objects) const;
+    /// Whether a face hides a point, or all of another box, from all of a box.
     bool isHidden(std::uint32_t wall, const Bounds& from, glm::vec3 point) const;
+    bool isHidden(std::uint32_t wall, const Bounds& from, const Bounds& box) const;
     ObjectId objectOf(std::uint32_t wall) const { return walls_[wall].object; }
     /// Whether any of some objects has a face that may hide anything.
     bool areAmong(std::span<const MovedObject> objects) const;
@@ -50,6 +54,7 @@ private:
         Bounds box;
     };
     static Sides sidesOf(const Wall& wall);
+    bool isBeside(std::size_t wall, const Bounds& a, const Bounds& b) const;
     template <class There>
     bool hides(const Sides& wall, const Bounds& a, const There& b) const;
 

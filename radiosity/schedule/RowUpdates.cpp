@@ -118,9 +118,8 @@ float RowUpdates::factorBound(const DirtyBlock& item, const RowFacts& facts) con
     return could < kTiny ? could : std::min(could, block.largestFormFactor());
 }
 
-/// The next run of blocks to be searched; false: all rows know of all edits.
-bool RowUpdates::nextSearch(Search& search, const Facts& facts) {
-    constexpr std::uint32_t kRun = 512;
+/// The next run of blocks to be searched; false: all rows know of all edits. \param run blocks
+bool RowUpdates::nextSearch(Search& search, std::size_t run, const Facts& facts) {
     for (; row_ < table_.size(); ++row_) {
         search = {};
         search.row = std::uint32_t(row_);
@@ -132,10 +131,10 @@ bool RowUpdates::nextSearch(Search& search, const Facts& facts) {
     }
     if (row_ == table_.size()) return false;
     search.change = &changeSince(table_.edits(row_));
-    search.most = std::min<std::size_t>(table_[row_].size(), kRun);
-    if (search.most == kRun) {
-        const auto blocks = std::uint32_t(table_.blocks().size());
-        search.blocks = {block_, std::min(block_ + kRun, blocks)};
+    search.most = std::min(table_[row_].size(), run);
+    if (search.most == run) {
+        const std::size_t blocks = table_.blocks().size();
+        search.blocks = {block_, std::uint32_t(std::min(block_ + run, blocks))};
         block_ = search.blocks.end;
         search.last = block_ == blocks;
     }
@@ -177,12 +176,13 @@ void RowUpdates::find(Search& search) const {
 }
 
 void RowUpdates::find(std::size_t effort, const Facts& facts) {
+    const std::size_t run = std::max<std::size_t>(512, effort / (16 * cost::kRowFind)); // blocks
     bool more = true;
     for (std::size_t cost = 0; more && cost < effort;) {
         // What is found can't be known before: no more probes at a time than may be paid for.
         std::vector<Search> searches;
         Search search;
-        for (std::size_t most = 0; most < effort && (more = nextSearch(search, facts));) {
+        for (std::size_t most = 0; most < effort && (more = nextSearch(search, run, facts));) {
             most += cost::kRowSearch + cost::kRowFind * search.most;
             searches.push_back(std::move(search));
         }

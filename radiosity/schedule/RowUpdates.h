@@ -118,7 +118,7 @@ private:
     };
     ObjectId hidden(const Search& search, const BlockMask& mask,
                     std::map<std::uint32_t, ObjectId>& objects) const;
-    bool nextSearch(Search& search, const Facts& facts);
+    bool nextSearch(Search& search, std::size_t run, const Facts& facts);
     void find(Search& search) const;
     float factorBound(const DirtyBlock& item, const RowFacts& facts) const;
     const PendingChange& changeSince(std::uint32_t edits);

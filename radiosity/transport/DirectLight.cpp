@@ -304,19 +304,30 @@ std::uint64_t DirectLight::hidden(const DirtyBlock& item, std::span<const MovedO
     if (item.anew == 0 && !walls_.areAmong(moved)) return 0;
     const Bounds& sender = emitters_[item.row].box();
     const Bounds& block = table_.blocks()[item.block];
-    if (const ObjectId wall = walls_.between(sender, block); wall.valid()) {
-        occluders.push_back(wall);
-        return ~std::uint64_t(0);
-    }
-    std::uint64_t found = 0;
     const auto receivers = receiversOf(item.block);
-    for (const std::uint32_t wall : walls_.beside(sender, block)) {
+    std::uint64_t found = 0;
+    const auto look = [&](std::uint32_t wall, std::uint64_t which) {
         std::uint64_t behind = 0;
-        for (const std::uint32_t r : bitsOf(item.receivers & ~found))
+        for (const std::uint32_t r : bitsOf(which & ~found))
             if (!isPadding(receivers[r]) && walls_.isHidden(wall, sender, receivers[r].position))
                 behind |= std::uint64_t(1) << r;
         if (behind != 0) occluders.push_back(walls_.objectOf(wall));
         found |= behind;
+    };
+    if (item.anew != 0) {
+        if (const ObjectId wall = walls_.between(sender, block); wall.valid()) {
+            occluders.push_back(wall);
+            return ~std::uint64_t(0);
+        }
+        for (const std::uint32_t wall : walls_.beside(sender, block))
+            look(wall, item.receivers & item.anew);
+    }
+    for (const std::uint32_t wall : walls_.beside(sender, block, moved)) {
+        if (walls_.isHidden(wall, sender, block)) {
+            occluders.push_back(walls_.objectOf(wall));
+            return ~std::uint64_t(0);
+        }
+        look(wall, item.receivers & ~item.anew);
     }
     return found;
 }

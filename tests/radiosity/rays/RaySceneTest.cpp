@@ -143,9 +143,29 @@ TEST(RayScene, SurvivesObjectsThatAreNoMoreThanAPoint) {
     }
 }
 
+TEST(RayScene, SaysWhereSolidsThatMayHoldAPointEnd) {
+    RayMesh tilted = square(0); // in a box of 1 m each way
+    tilted.solid.assign(tilted.triangles.size(), 1);
+    for (glm::vec3& p : tilted.vertices) p.z = p.x;
+    RayScene scene(std::array{square(1), tilted});
+    const glm::vec3 inside(0.1f, 0.2f, 0);
+    const float end = scene.solidsEnd(inside, {0, 0, 2});
+    const float top = tilted.vertices[0].z > 0 ? tilted.vertices[0].z : -tilted.vertices[0].z;
+    EXPECT_NEAR(end, top / 2, 1e-3f) << "in lengths of the direction";
+    EXPECT_GE(end, top / 2) << "beyond what is there";
+    EXPECT_EQ(scene.solidsEnd({0, 0, 5}, {0, 0, -1}), 0) << "it holds no point out there";
+    scene.show({1}, false);
+    EXPECT_EQ(scene.solidsEnd(inside, {0, 0, 2}), 0) << "what is hidden is not there";
+    scene.show({1}, true);
+    for (glm::vec3& p : tilted.vertices) p.z += 5;
+    scene.move({1}, tilted.vertices);
+    EXPECT_EQ(scene.solidsEnd(inside, {0, 0, 2}), 0) << "it has been moved away";
+    EXPECT_GT(scene.solidsEnd({0, 0, 5}, {0, 0, -1}), 0);
+}
+
 TEST(RayScene, FindsAllTrianglesUpToItsReach) {
     const RayScene scene(std::array{square(1), square(3)});
-    EXPECT_FALSE(scene.anySolid());
+    EXPECT_EQ(scene.solidsEnd({0.1f, 0.2f, 1}, {0, 0, 1}), 0) << "nothing is solid";
     std::vector<RayHit> hits;
     for (const auto& [reach, count] :
          {std::pair(1.5f, 0u), std::pair(2.5f, 1u), std::pair(9.0f, 2u)}) {
