@@ -100,6 +100,7 @@ glm::vec3 ContactResolver::endOfWay(glm::vec3 from, glm::vec3 to, glm::vec3 norm
 }
 
 void Fans::add(const std::vector<Element>& elements, Range added, Range vertices) {
+    if (vertices.count == 0) return; // of nothing: it lies nowhere
     const auto forEachCorner = [&](auto visit) {
         for (std::uint32_t e = added.first; e < added.end(); ++e)
             for (std::uint32_t k = 0; k < (elements[e].isTriangle() ? 3u : 4u); ++k)

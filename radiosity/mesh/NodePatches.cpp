@@ -13,6 +13,7 @@ NodePatches::NodePatches(const PatchSet& set)
 }
 
 void NodePatches::add(Range patches, Range nodes) {
+    if (nodes.count == 0) return; // of nothing: they lie nowhere
     const PatchSet& set = *set_;
     const auto forEachNode = [&](auto visit) {
         for (std::uint32_t p = patches.first; p < patches.end(); ++p) {

@@ -75,24 +75,31 @@ std::vector<ObjectId> LitScene::unknownObjects(const PlacedScene& now) const {
 /// meshed: there are no rows that it could emit through.
 std::vector<ObjectId> LitScene::beginToShine(const PlacedScene& now) const {
     const PatchSet& set = patches();
-    std::vector<std::uint8_t> begins(set.materials.size());
-    for (std::size_t m = 0; m < set.materials.size(); ++m) {
-        const LightSource& source = built().materialSources[m];
-        if (!source.material || !source.material->emissive()) continue;
-        // What is dark in a texture has no emitters, however brightly it would shine.
-        if (source.material->textures().emission && maxChannel(set.materials[m].emission) > 0)
-            continue;
-        begins[m] = std::ranges::none_of(built().emitterSources, [&](const LightSource& emitter) {
-            return emitter.material == source.material;
-        });
-    }
-    if (std::ranges::find(begins, 1) == begins.end()) return {};
-    std::vector<std::uint8_t> found(set.objects.size());
-    for (std::size_t e = 0; e < set.elements.size(); ++e)
-        if (begins[set.elements[e].material]) found[set.elementObject[e].value] = 1;
+    const auto materialOf = [&](std::uint32_t m) { return built().materialSources[m].material; };
+    std::vector<std::uint8_t> wasDark(set.materials.size());
+    for (std::uint32_t m = 0; m < wasDark.size(); ++m)
+        wasDark[m] = materialOf(m) && materialOf(m)->emissive() && built().materialEmits[m] &&
+                     !(maxChannel(set.materials[m].emission) > 0);
+    if (std::ranges::find(wasDark, 1) == wasDark.end()) return {};
+    const auto begins = [&](const ObjectPart& part) {
+        const auto emits = [&](std::uint32_t m) {
+            const auto sources =
+                std::span(built().emitterSources).subspan(part.emitters.first, part.emitters.count);
+            return std::ranges::find(sources, materialOf(m), &LightSource::material) !=
+                   sources.end();
+        };
+        std::uint32_t shining = Element::kNone; // the last material that was looked at
+        for (std::uint32_t e = part.elements.first; e < part.elements.end(); ++e) {
+            const std::uint32_t m = set.elements[e].material;
+            if (!wasDark[m] || m == shining) continue;
+            if (!emits(m)) return true;
+            shining = m;
+        }
+        return false;
+    };
     std::vector<ObjectId> objects;
-    for (std::uint32_t o = 0; o < found.size(); ++o)
-        if (found[o]) objects.push_back({o});
+    for (std::uint32_t o = 0; o < set.objects.size(); ++o)
+        if (!set.objects[o].path.empty() && begins(set.objects[o])) objects.push_back({o});
     return numbersIn(now, objects);
 }
 
@@ -211,15 +218,25 @@ std::vector<ObjectId> LitScene::numbersIn(const PlacedScene& now,
 }
 
 LitScene::Followed LitScene::follow(const PlacedScene& now) {
+    if (std::exchange(halfTaken_, true)) { // the last edit was refused on the way
+        meshed_ = std::make_unique<Meshed>(mesh(now, sizesOf(patches()), room_), solving_);
+        pieces_ = {};
+        pieces_.note(now);
+        halfTaken_ = false;
+        return {true, false, {}};
+    }
     Followed followed;
     std::vector<ObjectId> unknown = unknownObjects(now);
     for (const ObjectId object : beginToShine(now))
         if (std::ranges::find(unknown, object) == unknown.end()) unknown.push_back(object);
     SceneChange colours;
     followColours(colours);
-    if (take(now, unknown, colours, followed)) return followed;
-    rebuild(now);
-    return {true, false, {}};
+    if (!take(now, unknown, colours, followed)) {
+        rebuild(now);
+        followed = {true, false, {}};
+    }
+    halfTaken_ = false;
+    return followed;
 }
 
 void LitScene::invalidate(const Bounds& box) {

@@ -42,7 +42,8 @@ public:
         bool added = false; ///< else: whether objects were added to patches(), in `change` as well
         SceneChange change; ///< else: what of the patch set
     };
-    /// Takes in how the scene is now. \throws Error if it can't be meshed
+    /// Takes in how the scene is now. \throws Error if it can't be meshed; the next edit is then
+    /// lit from scratch
     Followed follow(const PlacedScene& now);
 
     /// Has what lies in a box, or is crossed by light through it, evaluated anew by the steps that
@@ -88,6 +89,7 @@ private:
     bool room_;
     std::unique_ptr<Meshed> meshed_;
     ScenePieces pieces_;
+    bool halfTaken_ = false; ///< the last edit, and nobody knows how much of it
 };
 
 } // namespace penumbra

@@ -1,5 +1,6 @@
 // After any sequence of edits the settled light is that of the scene as it is, however it came
 // to be. `scripts/nightly` tries many more sequences.
+#include "base/Error.h"
 #include "base/Parallel.h"
 #include "tests/support/EditedScenes.h"
 #include "tests/support/EditedWalls.h"
@@ -236,6 +237,67 @@ TEST(Incremental, EqualsFromScratchWhenThereIsNoMoreRoomForWhatComes) {
         if (comes % 10 == 0) followed.lit.solver().settle();
     }
     EXPECT_GT(comes, 8);
+    EXPECT_EQ(followed.differs(), "");
+}
+
+/// A block of .4 m, at a place of the room, of which it is a thing.
+std::shared_ptr<Transform> addBlock(FollowedRoom& followed, const std::string& name,
+                                    const glm::dmat4& place,
+                                    std::shared_ptr<Material> material = paint(Rgb(0.5f))) {
+    const auto block =
+        objectOf(name, {std::make_shared<Mesh>("mesh", boxData({0, 0, 0}, {0.4f, 0.4f, 0.4f}, false,
+                                                               std::move(material)))});
+    block->setMatrix(place);
+    followed.room.scene().root->add(block);
+    return block;
+}
+
+TEST(Incremental, EqualsFromScratchWhenSomethingShrinksToNothingAsAnotherThingIsResized) {
+    // What had no surface took from what came with it where its corners meet.
+    FollowedRoom followed(4);
+    const auto resized = addBlock(followed, "resized", moved(1, 1, 0));
+    const auto shrunk = addBlock(followed, "shrunk", moved(1.4, 1, 0));
+    followed.follow();
+    followed.lit.solver().settle();
+    resized->setMatrix(resized->matrix() * scaled(1.3));
+    shrunk->setMatrix(shrunk->matrix() * scaled(0));
+    followed.follow();
+    EXPECT_EQ(followed.differs(), "");
+    shrunk->setMatrix(moved(1.4, 1, 0));
+    followed.follow();
+    EXPECT_EQ(followed.differs(), "") << "it has grown again";
+}
+
+TEST(Incremental, EqualsFromScratchWhenSomethingThatWasMeshedInTheDarkShinesAgain) {
+    // Others of its material, gone or not, were taken to shine for it.
+    FollowedRoom followed(4);
+    const auto glow = paint(Rgb(0.5f), Rgb(5));
+    const auto block = addBlock(followed, "glowing", moved(1, 1, 0.5), glow);
+    addBlock(followed, "beside", moved(0.3, 1, 0.5), glow);
+    followed.follow();
+    glow->setEmission(Rgb());
+    followed.follow();
+    block->setMatrix(block->matrix() * scaled(1.2));
+    followed.follow();
+    addBlock(followed, "late", moved(1, 0.3, 0.5), glow);
+    followed.follow();
+    followed.lit.solver().settle();
+    glow->setEmission(Rgb(5));
+    followed.follow();
+    EXPECT_EQ(followed.differs(), "");
+}
+
+TEST(Incremental, EqualsFromScratchAfterAnEditThatWasRefused) {
+    FollowedRoom followed(4);
+    const auto near = addBlock(followed, "near", moved(1, 1, 0));
+    const auto far = addBlock(followed, "far", moved(1.4, 1, 0));
+    followed.follow();
+    near->setMatrix(moved(1, 1.2, 0));
+    far->setMatrix(moved(1e13, 0, 0));
+    EXPECT_THROW(followed.follow(), Error);
+    EXPECT_THROW(followed.follow(), Error) << "again, for it still is nowhere";
+    far->setMatrix(moved(1.4, 1, 0));
+    followed.follow();
     EXPECT_EQ(followed.differs(), "");
 }
 

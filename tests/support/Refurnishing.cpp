@@ -55,7 +55,7 @@ std::string Refurnishing::add() {
 std::string Refurnishing::change(std::size_t which) {
     const std::shared_ptr<Transform> kept = added_[which];
     Transform& thing = *kept;
-    switch (below(6)) {
+    switch (below(7)) {
     case 0:
         thing.setMatrix(
             thing.matrix() *
@@ -75,6 +75,9 @@ std::string Refurnishing::change(std::size_t which) {
         for (const NodePtr& node : std::vector(thing.children())) thing.remove(node);
         for (const NodePtr& node : content()) thing.add(node);
         return thing.name() + " made of other things; ";
+    case 5:
+        thing.setMatrix(thing.matrix() * glm::scale(glm::dmat4(1.0), glm::dvec3(0, 1, 0)));
+        return thing.name() + " shrunk to nothing; ";
     default:
         scene_.root->remove(kept);
         added_.erase(added_.begin() + std::ptrdiff_t(which));
@@ -83,8 +86,12 @@ std::string Refurnishing::change(std::size_t which) {
 }
 
 std::string Refurnishing::edit() {
-    if (added_.empty() || (added_.size() < 4 && below(3) == 0)) return add();
-    return change(below(added_.size()));
+    std::string said;
+    do { // some come together
+        const bool more = added_.empty() || (added_.size() < 4 && below(3) == 0);
+        said += more ? add() : change(below(added_.size()));
+    } while (below(3) == 0);
+    return said;
 }
 
 void Refurnishing::clear() {

@@ -14,12 +14,12 @@ namespace penumbra {
 
 /// Brings things into a room of 3 x 2.5 x 2 m and takes them out: blocks,
 /// partitions, lights, hollow boxes around lights, blocks that shine; resizes, mirrors and moves
-/// them, gives them another mesh, says that they begin an object or not.
+/// them, shrinks them to nothing, gives them another mesh, says that they begin an object or not.
 class Refurnishing {
 public:
     Refurnishing(const Scene& scene, std::uint32_t seed) : scene_(scene), random_(seed) {}
 
-    /// One random edit. \return what was done, for people
+    /// One random edit, or a few at once. \return what was done, for people
     std::string edit();
     /// Takes out all that is left of what was brought in.
     void clear();

@@ -175,10 +175,10 @@ void Window::Impl::listen(GLFWwindow* window) {
                                                       MouseButton::middle};
         Impl& impl = of(w);
         double x = 0, y = 0;
-        glfwGetCursorPos(w, &x, &y);
+        glfwGetCursorPos(w, &x, &y); // where it is by now, not where the button went down
         if (!impl.pointerKnown) impl.moveTo(x, y);
         impl.events.push_back(ButtonEvent{kButtons[std::size_t(button)], action == GLFW_PRESS,
-                                          modifiersOf(mods), impl.inPixels(x, y)});
+                                          modifiersOf(mods), impl.pointer});
     });
     glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
         const auto held = [&](int left, int right) {

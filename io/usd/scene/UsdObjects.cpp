@@ -58,12 +58,10 @@ void UsdObjects::order() {
 }
 
 void UsdObjects::findModels(const UsdStage& stage) {
-    std::vector<std::uint8_t> below(entries_.size(), 0); // has a model below it
     for (std::size_t p = entries_.size(); p-- > 1;) {
         const UsdPrim& prim = stage.prims()[p];
-        const bool model = isModelKind(prim);
-        entries_[p].model = model && !below[p];
-        if (model || below[p]) below[prim.parent] = 1;
+        entries_[p].model = isModelKind(prim);
+        entries_[prim.parent].holdsModels |= entries_[p].model || entries_[p].holdsModels;
     }
 }
 
@@ -83,20 +81,42 @@ void UsdObjects::addInstance(std::size_t instancer, const std::shared_ptr<Transf
 }
 
 void UsdObjects::addShape(std::size_t prim, const Bounds& box) {
-    parts_.push_back({entries_[prim].order, box});
+    parts_.push_back({entries_[prim].order, box, stage_.prims()[prim].typeName.ends_with("Light")});
     for (std::size_t p = prim; p != 0; p = stage_.prims()[p].parent) ++entries_[p].partCount;
+}
+
+std::span<const UsdObjects::Part> UsdObjects::partsOf(const Entry& entry) const {
+    const auto first = std::ranges::lower_bound(parts_, entry.order, {}, &Part::order);
+    return {first, entry.partCount};
+}
+
+bool UsdObjects::holdsAll(const Entry& entry) const {
+    const auto own = std::ranges::count(partsOf(entry), false, &Part::light);
+    return instances_.empty() && own == std::ranges::count(parts_, false, &Part::light);
+}
+
+bool UsdObjects::isPlace(const Entry& entry) const {
+    if (holdsAll(entry)) return true;
+    const std::span<const Part> own = partsOf(entry);
+    Bounds all;
+    for (const Part& part : own) all.add(part.box);
+    const glm::vec3 size = all.size();
+    if (std::max({size.x, size.y, size.z}) <= kMostSize) return false;
+    if (entry.holdsModels) return true;
+    if (own.size() > kMostParts && std::min({size.x, size.y, size.z}) > kRoom) return true;
+    return std::ranges::any_of(parts_, [&](const Part& part) {
+        const bool others = part.order < own.front().order || part.order > own.back().order;
+        return others && all.contains(part.box.lower) && all.contains(part.box.upper);
+    });
 }
 
 bool UsdObjects::isThing(const Entry& entry) const {
     if (entry.partCount == 0 || entry.partCount > kMostParts) return false;
-    const auto first =
-        std::lower_bound(parts_.begin(), parts_.end(), entry.order,
-                         [](const Part& part, std::uint32_t order) { return part.order < order; });
     std::vector<Bounds> boxes;
     Bounds all;
-    for (auto part = first; part != first + entry.partCount; ++part) {
-        boxes.push_back(part->box);
-        all.add(part->box);
+    for (const Part& part : partsOf(entry)) {
+        boxes.push_back(part.box);
+        all.add(part.box);
     }
     const glm::vec3 size = all.size();
     return std::max({size.x, size.y, size.z}) <= kMostSize && allTouch(boxes, kTouching);
@@ -105,8 +125,9 @@ bool UsdObjects::isThing(const Entry& entry) const {
 bool UsdObjects::isObject(const Entry& entry) const {
     if (entry.apart) return false;
     if (entry.transform->beginsObject() || entry.shape) return true;
-    if (entry.partCount == parts_.size() && instances_.empty()) return false; // all of the scene
-    return entry.model || (entry.shapesHeld > 0 && isThing(entry));
+    if (entry.partCount == 0) return false;
+    if (entry.model && !isPlace(entry)) return true;
+    return entry.shapesHeld > 0 && !holdsAll(entry) && isThing(entry);
 }
 
 std::unordered_set<const Transform*> UsdObjects::mark() {

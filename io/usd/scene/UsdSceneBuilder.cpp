@@ -272,9 +272,20 @@ private:
         return transform;
     }
 
+    void warnOfHeldSizes(const UsdAttributes& attributes) {
+        constexpr std::array kSizes{"size",          "radius",        "height",
+                                    "width",         "length",        "inputs:width",
+                                    "inputs:height", "inputs:radius", "inputs:length"};
+        if (!isShape(attributes.prim().typeName)) return;
+        for (const char* const size : kSizes)
+            if (UsdStage::animated(attributes.prim(), size))
+                warnings_.warn(attributes.location(size), "an animated size is held");
+    }
+
     NodePtr makeLeaf(const std::string& name, const UsdAttributes& attributes, const Place& place) {
         const UsdPrim& prim = attributes.prim();
         const std::string& type = prim.typeName;
+        warnOfHeldSizes(attributes);
         if (type == "Mesh" || isUsdGprim(type)) return makeShape(name, attributes, place);
         if (isUsdAreaLight(type)) return makeUsdLight(name, attributes, place.toWorld, warnings_);
         if (type == "Camera") return std::make_shared<Camera>(name, usdLens(attributes, warnings_));
@@ -308,6 +319,9 @@ private:
     NodePtr makeGprim(const std::string& name, const UsdAttributes& attributes,
                       const Place& place) {
         const UsdPrim& prim = attributes.prim();
+        if (UsdStage::hasApi(prim, "MeshLightAPI"))
+            warnings_.warn(prim.location(), "MeshLightAPI of a " + prim.typeName +
+                                                " left out: a Mesh or an emissive material shines");
         const auto make = [&] {
             return makeUsdMesh(name, stage_, attributes, makeUsdGprim(attributes, warnings_),
                                place.inherited, materials_, std::nullopt, warnings_);

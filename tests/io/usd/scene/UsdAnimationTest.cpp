@@ -12,6 +12,14 @@ TEST(UsdAnimation, AStillSceneHasNone) {
     EXPECT_FALSE(loadText("def Cube \"c\"\n{\n}\n").animation);
 }
 
+TEST(UsdAnimation, SizesAreHeldWithAWord) {
+    const LoadedScene loaded = loadText("(metersPerUnit = 1)\ndef RectLight \"lamp\"\n{\n"
+                                        "    float inputs:width.timeSamples = { 0: 1, 10: 2 }\n}\n"
+                                        "def Sphere \"ball\"\n{\n"
+                                        "    double radius.timeSamples = { 0: 1, 10: 2 }\n}\n");
+    EXPECT_EQ(countOf(loaded, "an animated size is held"), 2u);
+}
+
 TEST(UsdAnimation, PlayingEditsOnlyWhatChanges) {
     const LoadedScene loaded = loadText(R"((metersPerUnit = 1
     startTimeCode = 0)

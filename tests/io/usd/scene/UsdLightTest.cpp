@@ -145,4 +145,10 @@ TEST(UsdLight, InvisibleLightsAreDark) {
     EXPECT_EQ(nits("RectLight", "token visibility = \"invisible\""), -1);
 }
 
+TEST(UsdLight, AShapeThatIsToBeAMeshLightIsLeftDarkWithAWord) {
+    const LoadedScene loaded =
+        loadText("def Cube \"c\" (prepend apiSchemas = [\"MeshLightAPI\"])\n{\n}\n");
+    EXPECT_EQ(countOf(loaded, "MeshLightAPI of a Cube left out"), 1u);
+}
+
 } // namespace penumbra

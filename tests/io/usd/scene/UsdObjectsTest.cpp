@@ -81,9 +81,39 @@ TEST(UsdObjects, APileOfShapesIsTakenApart) {
     EXPECT_EQ(objectsOf(xform("Geometry", pile)).size(), 17u);
 }
 
+TEST(UsdObjects, ALightBesideItDoesNotMakeARoomOneThing) {
+    const std::string light = "def SphereLight \"Lamp\"\n{\n}\n";
+    EXPECT_THAT(objectsOf(xform("File", cube("a", 1) + cube("b", 1, 1), "component") + light),
+                ElementsAre("/File/a", "/File/b", "/Lamp"));
+    EXPECT_THAT(objectsOf(xform("File", cube("a", 1) + cube("b", 1, 1)) + light),
+                ElementsAre("/File/a", "/File/b", "/Lamp"));
+}
+
+TEST(UsdObjects, ARoomThatOthersStandInIsNoThingWhateverItsKind) {
+    const std::string room = xform("Room", cube("walls", 6) + cube("desk", 1, 1), "component");
+    EXPECT_THAT(objectsOf(room + cube("seat", 0.5, 2)),
+                ElementsAre("/Room/walls", "/Room/desk", "/seat"));
+    EXPECT_THAT(objectsOf(room + cube("shed", 3, 40)), ElementsAre("/Room", "/shed"));
+    std::string many = cube("walls", 6);
+    for (int i = 0; i < 64; ++i) many += cube("c" + std::to_string(i), 0.1);
+    EXPECT_EQ(objectsOf(xform("Room", many, "component") + cube("shed", 3, 40)).size(), 66u);
+}
+
+TEST(UsdObjects, AModelOfModelsIsOneIfItCanBeCarried) {
+    const auto both = [](double x) {
+        return xform("Seat",
+                     xform("A", cube("a", 0.5), "component") +
+                         xform("B", cube("b", 0.5, x), "component"),
+                     "component");
+    };
+    EXPECT_THAT(objectsOf(both(1) + cube("floor", 9, 40)), ElementsAre("/Seat", "/floor"));
+    EXPECT_THAT(objectsOf(both(5) + cube("floor", 9, 40)),
+                ElementsAre("/Seat/A", "/Seat/B", "/floor"));
+}
+
 TEST(UsdObjects, TheSmallestModelIsOneWhateverItHolds) {
     const std::string seats = xform("Seat1", cube("leg", 1) + cube("far", 1, 40), "component") +
-                              xform("Seat2", cube("leg", 1), "component");
+                              xform("Seat2", cube("leg", 1, -5), "component");
     EXPECT_THAT(objectsOf(xform("Hall", seats, "component")),
                 ElementsAre("/Hall/Seat1", "/Hall/Seat2"));
 }
