@@ -39,7 +39,8 @@ void WalkLight::choosePreview() {
         preview_ = std::move(maps);
     } else {
         maps_ = nullptr;
-        preview_ = std::make_unique<RayPreview>(samples_, [this] { return node_->patches(); });
+        preview_ = std::make_unique<RayPreview>(
+            samples_, [this] { return node_->patches(); }, PreviewRows::Indexing::aside);
     }
 }
 
@@ -78,7 +79,7 @@ void WalkLight::updatePreview(const Walkthrough& walk, const View& view) {
         preview_->rest(blend_.expecting(*node_, objects[selection->object.value].path), shown,
                        &view);
     } else {
-        preview_->rest({}, shown, nullptr);
+        preview_->rest(complete() ? blend_.expecting(*node_, "") : PreviewLighting(), shown, &view);
     }
 }
 

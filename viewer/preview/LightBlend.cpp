@@ -177,7 +177,6 @@ void LightBlend::describeLights(const RadiosityNode& node, PreviewLighting& ligh
 
 PreviewLighting LightBlend::expecting(const RadiosityNode& node, const std::string& object) const {
     PreviewLighting light;
-    if (lights_.empty()) return light;
     light.now = now_;
     for (const Entry& entry : entries_)
         light.objects.push_back({entry.geometry, entry.path == object});

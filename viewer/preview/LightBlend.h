@@ -62,7 +62,7 @@ public:
     /// The preview lighting, for the renderer.
     const PreviewLighting& preview() const { return preview_; }
     /// What it would be of if an object began to move now; without anchors. \param object its path,
-    /// as LitObject has it
+    /// as LitObject has it; empty: none
     PreviewLighting expecting(const RadiosityNode& node, const std::string& object) const;
 
     /// Whether the picture changes without new light: fades.

@@ -37,7 +37,7 @@ public:
     /// seen may be left out; null: nothing is
     virtual void update(const PreviewLighting& light, const ShownOf& shown, const View* view) = 0;
     /// \param expected see LightBlend::expecting(): may be made ready, so that the first frame of
-    /// a move need not; without lights: nothing is expected
+    /// a move need not; without lights: nothing is expected yet
     virtual void rest(const PreviewLighting& expected, const ShownOf& shown, const View* view) = 0;
 };
 

@@ -6,26 +6,45 @@
 #include "viewer/preview/SceneStates.h"
 
 #include <algorithm>
+#include <chrono>
 #include <tuple>
 #include <utility>
 
 namespace penumbra {
 
-void PreviewRows::require(const std::vector<std::shared_ptr<const LitGeometry>>& geometries) {
+void PreviewRows::require(const PreviewLighting& light) {
+    using namespace std::chrono_literals;
+    if (making_.valid()) { // one after the other
+        if (making_.wait_for(0s) != std::future_status::ready) return;
+        takeStage();
+    }
+    std::vector<std::shared_ptr<const LitGeometry>> geometries;
+    for (const auto& object : light.objects) geometries.push_back(object.geometry);
     if (geometries == geometries_) return;
     forget();
-    geometries_ = geometries;
+    geometries_ = std::move(geometries);
     surfaces_.clear();
     stage_.reset();
     std::optional<PatchSet> patches = patches_();
-    if (!patches || patches->objects.size() != geometries.size()) return;
-    stage_ = std::make_unique<PreviewScene>(std::move(*patches));
-    for (std::uint32_t o = 0; o < geometries.size(); ++o)
-        if (geometries[o] && !PreviewSurface::fits(*geometries[o], *stage_, o))
-            return stage_.reset();
-    for (std::uint32_t o = 0; o < geometries.size(); ++o)
-        surfaces_.push_back(geometries[o] ? PreviewSurface(geometries[o], *stage_, o)
-                                          : PreviewSurface());
+    if (!patches || patches->objects.size() != geometries_.size()) return;
+    const auto make = [](PatchSet set, const SceneStatePtr& now) {
+        auto stage = std::make_unique<PreviewScene>(std::move(set));
+        stage->pose(*now); // what touches what is found, of all things
+        return stage;
+    };
+    making_ = std::async(std::launch::async, make, std::move(*patches), light.now);
+    if (indexing_ == Indexing::atOnce) takeStage();
+}
+
+/// Waits for what is being indexed.
+void PreviewRows::takeStage() {
+    std::unique_ptr<PreviewScene> stage = making_.get();
+    for (std::uint32_t o = 0; o < geometries_.size(); ++o)
+        if (geometries_[o] && !PreviewSurface::fits(*geometries_[o], *stage, o)) return;
+    stage_ = std::move(stage);
+    for (std::uint32_t o = 0; o < geometries_.size(); ++o)
+        surfaces_.push_back(geometries_[o] ? PreviewSurface(geometries_[o], *stage_, o)
+                                           : PreviewSurface());
 }
 
 bool PreviewRows::knows(const PreviewLighting& light) const {
@@ -273,9 +292,7 @@ Receiver PreviewRows::receiver(const Slot& slot, std::uint32_t object, std::size
 }
 
 void PreviewRows::prepare(const PreviewLighting& light, const ShownOf& shown, const View* view) {
-    std::vector<std::shared_ptr<const LitGeometry>> geometries;
-    for (const auto& object : light.objects) geometries.push_back(object.geometry);
-    require(geometries);
+    require(light);
     if (!stage_) return;
     if (!sameMoves(light)) forget();
     followTriangles(shown);

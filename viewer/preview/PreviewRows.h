@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <span>
@@ -40,11 +41,19 @@ public:
     using PatchesOf = std::function<std::optional<PatchSet>()>;
     using ShownOf = std::function<const ShownLight*(const LitGeometry&)>;
 
-    /// \param samples as SolverOptions::samples
-    PreviewRows(int samples, PatchesOf patches) : samples_(samples), patches_(std::move(patches)) {}
+    /// How what surfaces are made of is indexed for rays, with all that they touch: which takes as
+    /// long as some frames do, or some dozen of them.
+    enum class Indexing {
+        aside, ///< in a thread of its own; until it is done nothing is reached
+        atOnce
+    };
 
-    /// Indexes these geometries (null: none) for rays, unless they are.
-    void require(const std::vector<std::shared_ptr<const LitGeometry>>& geometries);
+    /// \param samples as SolverOptions::samples
+    PreviewRows(int samples, PatchesOf patches, Indexing indexing)
+        : samples_(samples), patches_(std::move(patches)), indexing_(indexing) {}
+
+    /// Indexes the geometries of these objects for rays, unless they are.
+    void require(const PreviewLighting& light);
     /// Whether what is known is of this scene state, now.
     bool knows(const PreviewLighting& light) const;
 
@@ -116,6 +125,7 @@ private:
     }
     static float unoccluded(std::span<const EmitterSender> source, const Receiver& receiver);
 
+    void takeStage();
     bool sameMoves(const PreviewLighting& light);
     void followTriangles(const ShownOf& shown);
     void carryOver(std::uint32_t object, const std::vector<AdoptedVertex>& adopted);
@@ -142,9 +152,11 @@ private:
 
     int samples_;
     PatchesOf patches_;
+    Indexing indexing_;
     std::vector<std::shared_ptr<const LitGeometry>> geometries_; ///< that were required
-    std::unique_ptr<PreviewScene> stage_;
-    std::vector<PreviewSurface> surfaces_; ///< by object
+    std::unique_ptr<PreviewScene> stage_;                        ///< null: they are not indexed
+    std::future<std::unique_ptr<PreviewScene>> making_;          ///< of geometries_
+    std::vector<PreviewSurface> surfaces_;                       ///< by object
     std::vector<Slot> slots_;
     Table clear_; ///< where nothing that moves is in the way
     std::vector<bool> moves_, lightMoves_;

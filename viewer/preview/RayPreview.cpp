@@ -197,6 +197,7 @@ void RayPreview::splitAllTouched(const PreviewLighting& light) {
 
 void RayPreview::rest(const PreviewLighting& expected, const ShownOf& shown, const View* view) {
     takeBack();
+    if (expected.now) rows_.require(expected);
     if (expected.lights.empty())
         rows_.forget();
     else if (!rows_.knows(expected))

@@ -21,7 +21,9 @@ namespace penumbra {
 class RayPreview : public Preview {
 public:
     /// \param samples as SolverOptions::samples \param patches see PreviewRows
-    RayPreview(int samples, PreviewRows::PatchesOf patches) : rows_(samples, std::move(patches)) {}
+    RayPreview(int samples, PreviewRows::PatchesOf patches,
+               PreviewRows::Indexing indexing = PreviewRows::Indexing::atOnce)
+        : rows_(samples, std::move(patches), indexing) {}
 
     PreviewMethod method() const override { return PreviewMethod::rays; }
     void takeBack() override;
