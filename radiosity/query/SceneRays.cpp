@@ -118,12 +118,25 @@ void SceneRays::follow(const PlacedScene& scene) {
     if (changed) rays_->commit();
 }
 
-Touch SceneRays::describe(const RayHit& hit, glm::dvec3 from, glm::dvec3 direction) const {
+const SceneRays::Piece& SceneRays::pieceAt(const RayHit& hit) const {
     const Part& part = parts_[hit.object.value];
     const auto after = std::upper_bound(
         part.pieces.begin(), part.pieces.end(), hit.triangle,
         [](std::uint32_t triangle, const Piece& piece) { return triangle < piece.firstTriangle; });
-    const Piece& piece = *(after - 1);
+    return *(after - 1);
+}
+
+/// In mirrored frames the sides keep their meaning.
+bool SceneRays::isSeen(const RayHit& hit, glm::dvec3 direction) const {
+    const Piece& piece = pieceAt(hit);
+    if (!piece.mesh || piece.mesh->data().doubleSided) return true;
+    const glm::dmat3 toWorld(parts_[hit.object.value].toWorld * piece.toObject);
+    const double facing = glm::dot(glm::dvec3(hit.normal), direction);
+    return glm::determinant(toWorld) < 0 ? facing > 0 : facing < 0;
+}
+
+Touch SceneRays::describe(const RayHit& hit, glm::dvec3 from, glm::dvec3 direction) const {
+    const Piece& piece = pieceAt(hit);
     Touch touch;
     touch.object = hit.object;
     touch.mesh = piece.mesh;
@@ -156,6 +169,19 @@ std::optional<Touch> SceneRays::touch(glm::dvec3 from, glm::dvec3 direction, dou
             (!nearest || hit.distance < nearest->distance))
             nearest = &hit;
     if (!nearest) return std::nullopt;
+    return describe(*nearest, from, unit);
+}
+
+std::optional<Touch> SceneRays::seen(glm::dvec3 from, glm::dvec3 direction, double reach) const {
+    const glm::dvec3 unit = glm::normalize(direction);
+    std::vector<RayHit> hits;
+    rays_->all(glm::vec3(from), glm::vec3(unit), float(std::min(reach, kFarthest)), hits);
+    const auto last =
+        std::ranges::remove_if(hits, [&](const RayHit& hit) { return !isSeen(hit, unit); }).begin();
+    const auto nearest = std::min_element(hits.begin(), last, [](const RayHit& a, const RayHit& b) {
+        return a.distance < b.distance;
+    });
+    if (nearest == last) return std::nullopt;
     return describe(*nearest, from, unit);
 }
 

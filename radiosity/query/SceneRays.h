@@ -42,6 +42,8 @@ public:
     /// The nearest visible surface, but for those of `except`. \param direction not zero
     std::optional<Touch> touch(glm::dvec3 from, glm::dvec3 direction, double reach,
                                ObjectId except = {}) const;
+    /// The nearest that can be seen: of a surface with one side its front.
+    std::optional<Touch> seen(glm::dvec3 from, glm::dvec3 direction, double reach) const;
 
     std::optional<Obstacle> ahead(glm::dvec3 from, glm::dvec3 direction,
                                   double reach) const override;
@@ -72,6 +74,8 @@ private:
     void build(const PlacedScene& scene);
     bool sameStructure(const PlacedScene& scene) const;
     static std::vector<glm::vec3> placed(const Part& part);
+    const Piece& pieceAt(const RayHit& hit) const;
+    bool isSeen(const RayHit& hit, glm::dvec3 direction) const;
     Touch describe(const RayHit& hit, glm::dvec3 from, glm::dvec3 direction) const;
 
     std::vector<Part> parts_; ///< one an object

@@ -38,7 +38,7 @@ SightLine Walkthrough::sightAt(glm::dvec2 position, glm::ivec2 picture) const {
 
 std::optional<Touch> Walkthrough::pointedAt(glm::ivec2 picture) const {
     const SightLine sight = sightAt(controls_.state().position(), picture);
-    return rays_->touch(sight.origin, sight.direction, kReach);
+    return rays_->seen(sight.origin, sight.direction, kReach);
 }
 
 void Walkthrough::press(const ButtonEvent& button, glm::ivec2 picture) {
@@ -55,7 +55,7 @@ void Walkthrough::press(const ButtonEvent& button, glm::ivec2 picture) {
         return;
     if (gesture != Gesture::look) {
         const SightLine sight = sightAt(button.position, picture);
-        if (const auto touch = rays_->touch(sight.origin, sight.direction, kReach))
+        if (const auto touch = rays_->seen(sight.origin, sight.direction, kReach))
             rig_.setOrbitCentre(touch->position);
     }
     controls_.begin(gesture);
@@ -77,7 +77,7 @@ bool Walkthrough::isAround(ObjectId object) const {
 /// only when it was selected before, so that nobody drags the floor away who wants to look around
 bool Walkthrough::takeHold(const ButtonEvent& button, glm::ivec2 picture) {
     const SightLine sight = sightAt(button.position, picture);
-    const auto touch = rays_->touch(sight.origin, sight.direction, kReach);
+    const auto touch = rays_->seen(sight.origin, sight.direction, kReach);
     const std::string before = selection_ ? selection_->objectPath : std::string();
     selection_.reset();
     if (!touch) return false;

@@ -52,6 +52,20 @@ TEST(SceneRays, LookThroughAnObjectOnRequest) {
     EXPECT_EQ(floor->path, "/floor");
 }
 
+TEST(SceneRays, SeeThroughTheBacksThatAreNotDrawn) {
+    Room room;
+    const auto seenUp = [&] {
+        const auto seen = SceneRays(placeScene(room.scene)).seen({0.2, 0.1, 0.5}, {0, 0, 1}, 100);
+        return seen ? seen->path : std::string();
+    };
+    EXPECT_EQ(seenUp(), "/hook/lamp") << "the seat's back is not in the way";
+    room.seat->setMatrix(room.seat->matrix() *
+                         glm::rotate(glm::dmat4(1.0), glm::pi<double>(), {1, 0, 0}));
+    EXPECT_EQ(seenUp(), "/seat/cushion") << "it has been turned over";
+    room.seat->setMatrix(room.seat->matrix() * glm::scale(glm::dmat4(1.0), {-1, 1, 1}));
+    EXPECT_EQ(seenUp(), "/seat/cushion") << "mirrored, its front is its front";
+}
+
 TEST(SceneRays, PassByPointsThatAreNowhere) {
     for (const float nowhere : {1e30f, std::nanf("")}) {
         Room room;
