@@ -51,7 +51,7 @@ public:
         result_.card = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
         settle();
         for (const auto& object : light_->node().objects())
-            result_.elements += object.geometry->data().indices.size() / 6;
+            if (object.geometry) result_.elements += object.geometry->data().indices.size() / 6;
         measureExposure();
         select();
         settle();

@@ -88,12 +88,12 @@ std::vector<ObjectId> LitScene::beginToShine(const PlacedScene& now) const {
             return std::ranges::find(sources, materialOf(m), &LightSource::material) !=
                    sources.end();
         };
-        std::uint32_t shining = Element::kNone; // the last material that was looked at
+        std::uint32_t known = Element::kNone; // a material that emits
         for (std::uint32_t e = part.elements.first; e < part.elements.end(); ++e) {
             const std::uint32_t m = set.elements[e].material;
-            if (!wasDark[m] || m == shining) continue;
+            if (!wasDark[m] || m == known) continue;
             if (!emits(m)) return true;
-            shining = m;
+            known = m;
         }
         return false;
     };
