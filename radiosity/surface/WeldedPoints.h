@@ -10,8 +10,7 @@
 namespace penumbra {
 
 /// For every point the index of the first one at its position. Points that lie close are left
-/// apart: a tolerance would tear dense meshes where it closes others
-/// (experiments/face_clusters.md).
+/// apart: a tolerance would tear dense meshes where it closes others.
 std::vector<std::uint32_t> weldPoints(std::span<const glm::vec3> points);
 
 /// A hash of a position, the same for 0 and -0.

@@ -9,7 +9,10 @@
 #include "scenegraph/Transform.h"
 
 #include <cmath>
+#include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace penumbra {
 
@@ -37,6 +40,30 @@ void readStageMetadata(const UsdLayer& layer, Scene& scene, Diagnostics& warning
     scene.startTimeCode = layerNumber(layer, "startTimeCode").value_or(0);
     scene.endTimeCode = layerNumber(layer, "endTimeCode").value_or(scene.startTimeCode);
     scene.timeCodesPerSecond = timeCodesPerSecond(layer);
+}
+
+/// Layers that say another unit or another axis than the root layer: USD rescales and turns
+/// nothing.
+void warnOfOtherFrames(const UsdStage& stage, const Scene& scene, Diagnostics& warnings) {
+    const auto isOther = [&](const UsdLayer& layer) {
+        const double unit = layerNumber(layer, "metersPerUnit").value_or(scene.metersPerUnit);
+        const UsdValue* axis = find(layer.metadata, "upAxis");
+        const std::string up = scene.upAxis == UpAxis::z ? "Z" : "Y";
+        return std::abs(unit - scene.metersPerUnit) > 1e-6 * scene.metersPerUnit ||
+               (axis && axis->text() && *axis->text() != up);
+    };
+    std::set<const UsdLayer*> seen;
+    std::vector<const UsdLayer*> others;
+    for (const UsdPrim& prim : stage.prims())
+        for (const UsdOpinion& opinion : prim.opinions)
+            if (seen.insert(opinion.layer).second && isOther(*opinion.layer))
+                others.push_back(opinion.layer);
+    if (others.empty()) return;
+    std::string more;
+    if (others.size() > 1) more = " (and " + std::to_string(others.size() - 1) + " more)";
+    warnings.warn({others.front()->file, 0, 0},
+                  "has another metersPerUnit or upAxis than the scene, and is taken as it is" +
+                      more);
 }
 
 /// A positive number, if the prim says one.
@@ -101,6 +128,7 @@ LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& o
     Scene& scene = *loaded.scene;
     scene.name = file.stem().string();
     readStageMetadata(stage->rootLayer(), scene, stage->diagnostics());
+    warnOfOtherFrames(*stage, scene, stage->diagnostics());
     loaded.asked = askedByDefaultPrim(*stage, scene.metersPerUnit, stage->diagnostics());
     if (scene.metersPerUnit != 1) {
         auto toMetres = std::make_shared<Transform>("");

@@ -147,7 +147,7 @@ TEST(FaceClusters, AreAsManyForAMillionTrianglesAsForAThousand) {
 }
 
 TEST(FaceClusters, OneMovedVertexChangesAFewNearby) {
-    // experiments/face_clusters.md: 9 of 560 on a ball, none farther than .71 m.
+    // Merging is a cascade, but a short one.
     const ClusterMesh mesh = bumpyBall(1.5, 100);
     const auto setsOf = [&](const ClusterMesh& of) {
         std::set<std::vector<std::uint32_t>> sets;

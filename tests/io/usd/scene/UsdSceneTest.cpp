@@ -113,6 +113,27 @@ TEST(UsdScene, AxesAndFramesAreRecorded) {
     EXPECT_EQ(countOf(loadText("(upAxis = \"X\")\n"), "upAxis"), 1u);
 }
 
+TEST(UsdScene, LayersOfOtherUnitsOrAxesAreTakenAsTheyAreWithAWord) {
+    const TemporaryFolder folder;
+    const std::string cube = "def Cube \"c\"\n{\n}\n";
+    folder.write("inches.usda",
+                 "#usda 1.0\n(metersPerUnit = 0.0254\n defaultPrim = \"c\")\n" + cube);
+    folder.write("tilted.usda", "#usda 1.0\n(upAxis = \"Z\"\n defaultPrim = \"c\")\n" + cube);
+    folder.write("silent.usda", "#usda 1.0\n(defaultPrim = \"c\")\n" + cube);
+    const auto with = [&](const std::string& references) {
+        return loadUsdScene(
+            folder.write("scene.usda", "#usda 1.0\n(metersPerUnit = 1)\n" + references));
+    };
+    const std::string inches = "def \"a\" (references = @inches.usda@)\n{\n}\n";
+    const std::string tilted = "def \"b\" (references = @tilted.usda@)\n{\n}\n";
+    const char* const said = "has another metersPerUnit or upAxis than the scene";
+    EXPECT_EQ(countOf(with(inches), said), 1u);
+    EXPECT_EQ(countOf(with(tilted), said), 1u);
+    EXPECT_EQ(countOf(with(inches + tilted), "taken as it is (and 1 more)"), 1u);
+    EXPECT_EQ(countOf(with("def \"d\" (references = @silent.usda@)\n{\n}\n"), said), 0u)
+        << "says nothing of it";
+}
+
 TEST(UsdScene, TheSceneIsReadAtItsFirstFrameUnlessAskedOtherwise) {
     const std::string text =
         "(metersPerUnit = 1\n startTimeCode = 2)\ndef Xform \"x\"\n{\n double3 "
