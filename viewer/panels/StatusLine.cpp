@@ -24,7 +24,7 @@ void drawStatusLine(PanelState& state) {
     ImGui::SetNextWindowPos({em / 2, display.y - em / 2}, ImGuiCond_Always, {0, 1});
     if (ImGui::Begin("##status", nullptr, kPlain)) {
         const std::string words = !state.walk      ? "reading " + state.sceneName
-                                  : state.noLights ? "no light in this file: shown by a headlight"
+                                  : state.noLights ? "no light here: shown by a headlight"
                                                    : lightWords(state.light);
         ImGui::TextUnformatted(words.c_str());
         if (state.walk) {
