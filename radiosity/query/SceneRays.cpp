@@ -176,12 +176,11 @@ std::optional<Touch> SceneRays::seen(glm::dvec3 from, glm::dvec3 direction, doub
     const glm::dvec3 unit = glm::normalize(direction);
     std::vector<RayHit> hits;
     rays_->all(glm::vec3(from), glm::vec3(unit), float(std::min(reach, kFarthest)), hits);
-    const auto last =
-        std::ranges::remove_if(hits, [&](const RayHit& hit) { return !isSeen(hit, unit); }).begin();
-    const auto nearest = std::min_element(hits.begin(), last, [](const RayHit& a, const RayHit& b) {
-        return a.distance < b.distance;
-    });
-    if (nearest == last) return std::nullopt;
+    std::erase_if(hits, [&](const RayHit& hit) { return !isSeen(hit, unit); });
+    const auto nearest =
+        std::min_element(hits.begin(), hits.end(),
+                         [](const RayHit& a, const RayHit& b) { return a.distance < b.distance; });
+    if (nearest == hits.end()) return std::nullopt;
     return describe(*nearest, from, unit);
 }
 
