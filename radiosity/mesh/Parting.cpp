@@ -1,9 +1,9 @@
 #include "radiosity/mesh/Parting.h"
 
 #include "base/PairHash.h"
+#include "radiosity/surface/UnionFind.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace penumbra {
@@ -16,11 +16,6 @@ constexpr std::uint64_t kMiddle = std::uint64_t(1) << 40;
 /// Room for what may be parted later: at least so many patches, and blocks of nodes.
 constexpr std::size_t kSparePatches = 128, kSpareBlocks = 16;
 const PatchRectangle kWhole{glm::vec2(0), glm::vec2(1)};
-
-std::uint32_t rootOf(std::vector<std::uint32_t>& parent, std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
 
 bool same(const Receiver& a, const Receiver& b) {
     return a.position == b.position && a.normal == b.normal;
@@ -162,18 +157,17 @@ std::vector<Parting::Group> Parting::groupsOf(std::uint32_t whole) const {
     }
     std::sort(elements.begin(), elements.end());
     if (elements.empty()) return {};
-    std::vector<std::uint32_t> parent(elements.size());
-    std::iota(parent.begin(), parent.end(), 0u);
+    UnionFind joined(elements.size());
     std::unordered_map<std::uint32_t, std::uint32_t> seen;
     for (std::uint32_t i = 0; i < elements.size() && patch.divisible; ++i)
         for (std::uint32_t v : set_.elements[elements[i]].vertices) {
             const auto [found, fresh] = seen.try_emplace(v, i);
-            if (!fresh) parent[rootOf(parent, i)] = rootOf(parent, found->second);
+            if (!fresh) joined.join(i, found->second);
         }
     std::unordered_map<std::uint32_t, std::size_t> groupOf;
     std::vector<Group> groups;
     for (std::uint32_t i = 0; i < elements.size(); ++i) {
-        const std::uint32_t root = patch.divisible ? rootOf(parent, i) : 0;
+        const std::uint32_t root = patch.divisible ? joined.find(i) : 0;
         const auto [found, fresh] = groupOf.try_emplace(root, groups.size());
         if (fresh) groups.emplace_back();
         Group& group = groups[found->second];

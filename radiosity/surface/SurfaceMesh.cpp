@@ -2,11 +2,11 @@
 
 #include "radiosity/rays/Traceable.h"
 #include "radiosity/surface/Triangulate.h"
+#include "radiosity/surface/UnionFind.h"
+#include "radiosity/surface/WeldedPoints.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <numeric>
 #include <unordered_map>
 
 namespace penumbra {
@@ -14,30 +14,6 @@ namespace penumbra {
 namespace {
 
 constexpr std::size_t kMostSides = 5000; // of a face: triangulation is quadratic
-
-struct PointHash {
-    std::size_t operator()(const glm::vec3& p) const {
-        std::uint32_t bits[3];
-        std::memcpy(bits, &p, sizeof bits);
-        std::uint64_t h = 0x9e3779b97f4a7c15ull;
-        for (std::uint32_t b : bits) h = (h ^ b) * 0xff51afd7ed558ccdull, h ^= h >> 32;
-        return std::size_t(h);
-    }
-};
-
-/// For each point the first one with the same position: files often repeat points a face.
-std::vector<std::uint32_t> weldPositions(const std::vector<glm::vec3>& points) {
-    std::unordered_map<glm::vec3, std::uint32_t, PointHash> first;
-    std::vector<std::uint32_t> weld(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i)
-        weld[i] = first.try_emplace(points[i] + glm::vec3(0), std::uint32_t(i)).first->second;
-    return weld;
-}
-
-std::uint32_t rootOf(std::vector<std::uint32_t>& parent, std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
 
 /// A connected part of a mesh.
 struct Component {
@@ -141,20 +117,18 @@ void close(const SurfaceMesh& mesh, std::span<const SurfaceMesh* const> object,
 
 std::vector<Component> connectedComponents(const SurfaceMesh& mesh,
                                            std::span<const SurfaceMesh* const> object) {
-    const std::vector<std::uint32_t> weld = weldPositions(mesh.points);
-    std::vector<std::uint32_t> parent(mesh.points.size());
-    std::iota(parent.begin(), parent.end(), 0u);
+    const std::vector<std::uint32_t> weld = weldPoints(mesh.points);
+    UnionFind joined(mesh.points.size());
     for (const SurfaceFace& face : mesh.faces)
         for (std::uint32_t corner : mesh.cornersOf(face))
-            parent[rootOf(parent, weld[corner])] =
-                rootOf(parent, weld[mesh.corners[face.firstCorner]]);
+            joined.join(weld[corner], weld[mesh.corners[face.firstCorner]]);
 
     std::unordered_map<std::uint32_t, std::uint32_t> index;
     std::vector<Component> components;
     std::vector<Edges> edges;
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
         const auto corners = mesh.cornersOf(mesh.faces[f]);
-        const std::uint32_t root = rootOf(parent, weld[corners[0]]);
+        const std::uint32_t root = joined.find(weld[corners[0]]);
         const auto [found, fresh] = index.try_emplace(root, std::uint32_t(components.size()));
         if (fresh) components.emplace_back(), edges.emplace_back();
         Component& component = components[found->second];
@@ -321,7 +295,7 @@ SurfaceMesh placeSurface(const MeshData& data, const glm::dmat4& toWorld) {
 
     // A cage's topology is its indices; polygons meet where their points are the same.
     const std::vector<std::uint32_t> weld =
-        mesh.subdivided() ? std::vector<std::uint32_t>() : weldPositions(mesh.points);
+        mesh.subdivided() ? std::vector<std::uint32_t>() : weldPoints(mesh.points);
     std::vector<std::uint32_t> corners;
     std::vector<glm::vec2> uvs;
     std::size_t first = 0;

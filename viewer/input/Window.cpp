@@ -174,9 +174,11 @@ void Window::Impl::listen(GLFWwindow* window) {
         constexpr std::array<MouseButton, 3> kButtons{MouseButton::left, MouseButton::right,
                                                       MouseButton::middle};
         Impl& impl = of(w);
-        double x = 0, y = 0;
-        glfwGetCursorPos(w, &x, &y); // where it is by now, not where the button went down
-        if (!impl.pointerKnown) impl.moveTo(x, y);
+        if (!impl.pointerKnown) { // GLFW knows where it is by now, events where it was
+            double x = 0, y = 0;
+            glfwGetCursorPos(w, &x, &y);
+            impl.moveTo(x, y);
+        }
         impl.events.push_back(ButtonEvent{kButtons[std::size_t(button)], action == GLFW_PRESS,
                                           modifiersOf(mods), impl.pointer});
     });

@@ -95,31 +95,37 @@ bool UsdObjects::holdsAll(const Entry& entry) const {
     return instances_.empty() && own == std::ranges::count(parts_, false, &Part::light);
 }
 
+Bounds UsdObjects::boxOf(const Entry& entry) const {
+    Bounds box;
+    for (const Part& part : partsOf(entry)) box.add(part.box);
+    return box;
+}
+
+bool UsdObjects::canBeCarried(const Bounds& box) {
+    const glm::vec3 size = box.size();
+    return std::max({size.x, size.y, size.z}) <= kMostSize;
+}
+
 bool UsdObjects::isPlace(const Entry& entry) const {
     if (holdsAll(entry)) return true;
-    const std::span<const Part> own = partsOf(entry);
-    Bounds all;
-    for (const Part& part : own) all.add(part.box);
-    const glm::vec3 size = all.size();
-    if (std::max({size.x, size.y, size.z}) <= kMostSize) return false;
+    const Bounds box = boxOf(entry);
+    if (canBeCarried(box)) return false;
     if (entry.holdsModels) return true;
+    const glm::vec3 size = box.size();
+    const std::span<const Part> own = partsOf(entry);
     if (own.size() > kMostParts && std::min({size.x, size.y, size.z}) > kRoom) return true;
     return std::ranges::any_of(parts_, [&](const Part& part) {
         const bool others = part.order < own.front().order || part.order > own.back().order;
-        return others && all.contains(part.box.lower) && all.contains(part.box.upper);
+        return others && box.contains(part.box.lower) && box.contains(part.box.upper);
     });
 }
 
 bool UsdObjects::isThing(const Entry& entry) const {
     if (entry.partCount == 0 || entry.partCount > kMostParts) return false;
+    if (!canBeCarried(boxOf(entry))) return false;
     std::vector<Bounds> boxes;
-    Bounds all;
-    for (const Part& part : partsOf(entry)) {
-        boxes.push_back(part.box);
-        all.add(part.box);
-    }
-    const glm::vec3 size = all.size();
-    return std::max({size.x, size.y, size.z}) <= kMostSize && allTouch(boxes, kTouching);
+    for (const Part& part : partsOf(entry)) boxes.push_back(part.box);
+    return allTouch(boxes, kTouching);
 }
 
 bool UsdObjects::isObject(const Entry& entry) const {

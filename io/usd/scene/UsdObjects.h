@@ -74,6 +74,8 @@ private:
     void findModels(const UsdStage& stage);
     bool isObject(const Entry& entry) const;
     std::span<const Part> partsOf(const Entry& entry) const;
+    Bounds boxOf(const Entry& entry) const;
+    static bool canBeCarried(const Bounds& box);
     bool holdsAll(const Entry& entry) const;
     bool isPlace(const Entry& entry) const;
     bool isThing(const Entry& entry) const;
