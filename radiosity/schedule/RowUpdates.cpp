@@ -155,7 +155,8 @@ ObjectId RowUpdates::hidden(const Search& search, const BlockMask& mask,
         if (isNew) known->second = search.facts.hidden(grown(moved->box, 2 * hover));
         if (known->second.valid()) return known->second;
     }
-    return search.facts.hidden(table_.blocks()[mask.block]);
+    return search.facts.hidden(search.facts.boxes.empty() ? table_.blocks()[mask.block]
+                                                          : search.facts.boxes[mask.block]);
 }
 
 void RowUpdates::find(Search& search) const {

@@ -51,6 +51,8 @@ public:
         /// Who hides it altogether from all that is within a box [m, world]; invalid: nobody is
         /// known to. Empty: nobody ever does.
         std::function<ObjectId(const Bounds& box)> hidden = {};
+        /// What is asked for of each block; empty: the boxes of the table [m, world].
+        std::span<const Bounds> boxes = {};
     };
     using Facts = std::function<RowFacts(std::uint32_t row)>;
     /// Updates one block; returns the number of entries that changed. `moved`: all that may have

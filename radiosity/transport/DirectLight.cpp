@@ -176,22 +176,16 @@ void DirectLight::carryOccluders(std::uint32_t row, const DirectLight& before,
                                  const RowCarrying& carrying, const PatchMatch& match) {
     const std::uint32_t wasRow = match.emitters[row];
     const auto were = before.table_.occluders(wasRow);
-    std::vector<RowTable::BlockerNote> notes;
-    for (std::uint32_t b = 0; b < table_.blocks().size() && !were.empty(); ++b) {
-        if (!carrying.isWhole(b)) {
-            for (std::uint32_t v = b * kBlock; v < (b + 1) * kBlock; ++v) {
-                const std::uint32_t was = match.vertices[v];
-                if (was == PatchMatch::kNew || isPadding(before.receivers_[was])) continue;
-                if (const ObjectId wall = before.wallBefore(wasRow, was); wall.valid())
-                    notes.push_back({row, b, match.objects[wall.value]});
-            }
-            continue;
+    if (were.empty()) return;
+    std::vector<RowTable::BlockerNote> notes = carrying.occluders(row, were, table_[row]);
+    for (std::uint32_t b = 0; b < table_.blocks().size(); ++b) {
+        if (carrying.isWhole(b)) continue;
+        for (std::uint32_t v = b * kBlock; v < (b + 1) * kBlock; ++v) {
+            const std::uint32_t was = match.vertices[v];
+            if (was == PatchMatch::kNew || isPadding(before.receivers_[was])) continue;
+            if (const ObjectId wall = before.wallBefore(wasRow, was); wall.valid())
+                notes.push_back({row, b, match.objects[wall.value]});
         }
-        const std::uint32_t was = carrying.wasBlock(b);
-        auto note = std::lower_bound(were.begin(), were.end(), was,
-                                     [](const auto& n, std::uint32_t w) { return n.block < w; });
-        for (; note != were.end() && note->block == was; ++note)
-            notes.push_back({row, b, match.objects[note->object]});
     }
     table_.noteOccluders(notes);
 }

@@ -77,6 +77,7 @@ public:
     /// Whether patchLit() is not what it was when this was called last.
     bool takeLitChanged() { return std::exchange(litChanged_, false); }
 
+    const Walls& walls() const { return walls_; } ///< where they stand now
     /// A wall that hides an emitter from a vertex altogether, see Walls; the row has no entry then.
     ObjectId wallBefore(std::uint32_t emitter, std::uint32_t vertex) const;
 

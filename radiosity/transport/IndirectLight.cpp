@@ -32,6 +32,7 @@ IndirectLight::IndirectLight(const PatchSet& set, const RayScene& rays, const Di
     for (std::uint32_t p = 0; p < senders_.patchCount(); ++p) planar_.push_back(isPlanar(p));
     std::vector<BlockMask> all;
     for (std::uint32_t b = 0; b < blockCount(); ++b) all.push_back({b, ~std::uint64_t(0)});
+    for (std::uint32_t o = 0; o < set.objects.size(); ++o) placeStands({o});
     placeNodes(all);
     reach_.nodes.resize(blockCount());
     coloursChanged();
@@ -78,7 +79,47 @@ ReceiverBlock IndirectLight::receiversOf(std::uint32_t sender, std::uint32_t blo
             std::span(nodeKeys_).subspan(block * kBlock, kBlock)};
 }
 
+/// An object is elsewhere: so is what its nodes stand on.
+void IndirectLight::placeStands(ObjectId object) {
+    const ObjectPart& part = set_.objects[object.value];
+    stands_.resize(std::max(stands_.size(), blockCount()));
+    for (std::uint32_t b = part.nodes.first / kBlock; b * kBlock < part.nodes.end(); ++b)
+        stands_[b] = {};
+    const auto stand = [&](std::uint32_t node, const Patch& patch) {
+        Bounds& box = stands_[node / kBlock];
+        box.add(set_.uncoveredNodes[node].position);
+        for (std::uint32_t c = 0; c < patch.cornerCount; ++c)
+            box.add(set_.corners[patch.firstCorner + c]);
+    };
+    for (std::uint32_t p = part.patches.first; p < part.patches.end(); ++p) {
+        const Patch& patch = set_.patches[p];
+        if (patch.elementCount == 0) continue;
+        stand(patch.centreNode, patch);
+        if (!patch.hasCornerNodes) continue;
+        // Where a patch is split at its corners now, the mesh has them together.
+        for (const std::uint32_t n :
+             set_.parts.used.empty() ? patch.cornerNodes : set_.parts.cornerNodes[p])
+            stand(n, patch);
+    }
+}
+
+/// Whose wall hides a block from a sender altogether, if any does: a function of poses alone.
+ObjectId IndirectLight::hiddenBy(std::uint32_t sender, std::uint32_t block) const {
+    return direct_.walls().between(senders_.box(sender), stands_[block]);
+}
+
+/// Likewise, of those that moved.
+ObjectId IndirectLight::hiddenBy(std::uint32_t sender, std::uint32_t block,
+                                 std::span<const MovedObject> moved) const {
+    const Walls& walls = direct_.walls();
+    if (!walls.areAmong(moved)) return {};
+    for (const std::uint32_t wall : walls.beside(senders_.box(sender), stands_[block], moved))
+        if (walls.isHidden(wall, senders_.box(sender), stands_[block])) return walls.objectOf(wall);
+    return {};
+}
+
 void IndirectLight::placeNodes(std::span<const BlockMask> masks) {
+    stands_.resize(blockCount());
     while (table_.blocks().size() < blockCount()) table_.blocks().append({});
     while (linkBoxes_.size() < blockCount()) linkBoxes_.append({});
     const auto boxOf = [](const Receiver* nodes) {
@@ -97,6 +138,7 @@ void IndirectLight::placeNodes(std::span<const BlockMask> masks) {
         }
         const std::uint32_t source = set_.parts.sourceBlock[block - firstSpare];
         linkBoxes_.set(block, source != Element::kNone ? linkBoxes_[source] : Bounds());
+        stands_[block] = source != Element::kNone ? stands_[source] : Bounds();
         for (const std::uint32_t r : bitsOf(bits))
             nodeKeys_[block * kBlock + r] = addressOfNode(set_, block * kBlock + r);
     }
@@ -142,6 +184,7 @@ void IndirectLight::takeOver(IndirectLight& before, const PatchMatch& match) {
             table_[s].open(senders_.linkedBlocks(s, linkBoxes_));
             anew[s] = carrying.carry({s, was[s]}, before.table_, before.updates_.dirty(), carrier,
                                      table_);
+            carryOccluders(s, before.table_.occluders(was[s]), carrying, anew[s]);
             for (const RowBlock& block : table_[s]) bytes[s] += block.bytes();
         }
     });
@@ -159,6 +202,17 @@ void IndirectLight::takeOver(IndirectLight& before, const PatchMatch& match) {
     receiveAgain();
     described_ = false; // the receivers have light now
     updates_.add(match.changed, carrying.unknown());
+}
+
+/// Remembers who hid what from a sender. Blocks are hidden as wholes: receivers of one that was,
+/// and that is not what it was, are to be evaluated anew.
+void IndirectLight::carryOccluders(std::uint32_t sender,
+                                   std::span<const RowTable::BlockerNote> were,
+                                   const RowCarrying& carrying, std::vector<BlockMask>& anew) {
+    table_.noteOccluders(carrying.occluders(sender, were, table_[sender]));
+    const auto partly = carrying.partlyHidden(were, table_[sender]);
+    anew.insert(anew.end(), partly.begin(), partly.end());
+    unite(anew);
 }
 
 /// Of each of some senders the one here that sends just alike and has a row, ObjectId::kNone if
@@ -204,7 +258,10 @@ void IndirectLight::receiveAgain() {
 
 void IndirectLight::apply(const SceneChange& change) {
     described_ = false;
-    for (ObjectId object : change.objects) senders_.place(object);
+    for (ObjectId object : change.objects) {
+        senders_.place(object);
+        placeStands(object);
+    }
     for (std::uint32_t p : change.senders) {
         senders_.placePatch(p);
         planar_[p] = isPlanar(p);
@@ -365,16 +422,24 @@ void IndirectLight::describeReceivers() {
 
 /// Brings a block up to date. What of it had arrived is taken back, what is right added: in
 /// `delta`, node by node. \return the number of entries that are not what they were
-int IndirectLight::updateBlock(PatchRowBuilder& builder, const DirtyBlock& item,
+int IndirectLight::updateBlock(RowBuilder& builder, const DirtyBlock& item,
                                std::span<const MovedObject> moved, BlockDelta& delta) {
+    constexpr std::uint64_t kAll = ~std::uint64_t(0);
     RowBlock& block = table_[item.row][item.block];
     const Arrived arrived = arrivedAt(item.row, item.block);
     std::array<NodeDelta, kBlock> nodes{};
     forEachReceived(block, arrived.light, [&](int r, float factor, glm::dvec3 light) {
         nodes[std::size_t(r)] = {0, -double(factor), -light};
     });
-    const int changed = builder.update(senders_.sender(item.row), receiversOf(item.row, item.block),
-                                       item.anew, moved, block);
+    ReceiverBlock receivers = receiversOf(item.row, item.block);
+    const ObjectId by = item.anew != 0 ? hiddenBy(item.row, item.block)
+                                       : hiddenBy(item.row, item.block, moved);
+    if (by.valid()) {
+        receivers.wanted = 0;
+        builder.occluders.push_back(by);
+    }
+    const int changed = builder.patches.update(senders_.sender(item.row), receivers,
+                                               by.valid() ? kAll : item.anew, moved, block);
     if (changed == 0) return 0;
     forEachReceived(block, arrived.light, [&](int r, float factor, glm::dvec3 light) {
         nodes[std::size_t(r)].factor += double(factor);
@@ -405,7 +470,7 @@ bool IndirectLight::update(std::size_t effort, double enough) {
         effort, enough, [&](std::uint32_t s) { return factsOf(s); },
         [&](RowBuilder& builder, const DirtyBlock& item, std::span<const MovedObject> moved,
             std::size_t index) {
-            return updateBlock(builder.patches, item, moved, deltas[index]);
+            return updateBlock(builder, item, moved, deltas[index]);
         });
     for (std::size_t i = 0; i < items.size(); ++i)
         for (const auto& [n, factor, light] : deltas[i].nodes) {
@@ -423,6 +488,10 @@ RowUpdates::RowFacts IndirectLight::factsOf(std::uint32_t sender) const {
                                senders_.area(sender),
                                {},
                                {}};
+    facts.hidden = [this, sender](const Bounds& box) {
+        return direct_.walls().between(senders_.box(sender), box);
+    };
+    facts.boxes = stands_;
     if (sender < senders_.patchCount() && planar_[sender]) {
         facts.centre = set_.patches[sender].centre;
         facts.normal = set_.patches[sender].normal;

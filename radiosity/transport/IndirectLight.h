@@ -22,6 +22,7 @@
 namespace penumbra {
 
 class DirectLight;
+class RowCarrying;
 
 /// Southwell relaxation over the rows of the patches and of their clusters. R = E + rho F S - S
 /// always holds for the rows as they are, where E is what patches reflect of the direct light; a
@@ -103,6 +104,10 @@ private:
         std::vector<std::vector<std::uint32_t>> linked;    ///< to senders without a row, one each
         std::vector<std::vector<std::uint32_t>> receivers; ///< as of Shot
     };
+    /// Who blocks what of the rows that a shot builds, and whose walls hide blocks of them.
+    struct ShotNotes {
+        std::vector<RowTable::BlockerNote> blockers, occluders;
+    };
     /// What a block has received from a sender [lm/m^2], and whether its row sums know of it.
     struct Arrived {
         SenderLight light;
@@ -118,7 +123,7 @@ private:
         std::vector<NodeDelta> nodes;
         bool known = false; ///< row sums know of the sender
     };
-    int updateBlock(PatchRowBuilder& builder, const DirtyBlock& item,
+    int updateBlock(RowBuilder& builder, const DirtyBlock& item,
                     std::span<const MovedObject> moved, BlockDelta& delta);
     Arrived arrivedAt(std::uint32_t row, std::uint32_t block) const;
     RowUpdates::RowFacts factsOf(std::uint32_t sender) const;
@@ -132,8 +137,14 @@ private:
     std::vector<BlockMask> nodesOf(const SceneChange& change) const;
     void markRows(std::span<const std::uint32_t> senders);
     ReceiverBlock receiversOf(std::uint32_t sender, std::uint32_t block) const;
+    void placeStands(ObjectId object);
+    ObjectId hiddenBy(std::uint32_t sender, std::uint32_t block) const;
+    ObjectId hiddenBy(std::uint32_t sender, std::uint32_t block,
+                      std::span<const MovedObject> moved) const;
     std::vector<std::uint32_t> keptFor(const IndirectSenders& senders,
                                        const PatchMatch& match) const;
+    void carryOccluders(std::uint32_t sender, std::span<const RowTable::BlockerNote> were,
+                        const RowCarrying& carrying, std::vector<BlockMask>& anew);
     void takeReached(const IndirectLight& before, const PatchMatch& match);
     void receiveAgain();
     void updateReach();
@@ -152,7 +163,7 @@ private:
     void load(Listing& listing);
     void serve(std::size_t effort);
     void serveBlock(std::uint32_t block, PatchRowBuilder& builder, std::size_t& bytes,
-                    std::vector<RowTable::BlockerNote>& notes);
+                    ShotNotes& notes);
     void finishShot();
     void residualsChanged();
     void updateResiduals();
@@ -172,6 +183,10 @@ private:
     /// Boxes of the nodes where nothing covers them, block by block: what is linked. Blocks that
     /// are handed out have that of the block they are handed out for (PatchParts::sourceBlock).
     BoundsTree linkBoxes_;
+    /// Around the patches at the nodes of each block, as the mesh has them: nodes stand on these,
+    /// whatever covers or parts them. Where a wall hides all of it from a sender there are no
+    /// entries, so that other rooms cost nothing; who hides it is noted in the table.
+    std::vector<Bounds> stands_;
     RowTable table_;
     RowUpdates updates_;
     std::vector<std::uint32_t> nodeKeys_; ///< addresses

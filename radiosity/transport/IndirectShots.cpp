@@ -144,7 +144,7 @@ void IndirectLight::serve(std::size_t effort) {
     const std::size_t tasks = cuts.size() - 1;
     struct Task {
         std::size_t bytes = 0;
-        std::vector<RowTable::BlockerNote> notes;
+        ShotNotes notes;
     };
     std::vector<Task> done(tasks);
     while (builders_.size() < tasks) builders_.emplace_back(rays_);
@@ -155,7 +155,8 @@ void IndirectLight::serve(std::size_t effort) {
     });
     for (const Task& task : done) {
         shot.bytes += task.bytes;
-        table_.note(task.notes);
+        table_.note(task.notes.blockers);
+        table_.noteOccluders(task.notes.occluders);
     }
     for (PatchRowBuilder& builder : builders_) buildRays_ += builder.takeRayCount();
     for (; shot.next < last; ++shot.next) served_ += shot.receivers[shot.next].size();
@@ -163,17 +164,21 @@ void IndirectLight::serve(std::size_t effort) {
 }
 
 void IndirectLight::serveBlock(std::uint32_t b, PatchRowBuilder& builder, std::size_t& bytes,
-                               std::vector<RowTable::BlockerNote>& notes) {
+                               ShotNotes& notes) {
     const Shot& shot = *shot_;
     for (const std::uint32_t i : shot.receivers[b]) {
         const std::uint32_t s = shot.senders[i];
         RowBlock passing;
         RowBlock& block = kept_[s] ? table_[s][b] : passing;
         if (shot.build[i]) {
-            builder.build(senders_.sender(s), receiversOf(s, b), block);
+            ReceiverBlock receivers = receiversOf(s, b);
+            const ObjectId by = receivers.wanted != 0 ? hiddenBy(s, b) : ObjectId();
+            if (by.valid()) receivers.wanted = 0;
+            builder.build(senders_.sender(s), receivers, block);
             if (kept_[s]) {
                 bytes += block.bytes();
-                RowTable::listBlockers(s, b, block, notes);
+                RowTable::listBlockers(s, b, block, notes.blockers);
+                if (by.valid()) notes.occluders.push_back({s, b, by.value});
             }
         }
         const bool fresh = shot.fresh[i];

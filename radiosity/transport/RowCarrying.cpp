@@ -91,6 +91,34 @@ std::vector<BlockMask> RowCarrying::carry(Place place, RowTable& before, const D
     return anew;
 }
 
+std::vector<RowTable::BlockerNote>
+RowCarrying::occluders(std::uint32_t row, std::span<const RowTable::BlockerNote> were,
+                       const Row& now) const {
+    std::vector<RowTable::BlockerNote> notes;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        const std::uint32_t b = now.blockAt(i);
+        if (!isWhole(b)) continue;
+        auto note = std::ranges::lower_bound(were, whole_[b], {}, &RowTable::BlockerNote::block);
+        for (; note != were.end() && note->block == whole_[b]; ++note)
+            notes.push_back({row, b, match_.objects[note->object]});
+    }
+    return notes;
+}
+
+std::vector<BlockMask>
+RowCarrying::partlyHidden(std::span<const RowTable::BlockerNote> were, const Row& now) const {
+    std::vector<std::uint32_t> hidden;
+    for (const auto& note : were) hidden.push_back(note.block);
+    std::vector<BlockMask> masks;
+    for (std::size_t i = 0; i < now.size() && !hidden.empty(); ++i) {
+        const std::uint32_t b = now.blockAt(i);
+        if (isWhole(b)) continue;
+        const auto bits = amongBlocks(receivers_.subspan(b * kBlock, kBlock), hidden);
+        if (bits != 0) masks.push_back({b, bits});
+    }
+    return masks;
+}
+
 std::vector<BlockMask> RowCarrying::unknown() const {
     std::vector<BlockMask> masks;
     for (std::uint32_t b = 0; b < receivers_.size() / kBlock; ++b)
