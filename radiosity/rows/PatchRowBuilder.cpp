@@ -54,19 +54,24 @@ struct PartKernels {
     float total = 0;
 };
 
-RowBlock::Split splitOf(const float (&quarter)[4]) {
-    const float total = quarter[0] + quarter[1] + quarter[2] + quarter[3];
-    RowBlock::Split split{};
-    float upTo = 0;
-    for (std::size_t q = 0; q < 3; ++q) {
-        upTo += quarter[q];
-        split[q] = std::uint8_t(std::lround(255 * std::min(1.0f, upTo / total)));
+/// Shares of some parts as RowBlock has them: of all but the last one.
+void putShares(std::span<const float> parts, std::uint8_t* shares) {
+    float total = 0, upTo = 0;
+    for (const float part : parts) total += part;
+    for (std::size_t k = 0; k + 1 < parts.size(); ++k) {
+        upTo += parts[k];
+        shares[k] = std::uint8_t(std::lround(255 * std::min(1.0f, upTo / total)));
     }
-    return split;
 }
 
 std::uint32_t sampleCount(float formFactor, std::uint32_t all) {
-    return formFactor > 0.01f ? all : formFactor > 0.0005f ? 4 : 1;
+    const auto count = std::uint32_t(samplesFor(formFactor));
+    return count == kPatchSamples ? all : count;
+}
+
+RowBlock::Sharing sharingOf(const PatchSender& sender) {
+    if (!sender.patch) return RowBlock::Sharing::quarters;
+    return sender.cells ? RowBlock::Sharing::cells : RowBlock::Sharing::even;
 }
 
 /// Unoccluded form factor of a planar patch; 0 behind it.
@@ -92,26 +97,21 @@ bool open(const PatchSender& sender, const Receiver& receiver, RowBlock::Draft& 
         sender.patch ? patchFormFactor(sender, receiver) : PartKernels(sender, receiver).total;
     const bool any = factor > 1e-9f;
     draft.begin(any ? factor : 0);
-    draft.parted = any && !sender.patch;
+    if (any) draft.sharing = sharingOf(sender);
     return any;
 }
 
-/// How much is visible of each quarter of a cluster.
-RowBlock::Split visibleSplit(const PatchSender& sender, const Receiver& receiver,
-                             const RowBlock::Draft& draft) {
-    const PartKernels kernels(sender, receiver);
-    const std::uint32_t groups = sampleCount(draft.formFactor, kernels.count);
-    float quarter[4] = {};
-    for (std::uint32_t k = 0; k < kernels.count; ++k) {
-        std::uint32_t group = 0, of = 0;
-        while (k >= kernels.begin(group + 1, groups)) ++group;
-        while (k >= kernels.begin(of + 1, 4)) ++of;
-        const std::uint64_t samples = (std::uint64_t(1) << kernels.begin(group + 1, groups)) -
-                                      (std::uint64_t(1) << kernels.begin(group, groups));
-        if (draft.visible & samples) quarter[of] += kernels.part[k];
+/// Where a sample stands among the cells of its sender: those of a quarter come one after the other.
+struct CellOfSample {
+    CellOfSample(const PatchSender& sender, std::uint32_t sample) : within(sample) {
+        const auto count = std::uint32_t(sender.patch ? kPatchSamples : sender.parts.size());
+        const auto begin = [&](std::uint32_t q) { return q * count / 4; };
+        while (quarter < 3 && sample >= begin(quarter + 1)) ++quarter;
+        within -= begin(quarter);
     }
-    return splitOf(quarter);
-}
+    std::size_t index() const { return 4 * quarter + within; }
+    std::uint32_t quarter = 0, within;
+};
 
 } // namespace
 
@@ -225,9 +225,35 @@ void PatchRowBuilder::collect(const PatchSender& sender, const ReceiverBlock& re
             draft.block(sample.blocker, sample.index);
         }
     }
-    draft.parted = !sender.patch;
-    if (draft.parted && draft.visible != 0)
-        draft.split = visibleSplit(sender, receivers.receivers[entry.receiver], draft);
+    draft.sharing = sharingOf(sender);
+    if (draft.visible != 0 && draft.sharing != RowBlock::Sharing::even)
+        share(sender, receivers.receivers[entry.receiver], entry);
+}
+
+/// Notes how much is visible of each cell: a sample stands for the cell that it lies in, of four
+/// for that one's quarter, and a single one for all of the sender.
+void PatchRowBuilder::share(const PatchSender& sender, const Receiver& receiver,
+                            const EntrySamples& entry) {
+    RowBlock::Draft& draft = drafts_[entry.receiver];
+    const int count = samplesFor(draft.formFactor);
+    std::array<float, kPatchSamples> cells{}, quarters{};
+    for (std::size_t k = entry.first; k < entry.last; ++k) {
+        const Sample& sample = samples_[k];
+        if (sample.blocker != kNone) continue;
+        const CellOfSample cell(sender, sample.index);
+        if (count == 1) draft.shares[0] = std::uint8_t(cell.index());
+        if (count == 4) draft.shares[0] |= std::uint8_t(cell.within << 2 * cell.quarter);
+        cells[cell.index()] = sample.weight;
+        quarters[cell.quarter] += sample.weight;
+    }
+    if (count == kPatchSamples) return putShares(cells, draft.shares.data());
+    if (count == 1 && sender.patch) return;
+    if (count == 1) { // which of the quarters it was tells nothing of how much each is
+        const PartKernels kernels(sender, receiver);
+        for (std::uint32_t q = 0; q < 4; ++q)
+            quarters[q] = kernels.sum(kernels.begin(q, 4), kernels.begin(q + 1, 4));
+    }
+    putShares(std::span(quarters).first(4), draft.shares.data() + 1);
 }
 
 void PatchRowBuilder::build(const PatchSender& sender, const ReceiverBlock& receivers,

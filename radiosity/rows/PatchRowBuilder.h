@@ -25,6 +25,7 @@ struct SenderPart {
 /// A patch, or a cluster of patches, made ready to send light to receivers.
 struct PatchSender {
     const Patch* patch = nullptr;       ///< null: a cluster
+    bool cells = false; ///< of a patch: its cells, one around each sample, send unlike each other
     std::span<const glm::vec3> outline; ///< of a patch
     std::span<const SenderPart> parts;  ///< of a cluster, as many as it has samples
     const glm::vec3* samples =
@@ -81,6 +82,8 @@ private:
     bool differs(const EntrySamples& entry) const;
     void collect(const PatchSender& sender, const ReceiverBlock& receivers,
                  const EntrySamples& entry);
+
+    void share(const PatchSender& sender, const Receiver& receiver, const EntrySamples& entry);
 
     const RayScene& rays_;
     std::vector<RowBlock::Draft> drafts_;

@@ -50,6 +50,9 @@ std::uint64_t allButLast(std::uint64_t visible, std::span<const Blocker> blocker
 bool isPresent(const RowBlock::Draft& draft) {
     return draft.formFactor > 0;
 }
+bool isSeen(const RowBlock::Draft& draft) {
+    return isPresent(draft) && (draft.blockerCount == 0 || draft.visible != 0);
+}
 
 } // namespace
 
@@ -61,9 +64,9 @@ public:
             if (!isPresent(drafts[i])) continue;
             const std::uint64_t bit = std::uint64_t(1) << i;
             present_ |= bit;
-            parted_ |= drafts[i].parted;
+            sharing_ = std::max(sharing_, drafts[i].sharing);
             if (drafts[i].blockerCount == 0) visible_ |= bit;
-            if (drafts[i].blockerCount == 0 || drafts[i].visible != 0) seen_ |= bit;
+            if (isSeen(drafts[i])) seen_ |= bit;
             for (const Blocker& blocker : blockersOf(drafts[i])) {
                 if (place(blocker.object) == objects_.size()) objects_.push_back(blocker.object);
                 ++blockers_;
@@ -79,16 +82,15 @@ public:
         put(visible_);
         put(std::uint16_t(0)); // the size, not yet known
         put(std::uint16_t(objects_.size() | (wideObjects_ ? kWideObjects : 0u) |
-                          (parted_ ? kParted : 0u)));
+                          (sharing_ == Sharing::quarters ? kQuarters : 0u) |
+                          (sharing_ == Sharing::cells ? kCells : 0u)));
         if (present_ != visible_) put(seen_);
         for (const Draft& draft : drafts_)
             if (isPresent(draft)) put(draft.formFactor);
         for (const Draft& draft : drafts_)
             if (isPresent(draft) && draft.blockerCount > 0 && draft.visible != 0)
                 put(draft.visibility);
-        for (const Draft& draft : drafts_)
-            if (parted_ && isPresent(draft) && (draft.blockerCount == 0 || draft.visible != 0))
-                put(draft.split);
+        putShares();
         for (const std::uint32_t object : objects_) putLow(object, wideObjects_ ? 4 : 2);
         for (const Draft& draft : drafts_)
             if (isPresent(draft) && draft.blockerCount > 0) putRecord(draft);
@@ -104,7 +106,7 @@ public:
 private:
     /// No block takes more: see the list of its parts.
     std::size_t mostBytes() const {
-        constexpr std::size_t kParts = kSeen + 8 + 64 * (4 + 4 + sizeof(Split) + 2 + 1 + 8);
+        constexpr std::size_t kParts = kSeen + 8 + 2 + 64 * (4 + 4 + kMostShares + 2 + 1 + 8);
         return kParts + objects_.size() * 4 + blockers_ * (2 + 8) + 8;
     }
     template <class T>
@@ -120,6 +122,18 @@ private:
     }
     std::size_t place(std::uint32_t object) const {
         return std::size_t(std::find(objects_.begin(), objects_.end(), object) - objects_.begin());
+    }
+
+    void putShares() {
+        if (sharing_ == Sharing::even) return;
+        const auto countOf = [&](const Draft& draft) {
+            return isSeen(draft) ? shareCount(sharing_, draft.formFactor) : 0;
+        };
+        std::size_t all = 0;
+        for (const Draft& draft : drafts_) all += countOf(draft);
+        put(std::uint16_t(all));
+        for (const Draft& draft : drafts_)
+            for (std::size_t i = 0; i < countOf(draft); ++i) put(draft.shares[i]);
     }
 
     void putRecord(const Draft& draft) {
@@ -149,7 +163,8 @@ private:
     std::span<const Draft> drafts_;
     std::uint64_t present_ = 0, visible_ = 0, seen_ = 0;
     std::vector<std::uint32_t> objects_;
-    bool wideObjects_ = false, parted_ = false;
+    bool wideObjects_ = false;
+    Sharing sharing_ = Sharing::even;
     std::size_t blockers_ = 0; ///< of all entries
     std::unique_ptr<std::byte[]> out_;
     std::size_t size_ = 0; ///< written so far
@@ -164,8 +179,8 @@ public:
         seen_ = block.seen();
         factor_ = block.factors();
         share_ = block.visibilities();
-        parted = block.isParted();
-        split_ = block.splits();
+        sharing = block.sharing();
+        shares_ = block.firstShare();
         record_ = block.records();
         objects_ = block.objects();
         objectSize_ = block.objectSize();
@@ -182,9 +197,11 @@ public:
         visibility = 1;
         visible = kAll;
         blockers = {};
-        if (parted && seen_ >> receiver & 1) {
-            split = block_.at<Split>(split_);
-            split_ += sizeof(Split);
+        shares = {};
+        if (seen_ >> receiver & 1) {
+            const std::size_t count = shareCount(sharing, formFactor);
+            std::memcpy(shares.data(), block_.bytes_.get() + shares_, count);
+            shares_ += count;
         }
         if (visible_ >> receiver & 1) return true;
         visibility = 0;
@@ -202,8 +219,8 @@ public:
     float formFactor = 0, visibility = 0;
     std::uint64_t visible = 0;
     std::span<const Blocker> blockers;
-    bool parted = false;
-    Split split{};
+    Sharing sharing = Sharing::even;
+    std::array<std::uint8_t, kMostShares> shares{};
 
 private:
     std::uint64_t take(std::size_t size) {
@@ -242,7 +259,7 @@ private:
 
     const RowBlock& block_;
     std::uint64_t left_, visible_ = 0, seen_ = 0;
-    std::size_t factor_ = 0, share_ = 0, split_ = 0, record_ = 0; ///< offsets in the bytes
+    std::size_t factor_ = 0, share_ = 0, shares_ = 0, record_ = 0; ///< offsets in the bytes
     std::size_t objects_ = 0, objectSize_ = 0, codeSize_ = 0;
     std::array<Blocker, kSize> scratch_;
 };
@@ -260,8 +277,8 @@ void RowBlock::decode(std::span<Draft> drafts) const {
         draft.begin(read.formFactor);
         draft.visibility = read.visibility;
         draft.visible = read.visible;
-        draft.parted = read.parted;
-        draft.split = read.split;
+        draft.sharing = read.sharing;
+        draft.shares = read.shares;
         draft.blockerCount = int(read.blockers.size());
         std::copy(read.blockers.begin(), read.blockers.end(), draft.blockers.begin());
     }

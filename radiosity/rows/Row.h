@@ -14,6 +14,11 @@
 
 namespace penumbra {
 
+/// How many of a patch's visibility samples an entry takes, of 16: fewer where little light comes.
+constexpr int samplesFor(float formFactor) {
+    return formFactor > 0.01f ? 16 : formFactor > 0.0005f ? 4 : 1;
+}
+
 /// One blocker of an entry: an object and the visibility samples that it was found to block.
 struct Blocker {
     std::uint32_t object;
@@ -25,11 +30,12 @@ struct Blocker {
 ///
 ///     present, visible   8 + 8  masks of receivers: has an entry; and is wholly visible
 ///     size, objects      2 + 2  bytes of this run; length of the list of objects, | kWideObjects,
-///                               | kParted
+///                               | kQuarters, | kCells
 ///     seen               8      mask: some sample is visible       (not if all are wholly visible)
 ///     form factors       4 each of the present entries, unoccluded
 ///     visibilities       4 each of the entries that are seen, but not wholly
-///     splits             3 each of the entries that are seen, with kParted
+///     shares                    with kQuarters or kCells: 2 for the length of all of them, then
+///                               1, 4 or 15 for each of the entries that are seen
 ///     objects            2 each, with kWideObjects 4: all that block anything in this block
 ///     records                   of the entries that are not wholly visible, in order
 ///
@@ -49,9 +55,28 @@ class RowBlock {
 public:
     static constexpr int kSize = 64;
 
-    /// How much of what is seen of a sender its first, first two and first three quarters are, of
-    /// 255.
-    using Split = std::array<std::uint8_t, 3>;
+    /// Whether all of a sender sends alike, or what is seen of it is shared among its cells: those
+    /// of a patch, or those of a cluster, which has quarters as well. See SenderLight.h.
+    enum class Sharing : std::uint8_t { even, cells, quarters };
+
+    /// What is seen of a sender, part by part: how much its first, first two, ... parts are, of
+    /// 255; the last one is what is left over. By the number of samples of the entry:
+    ///
+    ///     1    the cell that the sample lies in; of a cluster the shares of its quarters as well
+    ///     4    a byte with two bits for each quarter, which cell of it was sampled; 3 of quarters
+    ///     16   15 of cells
+    static constexpr std::size_t kMostShares = 15;
+    static constexpr std::size_t shareCount(Sharing sharing, float formFactor) {
+        if (sharing == Sharing::even) return 0;
+        const int samples = samplesFor(formFactor);
+        if (samples == 16) return 15;
+        return samples == 1 && sharing == Sharing::cells ? 1 : 4;
+    }
+    /// Of a seen entry.
+    struct Shares {
+        std::span<const std::uint8_t> bytes;
+        int samples = 0;
+    };
 
     /// An entry in the making.
     struct Draft {
@@ -59,8 +84,8 @@ public:
         float visibility = 1;  ///< weighted share of the samples that are visible
         std::uint64_t visible; ///< mask of the visible samples
         int blockerCount = 0;  ///< 0: all samples are visible
-        bool parted = false;   ///< the sender's quarters are kept apart, if any entry's are
-        Split split{};
+        Sharing sharing = Sharing::even; ///< the same for all entries of a block
+        std::array<std::uint8_t, kMostShares> shares{};
         std::array<Blocker, kSize> blockers;
 
         void begin(float factor) {
@@ -68,8 +93,8 @@ public:
             visibility = 1;
             visible = 0;
             blockerCount = 0;
-            parted = false;
-            split = {};
+            sharing = Sharing::even;
+            shares = {};
         }
         void block(std::uint32_t object, int sample) {
             int b = 0;
@@ -93,15 +118,22 @@ public:
     /// \pre no receiver beyond the end of `drafts` has an entry
     void decode(std::span<Draft> drafts) const;
 
-    /// Whether there are splits.
-    bool isParted() const { return bytes_ && (at<std::uint16_t>(kObjects) & kParted) != 0; }
-    /// The same as forEach(), with a Split as well. \pre isParted()
+    Sharing sharing() const {
+        const unsigned flags = bytes_ ? at<std::uint16_t>(kObjects) : 0u;
+        return flags & kCells      ? Sharing::cells
+               : flags & kQuarters ? Sharing::quarters
+                                   : Sharing::even;
+    }
+    /// The same as forEach(), with the Shares as well.
     template <class Visit>
-    void forEachParted(Visit visit) const {
-        std::size_t split = splits();
-        forEach([&](int receiver, float factor) {
-            visit(receiver, factor, at<Split>(split));
-            split += sizeof(Split);
+    void forEachShared(Visit visit) const {
+        const Sharing sharing = this->sharing();
+        std::size_t share = firstShare();
+        forEachSeen([&](int receiver, float formFactor, float factor) {
+            const std::size_t count = shareCount(sharing, formFactor);
+            const auto* const bytes = reinterpret_cast<const std::uint8_t*>(bytes_.get()) + share;
+            visit(receiver, factor, Shares{{bytes, count}, samplesFor(formFactor)});
+            share += count;
         });
     }
 
@@ -109,26 +141,7 @@ public:
     /// of which some sample is visible.
     template <class Visit>
     void forEach(Visit visit) const {
-        if (!bytes_) return;
-        const std::uint64_t present = at<std::uint64_t>(0), visible = at<std::uint64_t>(kVisible);
-        std::size_t factor = factors();
-        if (present == visible) {
-            for (std::uint64_t left = present; left != 0; left &= left - 1, factor += 4)
-                visit(std::countr_zero(left), at<float>(factor));
-            return;
-        }
-        const std::uint64_t seen = at<std::uint64_t>(kSeen);
-        std::size_t share = visibilities();
-        for (std::uint64_t left = present; left != 0; left &= left - 1, factor += 4) {
-            const int receiver = std::countr_zero(left);
-            if (!(seen >> receiver & 1)) continue;
-            float value = at<float>(factor);
-            if (!(visible >> receiver & 1)) {
-                value *= at<float>(share);
-                share += 4;
-            }
-            visit(receiver, value);
-        }
+        forEachSeen([&](int receiver, float, float factor) { visit(receiver, factor); });
     }
 
     /// Calls visit(object) once for every object that blocks any sample in this block.
@@ -169,9 +182,36 @@ private:
     class Writer;
     class Reader;
 
+    /// Calls visit(receiver, form factor, form factor times visibility).
+    template <class Visit>
+    void forEachSeen(Visit visit) const {
+        if (!bytes_) return;
+        const std::uint64_t present = at<std::uint64_t>(0), visible = at<std::uint64_t>(kVisible);
+        std::size_t factor = factors();
+        if (present == visible) {
+            for (std::uint64_t left = present; left != 0; left &= left - 1, factor += 4)
+                visit(std::countr_zero(left), at<float>(factor), at<float>(factor));
+            return;
+        }
+        const std::uint64_t seen = at<std::uint64_t>(kSeen);
+        std::size_t share = visibilities();
+        for (std::uint64_t left = present; left != 0; left &= left - 1, factor += 4) {
+            const int receiver = std::countr_zero(left);
+            if (!(seen >> receiver & 1)) continue;
+            const float formFactor = at<float>(factor);
+            float value = formFactor;
+            if (!(visible >> receiver & 1)) {
+                value *= at<float>(share);
+                share += 4;
+            }
+            visit(receiver, formFactor, value);
+        }
+    }
+
     static constexpr std::size_t kVisible = 8, kBytes = 16, kObjects = 18, kSeen = 20;
     static constexpr std::uint16_t kWideObjects = 0x8000; ///< object ids of 4 bytes
-    static constexpr std::uint16_t kParted = 0x4000;      ///< there are splits
+    static constexpr std::uint16_t kQuarters = 0x4000, kCells = 0x2000; ///< there are shares
+    static constexpr std::uint16_t kFlags = kWideObjects | kQuarters | kCells;
 
     template <class T>
     T at(std::size_t offset) const {
@@ -185,7 +225,7 @@ private:
     }
     std::size_t size() const { return bytes_ ? at<std::uint16_t>(kBytes) : 0; }
     std::size_t objectCount() const {
-        return bytes_ ? at<std::uint16_t>(kObjects) & ~(kWideObjects | kParted) : 0;
+        return bytes_ ? at<std::uint16_t>(kObjects) & ~kFlags : 0;
     }
     std::size_t objectSize() const { return at<std::uint16_t>(kObjects) & kWideObjects ? 4 : 2; }
 
@@ -194,11 +234,15 @@ private:
     std::size_t visibilities() const {
         return factors() + 4 * std::size_t(std::popcount(present()));
     }
-    std::size_t splits() const {
+    std::size_t shares() const {
         return visibilities() + 4 * std::size_t(std::popcount(seen() & ~visible()));
     }
+    std::size_t firstShare() const {
+        return bytes_ ? shares() + (sharing() == Sharing::even ? 0 : 2) : 0;
+    }
     std::size_t objects() const {
-        return splits() + (isParted() ? sizeof(Split) * std::size_t(std::popcount(seen())) : 0);
+        const std::size_t from = shares();
+        return sharing() == Sharing::even ? from : from + 2 + at<std::uint16_t>(from);
     }
     std::size_t records() const { return objects() + objectSize() * objectCount(); }
     std::uint32_t object(std::size_t i) const {

@@ -6,37 +6,76 @@
 #include <glm/glm.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
+#include <span>
 
 namespace penumbra {
 
-/// What leaves a sender, quarter by quarter [lm/m^2]; all the same for a patch.
-using SenderLight = std::array<glm::dvec3, 4>;
+/// What leaves the cells of a sender [lm/m^2]:
+///
+///     of one that sends evenly   1
+///     of a patch                 16, around its samples, those of a quarter one after the other
+///     of a cluster               16 + 4: by how much more direct light leaves the places of its
+///                                samples than their quarters; and the means over its quarters
+using SenderLight = std::span<const glm::dvec3>;
+
+inline constexpr std::size_t kSenderCells = 16, kClusterCells = kSenderCells + 4;
 
 /// Largest channel, whatever its sign.
 inline double largest(glm::dvec3 v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-inline double largest(const SenderLight& light) {
-    return std::max({largest(light[0]), largest(light[1]), largest(light[2]), largest(light[3])});
+inline double largest(SenderLight light) {
+    double most = 0;
+    for (const glm::dvec3& cell : light) most = std::max(most, largest(cell));
+    return most;
+}
+
+/// Mean over cells.
+inline glm::dvec3 meanOf(SenderLight light) {
+    glm::dvec3 sum(0);
+    for (const glm::dvec3& cell : light) sum += cell;
+    return sum / double(light.size());
+}
+
+/// What an entry sees of a sender: a mean over its cells.
+inline glm::dvec3 seenLight(SenderLight light, RowBlock::Shares shares) {
+    if (shares.bytes.empty()) return light[0];
+    const auto mean = [](std::span<const std::uint8_t> upTo, const auto& part) {
+        glm::dvec3 sum = 255.0 * part(upTo.size()); // put by the steps from part to part
+        for (std::size_t k = 0; k < upTo.size(); ++k)
+            sum += double(upTo[k]) * (part(k) - part(k + 1));
+        return sum / 255.0;
+    };
+    const bool cluster = light.size() == kClusterCells;
+    const auto quarter = [&](std::size_t q) {
+        return cluster ? light[kSenderCells + q] : glm::dvec3(0);
+    };
+    const std::uint8_t which = shares.bytes[0];
+    switch (shares.samples) {
+    case 1:
+        return light[which] + (cluster ? mean(shares.bytes.subspan(1), quarter) : glm::dvec3(0));
+    case 4:
+        return mean(shares.bytes.subspan(1), [&](std::size_t q) {
+            return light[4 * q + (which >> 2 * q & 3)] + quarter(q);
+        });
+    default:
+        return mean(shares.bytes,
+                    [&](std::size_t k) { return light[k] + quarter(k / 4); });
+    }
 }
 
 /// Calls visit(receiver, form factor times visibility, what that makes of `light`).
 template <class Visit>
-void forEachReceived(const RowBlock& block, const SenderLight& light, const Visit& visit) {
-    if (!block.isParted()) {
+void forEachReceived(const RowBlock& block, SenderLight light, const Visit& visit) {
+    if (block.sharing() == RowBlock::Sharing::even) {
         block.forEach([&](int r, float factor) { visit(r, factor, double(factor) * light[0]); });
         return;
     }
-    // Sum over the quarters, put by the shares that the first one, two and three of them have.
-    const glm::dvec3 steps[3] = {(light[0] - light[1]) / 255.0, (light[1] - light[2]) / 255.0,
-                                 (light[2] - light[3]) / 255.0};
-    block.forEachParted([&](int r, float factor, RowBlock::Split split) {
-        visit(r, factor,
-              double(factor) * (light[3] + double(split[0]) * steps[0] +
-                                double(split[1]) * steps[1] + double(split[2]) * steps[2]));
+    block.forEachShared([&](int r, float factor, RowBlock::Shares shares) {
+        visit(r, factor, double(factor) * seenLight(light, shares));
     });
 }
 

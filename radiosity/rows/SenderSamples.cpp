@@ -109,14 +109,19 @@ EmitterSamples sampleEmitter(const Emitter& emitter, std::size_t count) {
     return samples;
 }
 
+glm::vec2 cellMiddle(std::size_t index) {
+    const std::size_t quarter = index / 4, within = index % 4; // quarter by quarter
+    const std::size_t column = quarter % 2 * 2 + within % 2, row = quarter / 2 * 2 + within / 2;
+    return {(float(column) + 0.5f) / 4, (float(row) + 0.5f) / 4};
+}
+
 namespace {
 
-/// Where sample i of 4 x 4 lies, quarter by quarter, in coordinates from 0 to 1.
+/// Where sample i of 4 x 4 lies, in coordinates from 0 to 1. Not in the very middle of its cell:
+/// people build with round numbers, and rays from there run along the faces of things, where
+/// rounding decides what is in the way.
 glm::vec2 stratum(std::size_t i) {
-    const std::size_t quarter = i / 4, within = i % 4;
-    const std::size_t column = quarter % 2 * 2 + within % 2, row = quarter / 2 * 2 + within / 2;
-    // Not in the very middle of its cell: people build with round numbers, and rays from there
-    // run along the faces of things, where rounding decides what is in the way.
+    const std::size_t column = i / 4 % 2 * 2 + i % 2, row = i / 8 * 2 + i % 4 / 2;
     const float aside = (column + row) % 2 == 0 ? 1.0f : -1.0f;
     return {(float(column) + 0.5f + 0.0137f * aside) / 4,
             (float(row) + 0.5f - 0.0211f * aside) / 4};

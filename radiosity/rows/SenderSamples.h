@@ -34,6 +34,9 @@ EmitterSamples sampleEmitter(const Emitter& emitter, std::size_t count);
 /// ... 4 * i + 3 lie in the same quarter i of the patch.
 inline constexpr std::size_t kPatchSamples = 16;
 void samplePatch(const PatchSet& set, const Patch& patch, glm::vec3* points);
+/// The middle of the cell that sample `index` of a patch is near, in the patch's coordinates: bilinear
+/// between its corners. Cells are the 4 x 4 strata.
+glm::vec2 cellMiddle(std::size_t index);
 
 /// The factor cos cos of a segment d [m] to a sample of a sender: `here` and `there` are the
 /// heights [m] of its ends over the other's plane. 0 below either plane, and where the receiver

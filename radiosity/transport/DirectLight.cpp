@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -30,7 +31,7 @@ DirectLight::DirectLight(const PatchSet& set, const RayScene& rays, int samples)
       updates_(set, rays, table_, set.vertexBlockObject,
                {.visit = cost::kDirectVisit, .entry = cost::kDirectEntry}),
       patchTouched_(set.patches.size()), patches_(set.patches.size()),
-      patchLit_(set.patches.size()) {
+      cells_(set.nodes.empty() ? 0 : set.patches.size()), patchLit_(set.patches.size()) {
     placeEmitters();
     blockPatches_.resize(set.firstPrivate / kBlock);
     noteBlocks({0, std::uint32_t(set.elements.size())});
@@ -407,6 +408,40 @@ void DirectLight::average(std::uint32_t index) {
     }
     patches_[index] = area > 0 ? sum / area : glm::dvec3(0);
     patchLit_[index] = lit;
+    if (!cells_.empty() && patch.elementCount > 1) averageCells(index);
+}
+
+/// What the nearest element has, shifted so that the cells have the patch's mean: 16 places of
+/// many elements may miss that.
+void DirectLight::averageCells(std::uint32_t index) {
+    const Patch& patch = set_.patches[index];
+    std::array<glm::vec3, kPatchSamples> samples;
+    samplePatch(set_, patch, samples.data());
+    std::array<float, kPatchSamples> nearest;
+    nearest.fill(std::numeric_limits<float>::max());
+    cells_[index].fill(Rgb());
+    const std::uint32_t count = set_.sends(index) ? patch.elementCount : 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t e = set_.patchElements[patch.firstElement + i];
+        if (!set_.receives(e)) continue;
+        const Element& element = set_.elements[e];
+        const std::size_t corners = element.isTriangle() ? 3 : 4;
+        glm::vec3 middle(0);
+        Rgb mean;
+        for (std::size_t k = 0; k < corners; ++k) {
+            middle += set_.vertices[element.vertices[k]].position / float(corners);
+            mean += (1.0f / float(corners)) * vertices_[element.vertices[k]];
+        }
+        for (std::size_t k = 0; k < kPatchSamples; ++k) {
+            const glm::vec3 d = samples[k] - middle;
+            if (glm::dot(d, d) >= nearest[k]) continue;
+            nearest[k] = glm::dot(d, d);
+            cells_[index][k] = mean;
+        }
+    }
+    Rgb missing{float(patches_[index].x), float(patches_[index].y), float(patches_[index].z)};
+    for (const Rgb& cell : cells_[index]) missing -= (1.0f / kPatchSamples) * cell;
+    for (Rgb& cell : cells_[index]) cell += missing;
 }
 
 double DirectLight::brightest() const {

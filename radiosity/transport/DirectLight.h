@@ -6,6 +6,7 @@
 #include "radiosity/rays/RayScene.h"
 #include "radiosity/rows/EmitterSender.h"
 #include "radiosity/rows/RowTable.h"
+#include "radiosity/rows/SenderSamples.h"
 #include "radiosity/rows/Walls.h"
 #include "radiosity/schedule/RowUpdates.h"
 #include "radiosity/transport/PatchMatch.h"
@@ -13,6 +14,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -62,6 +64,9 @@ public:
 
     std::span<const Rgb> vertices() const { return vertices_; }      ///< [lux]
     std::span<const glm::dvec3> patches() const { return patches_; } ///< means [lux]
+    /// Around each sample of a patch (see samplePatch()), if that has several elements [lux]: of the
+    /// nearest element that is lit, all shifted to the patch's mean. \pre the set has nodes
+    std::span<const Rgb, kPatchSamples> cells(std::uint32_t patch) const { return cells_[patch]; }
     /// Blocks of vertices that were summed anew since this was called last, each once.
     std::vector<std::uint32_t> takeSummedBlocks();
     /// Whether all that edits concern is in the dirty set.
@@ -106,6 +111,7 @@ private:
     bool averagePatches(std::size_t effort);
     void sumBlock(std::uint32_t block);
     void average(std::uint32_t index);
+    void averageCells(std::uint32_t index);
 
     const PatchSet& set_;
     int samples_;
@@ -124,6 +130,7 @@ private:
     std::vector<Rgb> vertices_;
     std::vector<float> vertexSeen_; ///< sum of F V over all emitters
     std::vector<glm::dvec3> patches_;
+    std::vector<std::array<Rgb, kPatchSamples>> cells_; ///< one a patch; none in a set without nodes
     std::vector<std::uint8_t> patchLit_;
     bool litChanged_ = false;
     bool described_ = false; ///< whether updates_ knows the receivers as they are

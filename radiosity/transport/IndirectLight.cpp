@@ -35,6 +35,7 @@ IndirectLight::IndirectLight(const PatchSet& set, const RayScene& rays, const Di
     for (std::uint32_t o = 0; o < set.objects.size(); ++o) placeStands({o});
     placeNodes(all);
     reach_.nodes.resize(blockCount());
+    reach_.enclosed.resize(blockCount());
     coloursChanged();
 }
 
@@ -43,7 +44,7 @@ void IndirectLight::growSenders() {
     table_.grow(count);
     updates_.grow();
     sendersReached_.resize(count);
-    sent_.resize(count), residuals_.resize(count), colours_.resize(count);
+    sent_.resize(senders_.cellCount()), residuals_.resize(senders_.cellCount());
     known_.resize(count), kept_.resize(count);
 }
 
@@ -192,14 +193,18 @@ void IndirectLight::takeOver(IndirectLight& before, const PatchMatch& match) {
         if (was[s] == ObjectId::kNone) continue;
         kept_[s] = 1;
         known_[s] = before.known_[was[s]];
-        sent_[s] = before.sent_[was[s]];
+        // A patch of one element has one cell or, where it came later, sixteen alike.
+        const SenderLight from = before.cellsOf(before.sent_, was[s]);
+        const std::span<glm::dvec3> to = cellsOf(sent_, s);
+        for (std::size_t c = 0; c < to.size(); ++c) to[c] = from[from.size() == to.size() ? c : 0];
         rowBytes_ += bytes[s];
         updates_.setCurrent(s);
         updates_.mark(
             s, [&](std::uint32_t row) { return factsOf(row); }, anew[s]);
-        updates_.dirty().setPower(s, largest(sent_[s]));
+        updates_.dirty().setPower(s, largest(to));
     }
     receiveAgain();
+    completed_ = before.completed_;
     described_ = false; // the receivers have light now
     updates_.add(match.changed, carrying.unknown());
 }
@@ -247,7 +252,7 @@ void IndirectLight::receiveAgain() {
             for (; slot < row.size() && row.blockAt(slot) < last; ++slot) {
                 const std::size_t node = row.blockAt(slot) * kBlock;
                 const RowBlock& block = row.begin()[std::ptrdiff_t(slot)];
-                forEachReceived(block, sent_[s], [&](int r, float factor, glm::dvec3 light) {
+                forEachReceived(block, cellsOf(sent_, s), [&](int r, float factor, glm::dvec3 light) {
                     nodes_[node + std::size_t(r)] += light;
                     rowSums_[node + std::size_t(r)] += factor;
                 });
@@ -334,10 +339,10 @@ void IndirectLight::restart() {
     listing_.reset();
     std::fill(nodes_.begin(), nodes_.end(), glm::dvec3(0));
     std::fill(rowSums_.begin(), rowSums_.end(), 0.0);
-    std::fill(sent_.begin(), sent_.end(), SenderLight{});
+    std::fill(sent_.begin(), sent_.end(), glm::dvec3(0));
     std::fill(known_.begin(), known_.end(), std::uint8_t(0));
-    for (std::uint32_t s = 0; s < sent_.size(); ++s) updates_.dirty().setPower(s, 0);
-    rowsMissing_ = false;
+    for (std::uint32_t s = 0; s < senders_.count(); ++s) updates_.dirty().setPower(s, 0);
+    rowsMissing_ = completed_ = false;
 }
 
 void IndirectLight::updateReach() {
@@ -348,6 +353,7 @@ void IndirectLight::updateReach() {
     for (std::uint32_t b = 0; b < now.nodes.size(); ++b)
         if (const std::uint64_t differs = now.nodes[b] ^ reach_.nodes[b])
             masks.push_back({b, differs});
+    if (now.enclosed != reach_.enclosed) residualsChanged();
     reach_ = std::move(now);
     updateSendersReached();
     listForgotten();
@@ -393,7 +399,7 @@ void IndirectLight::forget(std::uint32_t sender) {
         const RowBlock& block = row.begin()[std::ptrdiff_t(slot)];
         const std::size_t node = row.blockAt(slot) * kBlock;
         bytes += block.bytes();
-        forEachReceived(block, sent_[sender], [&](int r, float factor, glm::dvec3 light) {
+        forEachReceived(block, cellsOf(sent_, sender), [&](int r, float factor, glm::dvec3 light) {
             nodes_[node + std::size_t(r)] -= light;
             if (known_[sender]) rowSums_[node + std::size_t(r)] -= double(factor);
         });
@@ -401,7 +407,7 @@ void IndirectLight::forget(std::uint32_t sender) {
     rowBytes_ -= std::min(rowBytes_, bytes);
     table_.clear(sender);
     kept_[sender] = known_[sender] = 0;
-    sent_[sender] = {};
+    std::ranges::fill(cellsOf(sent_, sender), glm::dvec3(0));
     updates_.drop(sender);
     updates_.dirty().setPower(sender, 0);
 }
@@ -502,14 +508,15 @@ RowUpdates::RowFacts IndirectLight::factsOf(std::uint32_t sender) const {
 /// What a block has received from a sender. Of a batch that is on its way all has arrived but what
 /// is still to be served.
 IndirectLight::Arrived IndirectLight::arrivedAt(std::uint32_t row, std::uint32_t block) const {
-    Arrived arrived{sent_[row], known_[row] != 0};
+    const SenderLight sent = cellsOf(sent_, row);
+    Arrived arrived{{sent.begin(), sent.end()}, known_[row] != 0};
     if (!shot_) return arrived;
     const auto found = std::find(shot_->senders.begin(), shot_->senders.end(), row);
     if (found == shot_->senders.end()) return arrived;
     const auto i = std::uint32_t(found - shot_->senders.begin());
     const std::vector<std::uint32_t>& from = shot_->receivers[block];
     if (block >= shot_->next && std::binary_search(from.begin(), from.end(), i)) return arrived;
-    for (std::size_t q = 0; q < 4; ++q) arrived.light[q] += shot_->light[i][q];
+    for (std::size_t c = 0; c < sent.size(); ++c) arrived.light[c] += shot_->light[i][c];
     arrived.known = true;
     return arrived;
 }

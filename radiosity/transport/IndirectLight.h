@@ -60,7 +60,7 @@ public:
 
     /// Indirect illuminance at the nodes, the ambient term included [lux].
     std::vector<glm::dvec3> nodes() const;
-    /// What a patch sends if nothing is owed any more: rho * H [lm/m^2].
+    /// What a patch sends in the mean if nothing is owed any more: rho * H [lm/m^2].
     glm::dvec3 reflected(std::uint32_t index) const;
 
     /// See DirtySet.
@@ -89,7 +89,7 @@ private:
     /// A batch of senders on its way: receivers are served block by block.
     struct Shot {
         std::vector<std::uint32_t> senders;
-        std::vector<SenderLight> light;                    ///< what each sends [lm/m^2]
+        std::vector<std::vector<glm::dvec3>> light;        ///< what cells of each send [lm/m^2]
         std::vector<std::uint8_t> fresh, build;            ///< first time; row is not there
         bool dark = false;                                 ///< nothing is sent, only rows are built
         std::vector<std::vector<std::uint32_t>> receivers; ///< indices into `senders`, a block each
@@ -110,7 +110,7 @@ private:
     };
     /// What a block has received from a sender [lm/m^2], and whether its row sums know of it.
     struct Arrived {
-        SenderLight light;
+        std::vector<glm::dvec3> light; ///< by the sender's cells
         bool known = false;
     };
     /// What an update changes at a node, and at the nodes of a block.
@@ -169,8 +169,20 @@ private:
     void updateResiduals();
     void coloursChanged();
     glm::dvec3 node(std::uint32_t index) const;
-    template <class Value, class AtNode>
-    Value mean(const Patch& patch, AtNode atNode) const;
+    bool isWhole(std::uint32_t index) const;
+    SenderLight cellsOf(const std::vector<glm::dvec3>& cells, std::uint32_t sender) const {
+        const Range own = senders_.cells(sender);
+        return std::span(cells).subspan(own.first, own.count);
+    }
+    std::span<glm::dvec3> cellsOf(std::vector<glm::dvec3>& cells, std::uint32_t sender) const {
+        const Range own = senders_.cells(sender);
+        return std::span(cells).subspan(own.first, own.count);
+    }
+    void reflect(std::uint32_t patch, std::span<glm::dvec3> cells) const;
+    void reflectDirect(std::uint32_t patch, std::span<glm::dvec3> cells) const;
+    double owed(std::uint32_t sender) const;
+    bool sends(std::uint32_t patch) const;
+    double dirtyOver(std::uint32_t patch) const;
     double dirtyAt(std::uint32_t index) const;
     glm::dvec3 ambient() const;
 
@@ -201,12 +213,13 @@ private:
 
     std::vector<glm::dvec3> nodes_; ///< [lux]
     std::vector<double> rowSums_;   ///< of F V over the senders whose rows are known, a node each
-    std::vector<SenderLight> sent_; ///< S of every sender [lm/m^2]
-    std::vector<SenderLight> residuals_; ///< R [lm/m^2]
-    std::vector<SenderLight> colours_;   ///< mean reflectance
+    std::vector<glm::dvec3> sent_;       ///< S of every cell of every sender [lm/m^2]
+    std::vector<glm::dvec3> residuals_;  ///< R, likewise [lm/m^2]
+    std::vector<glm::dvec3> colours_;    ///< reflectances, likewise
     std::vector<std::uint8_t> known_;    ///< rows that are part of rowSums_
     std::vector<std::uint8_t> kept_;     ///< rows that are in the table
     bool rowsMissing_ = false;           ///< some of those were not kept
+    bool completed_ = false; ///< all rows were known at one time; few are not since
     std::size_t rowBytes_ = 0;
     std::unique_ptr<Listing> listing_; ///< never at the same time as shot_
     std::unique_ptr<Shot> shot_;

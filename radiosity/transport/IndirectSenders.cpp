@@ -33,6 +33,13 @@ IndirectSenders::IndirectSenders(const PatchSet& set, bool clusters)
     parallelFor(patches, 256, [&](std::size_t first, std::size_t last) {
         for (std::size_t p = first; p < last; ++p) placePatch(std::uint32_t(p));
     });
+    // What is of one element and stays so sends evenly. What is not there yet may come to be of any.
+    const auto isEven = [&](std::uint32_t p) {
+        return set.patches[p].elementCount == 1 && p < set.parts.firstPatch &&
+               !set.room.patches.contains(p);
+    };
+    for (std::uint32_t p = 0; p < patches; ++p)
+        cells_.push_back({cellCount(), isEven(p) ? 1u : std::uint32_t(kPatchSamples)});
     for (std::uint32_t o = 0; o < set.objects.size(); ++o) addObject({o});
     const std::size_t meshed = set.parts.used.empty() ? patches : set.parts.firstPatch;
     for (std::size_t p = meshed; p < patches; ++p) placePatch(std::uint32_t(p)); // with parents
@@ -96,6 +103,7 @@ void IndirectSenders::addFamily(std::span<const ClusterPatch> patches) {
             pairHash(keys_[order[cluster.first]], keys_[order[cluster.first + cluster.count - 1]]),
             cluster.count));
         objects_.push_back(objects_[order[cluster.first]]);
+        cells_.push_back({cellCount(), std::uint32_t(kClusterCells)});
     }
     for (std::size_t i = 0; i < order.size(); ++i)
         if (const std::uint32_t c = family.clusters.clusterAt(i); c != Clusters::kNone)
@@ -103,6 +111,7 @@ void IndirectSenders::addFamily(std::span<const ClusterPatch> patches) {
     boxes_.resize(parents_.size());
     samples_.resize(parents_.size() * kPatchSamples);
     parts_.resize((parents_.size() - patchCount()) * kPatchSamples);
+    places_.resize(parts_.size());
     listQuarters(family);
     placeClusters(family);
 }
@@ -122,12 +131,12 @@ void IndirectSenders::listQuarters(const Family& family) {
                 const Clusters::Part& part = cluster.parts[k];
                 const auto known = byRange.find(std::uint64_t(part.first) << 32 | part.count);
                 if (known != byRange.end()) {
-                    terms_.push_back({known->second, areas_[known->second]});
+                    terms_.push_back({known->second, areas_[known->second], Clusters::kWhole});
                     continue;
                 }
                 const float share = part.quarter == Clusters::kWhole ? 1.0f : 0.25f;
                 for (std::uint32_t i = part.first; i < part.first + part.count; ++i)
-                    terms_.push_back({order[i], share * areas_[order[i]]});
+                    terms_.push_back({order[i], share * areas_[order[i]], part.quarter});
             }
             double area = 0;
             for (std::size_t t = first; t < terms_.size(); ++t) area += double(terms_[t].weight);
@@ -137,40 +146,79 @@ void IndirectSenders::listQuarters(const Family& family) {
         }
 }
 
-std::vector<SenderLight> IndirectSenders::average(const std::vector<glm::dvec3>& values) const {
-    std::vector<glm::dvec3> mean(values);
-    mean.resize(count());
+/// Of what there is of it. \param values see average()
+glm::dvec3 IndirectSenders::meanOfPatch(std::uint32_t patch,
+                                        std::span<const glm::dvec3> values) const {
+    const auto parted = set_.parts.of.find(patch);
+    if (parted == set_.parts.of.end())
+        return meanOf(values.subspan(cells_[patch].first, cells_[patch].count));
+    glm::dvec3 sum(0);
+    double area = 0;
+    for (const std::uint32_t part : parted->second) {
+        sum += double(areas_[part]) * meanOf(values.subspan(cells_[part].first, cells_[part].count));
+        area += double(areas_[part]);
+    }
+    return sum / area;
+}
+
+IndirectSenders::Means IndirectSenders::means(std::span<const glm::dvec3> values) const {
+    std::vector<glm::dvec3> mean(count());
     std::vector<double> areas(count()); // of what is there of a cluster
     const auto give = [&](std::uint32_t s, double area) {
         if (parents_[s] == Clusters::kNone) return;
         mean[parents_[s]] += area * mean[s];
         areas[parents_[s]] += area;
     };
-    for (std::uint32_t p = 0; p < patchCount(); ++p) {
-        if (p >= set_.parts.firstPatch && !set_.parts.used.empty()) break;
-        if (const auto parted = set_.parts.of.find(p); parted != set_.parts.of.end()) {
-            glm::dvec3 sum(0);
-            double area = 0;
-            for (const std::uint32_t part : parted->second) {
-                sum += double(areas_[part]) * values[part];
-                area += double(areas_[part]);
-            }
-            mean[p] = sum / area;
-        }
+    const std::uint32_t meshed = set_.parts.used.empty() ? patchCount() : set_.parts.firstPatch;
+    for (std::uint32_t p = 0; p < meshed; ++p) {
+        mean[p] = meanOfPatch(p, values);
         give(p, double(areas_[p]));
     }
     for (std::uint32_t c = count(); c-- > patchCount();) { // those within others come later
         mean[c] /= areas[c];
         give(c, areas[c]);
     }
-    std::vector<SenderLight> light(count());
-    for (std::uint32_t p = 0; p < patchCount(); ++p) light[p].fill(values[p]);
-    for (std::size_t i = 0; i + 1 < firstTerm_.size(); ++i) {
-        glm::dvec3& quarter = light[patchCount() + i / 4][i % 4];
+    const auto meanOver = [&](const Term& term) {
+        const Range cells = cells_[term.sender];
+        if (term.quarter == Clusters::kWhole || cells.count != kSenderCells ||
+            set_.parts.of.contains(term.sender))
+            return mean[term.sender];
+        return meanOf(values.subspan(cells.first + 4u * term.quarter, 4));
+    };
+    std::vector<glm::dvec3> quarters(firstTerm_.size() - 1);
+    for (std::size_t i = 0; i < quarters.size(); ++i)
         for (std::uint32_t t = firstTerm_[i]; t < firstTerm_[i + 1]; ++t)
-            quarter += double(terms_[t].weight) * mean[terms_[t].sender];
+            quarters[i] += double(terms_[t].weight) * meanOver(terms_[t]);
+    return {std::move(mean), std::move(quarters)};
+}
+
+void IndirectSenders::average(std::span<glm::dvec3> values,
+                              std::span<const glm::dvec3> direct) const {
+    const std::vector<glm::dvec3> quarters = means(values).quarters;
+    const Means evenly = direct.empty() ? Means() : means(direct);
+    for (std::uint32_t c = patchCount(); c < count(); ++c) {
+        const std::span<glm::dvec3> cells = values.subspan(cells_[c].first, kClusterCells);
+        std::copy_n(quarters.begin() + std::ptrdiff_t(4 * (c - patchCount())), 4,
+                    cells.begin() + kSenderCells);
+        if (!direct.empty()) deviate(c, direct, evenly, cells.first(kSenderCells));
     }
-    return light;
+}
+
+/// Fills in by how much more leaves the places of a cluster's samples than their quarters.
+void IndirectSenders::deviate(std::uint32_t cluster, std::span<const glm::dvec3> direct,
+                              const Means& means, std::span<glm::dvec3> cells) const {
+    const Family& family = families_[objects_[cluster].value];
+    const std::size_t count = family.clusters.clusters()[cluster - family.first].partCount;
+    const std::size_t number = cluster - patchCount();
+    std::ranges::fill(cells, glm::dvec3(0));
+    for (std::size_t k = 0, quarter = 0, first = 0; k < count; ++k) {
+        while (k >= (quarter + 1) * count / 4) first = ++quarter * count / 4;
+        const auto [patch, sample] = places_[number * kPatchSamples + k];
+        const glm::dvec3 here = isUneven(patch) && !set_.parts.of.contains(patch)
+                                    ? direct[cells_[patch].first + sample]
+                                    : means.senders[patch];
+        cells[4 * quarter + k - first] = here - means.quarters[4 * number + quarter];
+    }
 }
 
 void IndirectSenders::place(ObjectId object) {
@@ -229,6 +277,8 @@ void IndirectSenders::placeClusters(const Family& family) {
             }
             const std::uint32_t which = whole ? 5 * k : 4u * part.quarter + k % 4;
             samples_[s * kPatchSamples + k] = points[which % kPatchSamples];
+            places_[(s - patchCount()) * kPatchSamples + k] = {
+                middle, std::uint8_t(which % kPatchSamples)};
         }
         for (std::size_t k = cluster.partCount; k < kPatchSamples; ++k)
             samples_[s * kPatchSamples + k] = samples_[s * kPatchSamples];
@@ -243,6 +293,7 @@ PatchSender IndirectSenders::sender(std::uint32_t index) const {
     if (index < patchCount()) {
         const Patch& patch = set_.patches[index];
         sender.patch = &patch;
+        sender.cells = isUneven(index);
         sender.outline = std::span(set_.corners).subspan(patch.firstCorner, patch.cornerCount);
         return sender;
     }
@@ -262,7 +313,7 @@ bool IndirectSenders::sendsLike(std::uint32_t index, const IndirectSenders& othe
         !a.patch == !b.patch &&
         (!a.patch || (a.patch->centre == b.patch->centre && a.patch->normal == b.patch->normal &&
                       a.patch->area == b.patch->area));
-    return samePatch && std::ranges::equal(a.outline, b.outline) &&
+    return samePatch && a.cells == b.cells && std::ranges::equal(a.outline, b.outline) &&
            std::ranges::equal(a.parts, b.parts, samePart) &&
            std::equal(a.samples, a.samples + kPatchSamples, b.samples);
 }

@@ -54,8 +54,17 @@ public:
     float area(std::uint32_t index) const { return areas_[index]; }
     /// The cluster that has this sender, Clusters::kNone if none.
     std::uint32_t parent(std::uint32_t index) const { return parents_[index]; }
-    /// Means over the quarters of every sender that is there. \param values one a patch
-    std::vector<SenderLight> average(const std::vector<glm::dvec3>& values) const;
+    /// The cells of a sender, see SenderLight, in a list of those of all senders.
+    Range cells(std::uint32_t index) const { return cells_[index]; }
+    std::uint32_t cellCount() const { return cells_.empty() ? 0 : cells_.back().end(); }
+    /// Whether the cells of a patch may send unlike each other.
+    bool isUneven(std::uint32_t patch) const {
+        return cells_[patch].count > 1 && set_.patches[patch].elementCount > 1;
+    }
+    /// Fills in the cells of the clusters, see SenderLight.h.
+    /// \param values one a cell; those of patches are known
+    /// \param direct the share of these that differs from place to place; empty: none of them
+    void average(std::span<glm::dvec3> values, std::span<const glm::dvec3> direct) const;
 
     /// Whether receivers in a box take light from a sender itself, and not from a part of it, nor
     /// from a larger one.
@@ -80,6 +89,14 @@ private:
     void listQuarters(const Family& family);
     bool sendsLike(std::uint32_t index, const IndirectSenders& others, std::uint32_t other) const;
     void placePatches(Range patches);
+    /// Means over what there is of every patch and cluster, and over the quarters of these.
+    struct Means {
+        std::vector<glm::dvec3> senders, quarters;
+    };
+    Means means(std::span<const glm::dvec3> values) const;
+    glm::dvec3 meanOfPatch(std::uint32_t patch, std::span<const glm::dvec3> values) const;
+    void deviate(std::uint32_t cluster, std::span<const glm::dvec3> direct, const Means& means,
+                 std::span<glm::dvec3> cells) const;
     void placeClusters(const Family& family);
     bool isFar(std::uint32_t index, const Bounds& receivers) const;
     bool isEnough(std::uint32_t index, const Bounds& receivers) const {
@@ -94,12 +111,20 @@ private:
     std::vector<std::uint32_t> keys_, parents_;
     std::vector<float> areas_;
     std::vector<ObjectId> objects_;
+    std::vector<Range> cells_;       ///< one a sender
     std::vector<glm::vec3> samples_; ///< kPatchSamples a sender
+    /// Of each cluster's parts: which patch its sample is on, and which of that one's it is.
+    struct Place {
+        std::uint32_t patch = 0;
+        std::uint8_t sample = 0;
+    };
+    std::vector<Place> places_; ///< kPatchSamples a cluster
     std::vector<SenderPart> parts_;  ///< kPatchSamples a cluster
     /// A share of the mean over a quarter of a cluster.
     struct Term {
         std::uint32_t sender = 0;
         float weight = 0;
+        std::uint8_t quarter = Clusters::kWhole; ///< of a patch
     };
     std::vector<Term> terms_;
     std::vector<std::uint32_t> firstTerm_{0};          ///< of each quarter of each cluster

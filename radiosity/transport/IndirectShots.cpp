@@ -29,8 +29,7 @@ constexpr std::size_t kLeastBatch = 32, kMostBatch = 1024, kBatchShare = 32;
 std::vector<std::uint32_t> IndirectLight::chooseSenders(double enough) const {
     std::vector<double> power(senders_.count());
     for (std::uint32_t s = 0; s < power.size(); ++s)
-        if (largest(residuals_[s]) > enough)
-            power[s] = largest(residuals_[s]) * double(senders_.area(s));
+        if (const double most = owed(s); most > enough) power[s] = most * double(senders_.area(s));
     return highestPriorities(power, batch());
 }
 
@@ -55,6 +54,7 @@ bool IndirectLight::complete(std::size_t effort) {
         std::vector<std::uint32_t> unknown;
         for (std::uint32_t p = 0; p < known_.size() && unknown.size() < batch(); ++p)
             if (!known_[p] && sendersReached_[p] && senders_.present(p)) unknown.push_back(p);
+        if (unknown.empty() && !std::exchange(completed_, true)) residualsChanged();
         choose(std::move(unknown), true);
     }
     if (!relaxing()) return false;
@@ -108,13 +108,14 @@ void IndirectLight::load(Listing& listing) {
         // The first time send at once what is sure to come later; too much is taken back in its
         // turn.
         const bool fresh = !known_[s];
-        SenderLight light{};
-        for (std::size_t q = 0; q < 4 && !listing.dark; ++q) {
-            light[q] = residuals_[s][q];
-            if (fresh) light[q] += colours_[s][q] * expected;
+        const SenderLight owed = cellsOf(residuals_, s), colours = cellsOf(colours_, s);
+        std::vector<glm::dvec3> light(owed.size());
+        for (std::size_t c = 0; c < light.size() && !listing.dark; ++c) {
+            light[c] = owed[c];
+            if (fresh) light[c] += colours[c] * expected;
         }
         shot_->fresh.push_back(fresh);
-        shot_->light.push_back(light);
+        shot_->light.push_back(std::move(light));
         shot_->build.push_back(!kept_[s]);
         if (kept_[s]) continue;
         if (keep) {
@@ -192,10 +193,11 @@ void IndirectLight::serveBlock(std::uint32_t b, PatchRowBuilder& builder, std::s
 void IndirectLight::finishShot() {
     for (std::size_t i = 0; i < shot_->senders.size(); ++i) {
         const std::uint32_t p = shot_->senders[i];
-        for (std::size_t q = 0; q < 4; ++q) sent_[p][q] += shot_->light[i][q];
+        const std::span<glm::dvec3> sent = cellsOf(sent_, p);
+        for (std::size_t c = 0; c < sent.size(); ++c) sent[c] += shot_->light[i][c];
         known_[p] = 1;
         if (kept_[p] && !sendersReached_[p]) forgotten_.push_back(p);
-        updates_.dirty().setPower(p, largest(sent_[p]));
+        updates_.dirty().setPower(p, largest(sent));
     }
     rowBytes_ += shot_->bytes;
     if (!shot_->dark) shots_ += shot_->senders.size();

@@ -18,8 +18,11 @@ namespace penumbra {
 struct Reach {
     std::vector<std::uint64_t> nodes;  ///< bits, 64 nodes a word
     std::vector<std::uint8_t> patches; ///< 1: light gets to it
+    /// Bits, likewise: nodes of which all rays meet such patches. Form factors add up to 1 there.
+    std::vector<std::uint64_t> enclosed;
 
     bool node(std::uint32_t index) const { return nodes[index / 64] >> index % 64 & 1; }
+    bool isEnclosed(std::uint32_t index) const { return enclosed[index / 64] >> index % 64 & 1; }
 };
 
 /// Finds it without a ray, in a time that goes with the number of hits.

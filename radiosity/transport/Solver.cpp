@@ -19,7 +19,7 @@ constexpr std::size_t kMostEffort = std::size_t(1) << 20; ///< [rays]
 constexpr std::size_t kMostPromptEffort = 1536; ///< of a piece within a prompt budget [rays]
 constexpr double kPrompt = 2e-3;                ///< a budget below is one [s]
 /// What deferred work may change, of what the certificate allows.
-constexpr double kDirectMayStayDirty = 0.15, kIndirectMayStayDirty = 0.35;
+constexpr double kDirectMayStayDirty = 0.04, kIndirectMayStayDirty = 0.35;
 /// A piece of work within a prompt budget takes about so long; within others it takes the budget,
 /// up to so long [s]: small pieces have threads wait for each other, and work take longer in all.
 constexpr double kPause = 3e-4, kLongest = 0.05;

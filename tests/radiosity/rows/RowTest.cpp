@@ -49,9 +49,21 @@ Draft anyDraft() {
     return draft;
 }
 
+/// A block whose sender sends evenly, or from quarters or cells, of which entries have shares.
 std::vector<Draft> anyDrafts() {
     std::vector<Draft> drafts(std::size_t(*rc::gen::inRange(0, RowBlock::kSize + 1)));
-    for (Draft& draft : drafts) draft = anyDraft();
+    const auto sharing = *rc::gen::element(RowBlock::Sharing::even, RowBlock::Sharing::quarters,
+                                           RowBlock::Sharing::cells);
+    for (Draft& draft : drafts) {
+        draft = anyDraft();
+        if (!(draft.formFactor > 0)) continue;
+        draft.formFactor *= *rc::gen::element(1.0f, 0.01f, 0.0001f); // of 16, 4 samples, or one
+        draft.sharing = sharing;
+        if (draft.blockerCount > 0 && draft.visible == 0) continue;
+        const std::size_t count = RowBlock::shareCount(sharing, draft.formFactor);
+        for (std::size_t i = 0; i < count; ++i)
+            draft.shares[i] = *rc::gen::inRange<std::uint8_t>(0, 16);
+    }
     return drafts;
 }
 
@@ -98,6 +110,17 @@ RC_GTEST_PROP(Row, VisitsWhatIsSeenInOrder, ()) {
     RC_ASSERT(visited == expected);
 }
 
+RC_GTEST_PROP(Row, VisitsTheSharesOfWhatIsSeen, ()) {
+    const std::vector<Draft> drafts = anyDrafts();
+    RowBlock block;
+    block.assign(drafts);
+    block.forEachShared([&](int receiver, float, RowBlock::Shares shares) {
+        const Draft& draft = drafts[std::size_t(receiver)];
+        RC_ASSERT(shares.bytes.size() == RowBlock::shareCount(draft.sharing, draft.formFactor));
+        RC_ASSERT(std::ranges::equal(shares.bytes, std::span(draft.shares).first(shares.bytes.size())));
+    });
+}
+
 RC_GTEST_PROP(Row, DecodedAndAssignedAgainIsTheSameToTheLastByte, ()) {
     const std::vector<Draft> drafts = anyDrafts();
     RowBlock block, again;
@@ -121,6 +144,8 @@ RC_GTEST_PROP(Row, DecodesIntoWhatWasAssigned, ()) {
         if (!(from.formFactor > 0)) continue;
         RC_ASSERT(to.visibility == from.visibility);
         RC_ASSERT(to.blockerCount == from.blockerCount);
+        RC_ASSERT(to.sharing == from.sharing);
+        RC_ASSERT(to.shares == from.shares);
         RC_ASSERT(to.visible == (from.blockerCount == 0 ? ~std::uint64_t(0) : from.visible));
         for (std::size_t b = 0; b < std::size_t(to.blockerCount); ++b) {
             RC_ASSERT(to.blockers[b].object == from.blockers[b].object);

@@ -64,22 +64,26 @@ TEST_F(SendersOfARoom, AreLinkedToTheSameBlocksFromEitherSide) {
 }
 
 TEST_F(SendersOfARoom, SendWhatTheirPatchesDoOnAverage) {
-    std::vector<glm::dvec3> values;
-    for (std::uint32_t p = 0; p < senders.patchCount(); ++p)
-        values.emplace_back(double(set().patches[p].centre.x), 1, double(p % 7));
-    const std::vector<SenderLight> light = senders.average(values);
+    std::vector<glm::dvec3> light(senders.cellCount());
+    const auto cellsOf = [&](std::uint32_t s) {
+        return std::span(light).subspan(senders.cells(s).first, senders.cells(s).count);
+    };
     std::vector<double> sum(senders.count()), area(senders.count());
     for (std::uint32_t p = 0; p < senders.patchCount(); ++p) {
-        EXPECT_EQ(light[p][2], values[p]);
+        double middle = double(set().patches[p].centre.x), step = 0.01;
+        for (glm::dvec3& cell : cellsOf(p)) cell = {middle += step, 1, double(p % 7)};
+        const double mean = meanOf(cellsOf(p)).x;
         for (std::uint32_t s = senders.parent(p); s != Clusters::kNone; s = senders.parent(s)) {
-            sum[s] += double(senders.area(p)) * values[p].x;
+            sum[s] += double(senders.area(p)) * mean;
             area[s] += double(senders.area(p));
         }
     }
+    senders.average(light, {});
     for (std::uint32_t s = senders.patchCount(); s < senders.count(); ++s) {
         EXPECT_NEAR(area[s], double(senders.area(s)), 1e-5 * area[s]);
         glm::dvec3 mean(0);
-        for (const glm::dvec3& quarter : light[s]) {
+        ASSERT_EQ(cellsOf(s).size(), kClusterCells);
+        for (const glm::dvec3& quarter : cellsOf(s).subspan(kSenderCells)) {
             EXPECT_NEAR(quarter.y, 1, 1e-6);
             mean += 0.25 * quarter;
         }
