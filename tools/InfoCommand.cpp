@@ -339,7 +339,7 @@ void addInfoCommand(CLI::App& app) {
         ->excludes(text)
         ->excludes(flatten);
     for (const char* name : {"--patch-size", "--element-size", "--samples", "--residual",
-                             "--direct-only", "--threads", "--progress", "--quiet"})
+                             "--direct-only", "--memory", "--threads", "--progress", "--quiet"})
         info->get_option(name)->needs(at);
     info->callback([command] { run(*command); });
 }

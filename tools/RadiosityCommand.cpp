@@ -1,5 +1,6 @@
 #include "radiosity/process/LightingProcess.h"
 #include "tools/Commands.h"
+#include "tools/SceneSolution.h"
 
 #include <CLI/CLI.hpp>
 
@@ -29,6 +30,7 @@ void addRadiosityCommand(CLI::App& app) {
         ->add_option("--threads", command->limits.threads,
                      "Threads to use (default: one a core, but one is left to the viewer)")
         ->check(CLI::Range(0u, 1024u));
+    addMemoryOption(*radiosity, command->limits.memory);
     radiosity
         ->add_option("--nice", command->limits.niceness, "How much others come first, see nice(1)")
         ->check(CLI::Range(0, 19));

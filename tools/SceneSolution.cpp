@@ -2,6 +2,7 @@
 
 #include "base/Clock.h"
 #include "base/Error.h"
+#include "radiosity/query/MemoryWarning.h"
 #include "tools/OutputFiles.h"
 #include "tools/Statistics.h"
 #include "viewer/input/LightSettings.h"
@@ -83,6 +84,7 @@ void addPlayOptions(CLI::App& command, SolveSettings& settings) {
 void addReportOptions(CLI::App& command, SolveSettings& settings) {
     command.add_option("--threads", settings.threads, "Threads to use (default: one a core)")
         ->check(CLI::Range(1u, 1024u));
+    addMemoryOption(command, settings.solver.memory);
     command.add_option("--stats", settings.stats, "Write counts and times to this file, as JSON");
     command.add_flag("--allow-outside", settings.allowOutside,
                      "Open what the scene refers to outside of its folder, too");
@@ -93,6 +95,16 @@ void addReportOptions(CLI::App& command, SolveSettings& settings) {
 }
 
 } // namespace
+
+void addMemoryOption(CLI::App& command, std::size_t& bytes) {
+    command
+        .add_option_function<double>(
+            "--memory", [&bytes](double gigabytes) { bytes = std::size_t(gigabytes * 1e9); },
+            "Memory to use [GB]: what does not fit into it is computed again when it is\n"
+            "needed, which takes longer (default: half of the machine's)")
+        ->check(number() & CLI::Range(1e-3, 1e6))
+        ->type_name("GB");
+}
 
 void addSolveOptions(CLI::App& command, SolveSettings& settings) {
     command
@@ -240,7 +252,10 @@ void SceneSolution::light() {
     double& solving = phases_["solve"];
     const double before = solver().detailSeconds();
     timed("solve", [&] {
-        lit_->solver().settle([&](const char* phase, double done) { progress_.show(phase, done); });
+        lit_->solver().settle([&](const char* phase, double done) {
+            progress_.show(phase, done);
+            warnOfMemory();
+        });
     });
     const double detailing = solver().detailSeconds() - before;
     solving -= detailing; // a phase of its own
@@ -255,6 +270,16 @@ void SceneSolution::light() {
             "ambient estimate replaces the rest (--residual goes on to the end)\n",
             settings_.scene.c_str(), patches().patchCount(),
             static_cast<unsigned long long>(s.shots));
+}
+
+/// As soon as it is known: what follows takes long.
+void SceneSolution::warnOfMemory() {
+    if (settings_.quiet || memoryWarned_) return;
+    const std::string warning = memoryWarning(solver(), patches());
+    memoryWarned_ = !warning.empty();
+    if (!memoryWarned_) return;
+    progress_.clear();
+    fmt::print(stderr, "{}: warning: {}\n", settings_.scene, warning);
 }
 
 void SceneSolution::warn() const {

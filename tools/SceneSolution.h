@@ -46,6 +46,9 @@ struct SolveSettings {
     bool quiet = false;
 };
 
+/// Adds `--memory`. \param bytes see SolverOptions; must outlive the parsing
+void addMemoryOption(CLI::App& command, std::size_t& bytes);
+
 /// Adds the shared options to a command; `settings` must outlive the parsing.
 void addSolveOptions(CLI::App& command, SolveSettings& settings);
 
@@ -123,6 +126,7 @@ private:
 
     void mesh(const MeshingOptions& meshing);
     void light();
+    void warnOfMemory();
 
     const SolveSettings& settings_;
     SolverOptions solving_;
@@ -132,7 +136,8 @@ private:
     PlacedScene placed_;
     std::unique_ptr<LitScene> lit_;
     Lighting lighting_;
-    SolveStatistics earlier_; ///< costs alone: of solvers that were given up
+    bool memoryWarned_ = false; ///< once, whatever is played
+    SolveStatistics earlier_;   ///< costs alone: of solvers that were given up
     std::vector<FrameCost> frames_;
 };
 

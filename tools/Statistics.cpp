@@ -95,8 +95,11 @@ void writeStatistics(const std::string& path, const SceneSolution& solution) {
         s.litIlluminance > 0
             ? nlohmann::ordered_json(certificateOfLit(s.certificate, s.litIlluminance))
             : nlohmann::ordered_json();
-    json["sffl"] = {{"rows", s.rows}, {"entries", s.entries}, {"bytes", s.bytes}};
-    json["memory"] = {{"peak_bytes", peakMemory()}};
+    json["sffl"] = {{"rows", s.rows},
+                    {"entries", s.entries},
+                    {"bytes", s.bytes},
+                    {"rows_not_kept", s.rowsNotKept}};
+    json["memory"] = {{"peak_bytes", peakMemory()}, {"budget_bytes", solution.solver().memory()}};
     json["phases"] = solution.phases();
     for (const FrameCost& cost : solution.frames()) json["frames"].push_back(frameJson(cost));
     writeFileAtomically(path, json.dump(2) + "\n");

@@ -3,6 +3,7 @@
 
 #include "radiosity/process/memory/Region.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@ namespace penumbra {
 struct WorkerLimits {
     unsigned threads = 0; ///< 0: one a core, but one is left to the renderer
     int niceness = 0;
+    std::size_t memory = 0; ///< instead of what the viewer asks for [bytes]; 0: that
 };
 
 /// Where a worker lives, and the memory to talk to it. One worker at a time.

@@ -7,7 +7,7 @@ namespace penumbra {
 void write(ByteWriter& out, const LightingTask& task, const SceneSnapshot& scene) {
     // Named one by one: an option that is new does not compile before it is sent.
     const auto& [patchSize, elementSize, backdropArea] = task.meshing;
-    const auto& [samples, residual, directOnly, policy, detail, mostShots, rowMemory, clusters] =
+    const auto& [samples, residual, directOnly, policy, detail, mostShots, memory, clusters] =
         task.solving;
     out.put(patchSize);
     out.put(elementSize);
@@ -18,7 +18,7 @@ void write(ByteWriter& out, const LightingTask& task, const SceneSnapshot& scene
     out.put(std::uint8_t(policy));
     out.put(std::uint8_t(detail));
     out.put(mostShots);
-    out.put(std::uint64_t(rowMemory));
+    out.put(std::uint64_t(memory));
     out.put(std::uint8_t(clusters));
     write(out, scene);
 }
@@ -40,7 +40,7 @@ std::optional<LightingTask> readLightingTask(ByteReader& in) {
     task.solving.policy = PolicyKind(policy);
     task.solving.detail = in.get<std::uint8_t>() != 0;
     task.solving.mostShots = in.get<std::uint64_t>();
-    task.solving.rowMemory = in.get<std::uint64_t>();
+    task.solving.memory = in.get<std::uint64_t>();
     task.solving.clusters = in.get<std::uint8_t>() != 0;
     if (!(task.meshing.backdropArea >= 0) || task.solving.samples < 1 ||
         task.solving.samples > 64 || !std::isfinite(task.solving.residual) ||

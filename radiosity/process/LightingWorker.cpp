@@ -3,10 +3,12 @@
 #include "base/Clock.h"
 #include "base/Error.h"
 #include "radiosity/process/memory/Doorbell.h"
+#include "radiosity/query/MemoryWarning.h"
 #include "scenegraph/Objects.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <string_view>
 #include <unordered_set>
@@ -48,9 +50,9 @@ ControlBlock& LightingWorker::controlOf(Region& region) {
     return control;
 }
 
-LightingWorker::LightingWorker(Regions& regions, RegionPtr control)
+LightingWorker::LightingWorker(Regions& regions, RegionPtr control, std::size_t memory)
     : regions_(regions), region_(std::move(control)), control_(controlOf(*region_)),
-      messages_(control_.ring, control_.ringBytes) {}
+      messages_(control_.ring, control_.ringBytes), memory_(memory) {}
 
 LightingWorker::~LightingWorker() = default;
 
@@ -171,6 +173,7 @@ void LightingWorker::takeScene(const std::string& region) {
     ByteReader reader(content->bytes());
     task_ = readLightingTask(reader);
     if (!task_) senseless("a scene");
+    if (memory_ > 0) task_->solving.memory = memory_;
     viewer_.setPolicy(task_->solving.policy);
     graph_ = std::make_unique<SceneReplica>(std::move(task_->scene));
     publisher_.reset();
@@ -341,6 +344,7 @@ void LightingWorker::solve(double budget) {
     Solver& solver = lit_->solver();
     viewer_.update(solver, steadySeconds());
     const bool done = solver.stepUntil(aim_, budget, progress);
+    warnOfMemory();
     if (done) workLeft_ = std::exchange(aim_, SolutionState::exact) != SolutionState::exact;
     pace_.worked(steadySeconds(), solver.direct().dirtyKnown());
     if (done) directIsDone();
@@ -352,6 +356,13 @@ void LightingWorker::solve(double budget) {
     } else {
         publisher_->directWorked();
     }
+}
+
+void LightingWorker::warnOfMemory() {
+    if (memoryWarned_) return;
+    const std::string warning = memoryWarning(lit_->solver(), lit_->patches());
+    memoryWarned_ = !warning.empty();
+    if (memoryWarned_) std::fprintf(stderr, "radiosity: warning: %s\n", warning.c_str());
 }
 
 void LightingWorker::directIsDone() {

@@ -10,6 +10,7 @@
 #include "radiosity/transport/LitScene.h"
 #include "scenegraph/Camera.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -23,8 +24,9 @@ namespace penumbra {
 class LightingWorker {
 public:
     /// \param regions must outlive this
+    /// \param memory  instead of what tasks ask for [bytes]; 0: that. See SolverOptions
     /// \throws Error if the control block is not one, or that of another version of the program
-    LightingWorker(Regions& regions, RegionPtr control);
+    LightingWorker(Regions& regions, RegionPtr control, std::size_t memory = 0);
     ~LightingWorker();
 
     /// Works until a message says stop. \throws Error if what it reads makes no sense
@@ -60,6 +62,7 @@ private:
     bool work(double budget);
     void solve(double budget);
     void directIsDone();
+    void warnOfMemory();
     void stateSolution();
     void showWork();
     void fail(const std::string& why);
@@ -82,6 +85,8 @@ private:
     double nextWork_ = 0;        ///< when it is published again, steady clock [s]
     std::uint32_t previewSet_ = 0;
     std::vector<std::string> lights_;
+    std::size_t memory_;
+    bool memoryWarned_ = false; ///< once for all scenes
     bool marked_ = false; ///< stale blocks of previewed lights are known, if not yet published
     bool shown_ = false;  ///< something was published since the last edit
     bool edited_ = false, stopped_ = false;

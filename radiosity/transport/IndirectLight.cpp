@@ -21,8 +21,8 @@ constexpr std::uint32_t kBlock = PatchSet::kBlock;
 } // namespace
 
 IndirectLight::IndirectLight(const PatchSet& set, const RayScene& rays, const DirectLight& direct,
-                             const NodeHits& nodeHits, std::size_t rowMemory, bool clusters)
-    : set_(set), rays_(rays), direct_(direct), nodeHits_(nodeHits), rowMemory_(rowMemory),
+                             const NodeHits& nodeHits, std::size_t memory, bool clusters)
+    : set_(set), rays_(rays), direct_(direct), nodeHits_(nodeHits), memory_(memory),
       senders_(set, clusters), table_(senders_.count()),
       updates_(set, rays, table_, set.nodeBlockObject,
                {.visit = cost::kIndirectVisit, .entry = cost::kIndirectEntry}),

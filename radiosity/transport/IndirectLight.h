@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,10 +30,10 @@ class RowCarrying;
 /// cluster reflects the area-weighted mean of what its patches do.
 class IndirectLight {
 public:
-    /// \param rowMemory for rows [bytes]; beyond it they are not kept. All must outlive this.
+    /// \param memory   that the process may take [bytes], see RowRoom.h. All must outlive this.
     /// \param clusters see SolverOptions
     IndirectLight(const PatchSet& set, const RayScene& rays, const DirectLight& direct,
-                  const NodeHits& nodeHits, std::size_t rowMemory, bool clusters);
+                  const NodeHits& nodeHits, std::size_t memory, bool clusters);
 
     /// Takes what still holds from the rows of another meshing, which are used up, and what has
     /// been sent through them. \pre nothing was done here as yet
@@ -81,6 +82,10 @@ public:
 
     const IndirectSenders& senders() const { return senders_; }
     const RowTable& rows() const { return table_; } ///< one a sender
+    std::size_t rowBytes() const { return rowBytes_; }
+    std::size_t rowRoom() const { return rowRoom_.value_or(0); } ///< what they may take [bytes]
+    bool rowsMissing() const { return rowsMissing_; }            ///< some rows were not kept
+    std::size_t rowsNotKept() const;
     const RowUpdates& updates() const { return updates_; }
     bool reached(std::uint32_t node) const { return reach_.node(node); } ///< see Reach
     const RayCount& buildRays() const { return buildRays_; } ///< of rows that were built whole
@@ -190,7 +195,7 @@ private:
     const RayScene& rays_;
     const DirectLight& direct_;
     const NodeHits& nodeHits_;
-    std::size_t rowMemory_;
+    std::size_t memory_;
     IndirectSenders senders_;
     /// Boxes of the nodes where nothing covers them, block by block: what is linked. Blocks that
     /// are handed out have that of the block they are handed out for (PatchParts::sourceBlock).
@@ -221,7 +226,8 @@ private:
     bool rowsMissing_ = false;           ///< some of those were not kept
     bool completed_ = false; ///< all rows were known at one time; few are not since
     std::size_t rowBytes_ = 0;
-    std::unique_ptr<Listing> listing_; ///< never at the same time as shot_
+    std::optional<std::size_t> rowRoom_; ///< what they may take, once the first is built
+    std::unique_ptr<Listing> listing_;   ///< never at the same time as shot_
     std::unique_ptr<Shot> shot_;
     std::vector<std::vector<std::uint32_t>> lists_; ///< empty: a shot's, kept for their memory
     std::vector<PatchRowBuilder> builders_;

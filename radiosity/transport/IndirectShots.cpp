@@ -6,6 +6,7 @@
 // 1993, Xu & Fussell 1994 call this overshooting).
 #include "radiosity/transport/IndirectLight.h"
 
+#include "radiosity/rows/RowRoom.h"
 #include "radiosity/schedule/WorkCosts.h"
 
 #include "base/Parallel.h"
@@ -96,13 +97,20 @@ void IndirectLight::list(std::size_t effort) {
     listing_.reset();
 }
 
+std::size_t IndirectLight::rowsNotKept() const {
+    std::size_t count = 0;
+    for (std::size_t s = 0; s < known_.size(); ++s) count += known_[s] && !kept_[s];
+    return count;
+}
+
 /// Begins a batch.
 void IndirectLight::load(Listing& listing) {
     shot_ = std::make_unique<Shot>();
     shot_->senders = listing.senders;
     shot_->dark = listing.dark;
     const glm::dvec3 expected = ambient();
-    const bool keep = rowBytes_ < rowMemory_;
+    if (!rowRoom_) rowRoom_ = roomForRows(memory_, rowBytes_, set_);
+    std::size_t coming = 0; // [bytes]
     for (std::uint32_t i = 0; i < listing.senders.size(); ++i) {
         const std::uint32_t s = listing.senders[i];
         // The first time send at once what is sure to come later; too much is taken back in its
@@ -118,7 +126,9 @@ void IndirectLight::load(Listing& listing) {
         shot_->light.push_back(std::move(light));
         shot_->build.push_back(!kept_[s]);
         if (kept_[s]) continue;
+        const bool keep = rowBytes_ + coming < *rowRoom_;
         if (keep) {
+            coming += listing.linked[i].size() * kFullBlock;
             table_[s].open(listing.linked[i]);
             updates_.setCurrent(s);
         }

@@ -1,6 +1,7 @@
 #include "radiosity/transport/Solver.h"
 
 #include "base/Clock.h"
+#include "base/MachineMemory.h"
 #include "base/Parallel.h"
 #include "radiosity/mesh/Interpolation.h"
 #include "radiosity/schedule/ViewPriority.h"
@@ -35,8 +36,8 @@ Solver::Solver(const PatchSet& patches, const RayScene& rays, const SolverOption
     const bool lit = !patches.patches.empty() && !patches.emitters.empty(); // else all is black
     if (!options.directOnly && lit) {
         nodeHits_ = std::make_unique<NodeHits>(patches);
-        indirect_ = std::make_unique<IndirectLight>(patches, rays, direct_, *nodeHits_,
-                                                    options.rowMemory, options.clusters);
+        indirect_ = std::make_unique<IndirectLight>(patches, rays, direct_, *nodeHits_, memory(),
+                                                    options.clusters);
         if (options.detail) detail_ = std::make_unique<DetailGather>(patches, *nodeHits_);
     }
     if (options.policy != PolicyKind::importance) setPolicy(options.policy);
@@ -262,6 +263,10 @@ bool Solver::workOnDetail(Pace& pace, const Progress& progress) {
     return true;
 }
 
+std::size_t Solver::memory() const {
+    return memoryBudget(options_.memory);
+}
+
 double Solver::directTolerance() const {
     return tolerance(kDirectMayStayDirty);
 }
@@ -383,6 +388,7 @@ SolveStatistics Solver::statistics() const {
             result.detail = {{done.rays, 0}, done.groups, 0, detailSeconds_};
         }
         result.shots = indirect_->shots();
+        result.rowsNotKept = indirect_->rowsNotKept();
         result.residual = indirect_->residual();
         result.certificate = indirect_->certificate();
         result.meanRadiosity = indirect_->meanRadiosity();

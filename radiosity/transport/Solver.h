@@ -38,8 +38,9 @@ struct SolverOptions {
     bool detail = true; ///< shadows of indirect light finer than patches, see DetailGather
     /// 0: no limit if `residual` is given, else what keeps a scene of very many patches to minutes.
     std::uint64_t mostShots = 0;
-    std::size_t rowMemory =
-        2'000'000'000; ///< for rows of patches [bytes]; beyond it they are not kept
+    /// What the process may take [bytes]; 0: half of the machine's memory. Rows of patches are kept
+    /// in what the rest leaves of it (RowRoom.h), others are traced again when they are needed.
+    std::size_t memory = 0;
     /// False: indirect light goes from each patch alone, however far, to compare with. Rows grow
     /// with the square of the number of patches then.
     bool clusters = true;
@@ -80,6 +81,7 @@ struct SolveStatistics {
     double meanRadiosity = 0;  ///< area-weighted, of reflecting surfaces [lm/m^2]
     double litIlluminance = 0; ///< H_lit, see LitLevel [lux]; 0: nothing is lit
     std::size_t rows = 0, entries = 0, bytes = 0; ///< of the SFFL
+    std::size_t rowsNotKept = 0;                  ///< of patches: beyond the memory that rows have
 };
 
 /// What a solver has done since it was made, in counts that are the same on every machine.
@@ -182,6 +184,7 @@ public:
     /// DirtySet::next().
     double directTolerance() const;
     bool directOnly() const { return !indirect_; }
+    std::size_t memory() const; ///< that the process may take [bytes]
     double certificate() const { return indirect_ ? indirect_->certificate() : 0; }
     double meanRadiosity() const { return indirect_ ? indirect_->meanRadiosity() : 0; }
     /// H_lit, see LitLevel [lux]; 0: nothing is lit. Visits all patches.

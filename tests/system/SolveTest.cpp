@@ -144,6 +144,33 @@ TEST_F(Solve, WritesStatisticsWithTheKeysOfTheContract) {
     EXPECT_EQ(json.at("solve").at("state"), "exact");
 }
 
+TEST_F(Solve, SaysOnceThatRowsDoNotFitIntoTheMemoryThatIsAllowed) {
+    const std::string stats = here.path("stats.json"), kept = here.path("kept.json");
+    const Outcome outcome = runPenumbra(solve(room, {"--memory", "0.01", "--stats", stats}));
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    const std::size_t at = outcome.err.find("no rows of patches are kept: of 0.01 GB of memory");
+    ASSERT_NE(at, std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find("rows of patches", at + 20), std::string::npos) << outcome.err;
+    const auto json = nlohmann::json::parse(readFile(stats));
+    EXPECT_EQ(json.at("memory").at("budget_bytes"), 10000000);
+    EXPECT_GT(json.at("sffl").at("rows_not_kept"), 0);
+
+    EXPECT_THAT(runPenumbra(solve(room, {"--stats", kept})).err, Not(HasSubstr("kept")));
+    const auto all = nlohmann::json::parse(readFile(kept));
+    EXPECT_EQ(all.at("sffl").at("rows_not_kept"), 0);
+    EXPECT_EQ(all.at("solve").at("shots"), json.at("solve").at("shots"));
+    EXPECT_EQ(all.at("solve").at("certificate"), json.at("solve").at("certificate"));
+}
+
+TEST_F(Solve, MemoryIsAPositiveNumber) {
+    for (const char* memory : {"0", "-1", "nan", "inf", "many"})
+        for (const char* command : {"solve", "view", "radiosity"}) {
+            const Outcome outcome = runPenumbra({command, room, "--memory", memory});
+            EXPECT_EQ(outcome.exitCode, 2) << command << memory;
+            EXPECT_THAT(outcome.err, HasSubstr("--memory: ")) << command << memory;
+        }
+}
+
 /// smallRoom() with something instead of its light's intensity, and something added.
 std::string roomWith(const std::string& intensity, const std::string& more) {
     std::string text = smallRoom();

@@ -85,7 +85,7 @@ TEST(Solver, AmbientTermStandsInForWhatIsStillOwed) {
 }
 
 TEST(Solver, WithMemoryForNoRowFindsTheSameLight) {
-    const Solution kept(furnished(), kCoarse), dropped(furnished(), kCoarse, {.rowMemory = 0});
+    const Solution kept(furnished(), kCoarse), dropped(furnished(), kCoarse, {.memory = 1});
     EXPECT_TRUE(sameBits(kept.lighting.indirect, dropped.lighting.indirect));
     for (const Row& row : dropped.solver.patchRows()) EXPECT_TRUE(row.empty());
 }
