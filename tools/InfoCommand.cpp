@@ -14,6 +14,7 @@
 #include "scenegraph/Objects.h"
 #include "tools/Commands.h"
 #include "tools/CompositionJson.h"
+#include "tools/CostReport.h"
 #include "tools/OutputFiles.h"
 #include "tools/SceneSolution.h"
 
@@ -35,7 +36,8 @@ namespace {
 constexpr float kReach = 0.1f;
 
 struct InfoCommand {
-    SolveSettings solve;     ///< most of it counts with --at only
+    SolveSettings solve;     ///< most of it counts with --at and --cost only
+    bool cost = false;       ///< what lighting it will take
     std::string at;          ///< as it was given; empty: about the scene
     std::string text;        ///< where to write the file's own layer as text; empty: nowhere
     std::string flatten;     ///< where to write all that it is composed of; empty: nowhere
@@ -139,7 +141,7 @@ void printSizes(const SolveSettings& command, const LoadedScene& loaded,
                loaded.asked.patchSize ? "as the file asks" : "they follow the scene, at its start");
 }
 
-void describeScene(const SolveSettings& command) {
+void describeScene(const SolveSettings& command, bool cost) {
     LoadOptions options;
     options.allowOutside = command.allowOutside;
     options.time = command.frame;
@@ -162,6 +164,7 @@ void describeScene(const SolveSettings& command) {
     if (command.verbose)
         for (std::size_t i = 0; i < placed.objects.size(); ++i)
             fmt::print("  object {:>4} {}\n", i, placed.objects[i].path);
+    if (cost) printCost(command, loaded, placed);
     finishStandardOutput();
     reportDiagnostics(loaded.diagnostics, command.verbose);
 }
@@ -290,9 +293,17 @@ void run(const InfoCommand& command) {
     else if (!command.composition.empty())
         writeComposition(command.solve, command.composition);
     else if (command.at.empty())
-        describeScene(command.solve);
+        describeScene(command.solve, command.cost);
     else
         explain(command.solve, *pointOf(command.at));
+}
+
+/// Options of the light say nothing where nothing is lit, nor is to be.
+void checkLightOptions(const CLI::App& info, const InfoCommand& command) {
+    for (const char* name : {"--patch-size", "--element-size", "--samples", "--residual",
+                             "--direct-only", "--memory", "--threads", "--progress", "--quiet"})
+        if (info.get_option(name)->count() > 0 && command.at.empty() && !command.cost)
+            throw CLI::RequiresError(name, "--at or --cost");
 }
 
 } // namespace
@@ -331,17 +342,27 @@ void addInfoCommand(CLI::App& app) {
         "OUT.usda: write the composed scene as USD text, one file without sublayers,\n"
         "references, payloads, variants and the like; - for standard output");
     flatten->excludes(at)->excludes(text);
-    info->add_option("--composition", command->composition,
-                     "Write what each prim is composed of (layers, arcs, selections, targets) to\n"
-                     "this file, as JSON; - is standard output")
-        ->type_name("OUT.json")
+    CLI::Option* const composition =
+        info->add_option(
+                "--composition", command->composition,
+                "Write what each prim is composed of (layers, arcs, selections, targets) to\n"
+                "this file, as JSON; - is standard output")
+            ->type_name("OUT.json")
+            ->excludes(at)
+            ->excludes(text)
+            ->excludes(flatten);
+    info->add_flag("--cost", command->cost,
+                   "What lighting the scene will take: time, rays, memory. It is meshed, and some\n"
+                   "rays are traced to find that out, but nothing is lit; right within a factor\n"
+                   "of two, mostly")
         ->excludes(at)
         ->excludes(text)
-        ->excludes(flatten);
-    for (const char* name : {"--patch-size", "--element-size", "--samples", "--residual",
-                             "--direct-only", "--memory", "--threads", "--progress", "--quiet"})
-        info->get_option(name)->needs(at);
-    info->callback([command] { run(*command); });
+        ->excludes(flatten)
+        ->excludes(composition);
+    info->callback([command, info] {
+        checkLightOptions(*info, *command);
+        run(*command);
+    });
 }
 
 } // namespace penumbra

@@ -186,17 +186,16 @@ void addCosts(SolveStatistics& sum, const SolveStatistics& s) {
     sum.detail += s.detail;
 }
 
-/// Sizes for a scene without lights, where none are asked for: what stands in for lights throws no
-/// shadow and is smooth.
-MeshingOptions coarse(MeshingOptions meshing, const Bounds& scene) {
-    constexpr float kShare = 1.0f / 64; // of the scene
-    const float size = kShare * scene.diagonal();
-    if (meshing.patchSize == 0) meshing.patchSize = size;
-    if (meshing.elementSize == 0) meshing.elementSize = size;
-    return meshing;
-}
-
 } // namespace
+
+MeshingOptions sizesToLight(const MeshingOptions& meshing, const PlacedScene& placed) {
+    if (hasLights(placed)) return meshing;
+    constexpr float kShare = 1.0f / 64; // of the scene
+    const float size = kShare * placed.bounds.diagonal();
+    return {.patchSize = meshing.patchSize > 0 ? meshing.patchSize : size,
+            .elementSize = meshing.elementSize > 0 ? meshing.elementSize : size,
+            .backdropArea = meshing.backdropArea};
+}
 
 SceneSolution::PhaseTimer::PhaseTimer(double& sum) : sum_(sum), start_(steadySeconds()) {}
 SceneSolution::PhaseTimer::~PhaseTimer() {
@@ -223,8 +222,8 @@ SceneSolution::SceneSolution(const SolveSettings& settings)
     const RadiosityOptions resolved =
         timed("read", [&] { return resolvedOptions(settings, loaded_, options.time); });
     solving_ = resolved.solving;
-    const bool dark = settings.frames.empty() && !hasLights(placed_); // and stays so
-    mesh(dark ? coarse(resolved.meshing, placed_.bounds) : resolved.meshing);
+    // What is played may get lights later.
+    mesh(settings.frames.empty() ? sizesToLight(resolved.meshing, placed_) : resolved.meshing);
     light();
     if (settings.frames.empty()) return;
     const SolveStatistics s = solver().statistics();

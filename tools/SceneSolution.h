@@ -56,6 +56,10 @@ void addSolveOptions(CLI::App& command, SolveSettings& settings);
 RadiosityOptions resolvedOptions(const SolveSettings& settings, const LoadedScene& loaded,
                                  std::optional<double> frame);
 
+/// Sizes to mesh a scene with: those, but where there is no light and sizes are not asked for,
+/// coarse ones. What stands in for lights then throws no shadow and is smooth.
+MeshingOptions sizesToLight(const MeshingOptions& meshing, const PlacedScene& placed);
+
 /// Reads "A:B" or "A": at most kMostFrames, none farther from 0 than kFarthestFrame. \throws
 /// CLI::ValidationError
 FrameRange frameRange(const std::string& text);

@@ -103,6 +103,22 @@ TEST_F(InfoAt, AWrongPointIsAWrongCommandLine) {
     }
 }
 
+TEST_F(InfoAt, CostSaysWhatLightingTheSceneWillTake) {
+    const auto cost = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments{"info", room, "--cost", "--patch-size", "0.25"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runPenumbra(arguments);
+    };
+    const Outcome info = cost({"--threads", "1"});
+    EXPECT_EQ(info.exitCode, 0) << info.err;
+    for (const char* word : {" patches, ", "direct light: about ", "all light: about ",
+                             " of processor, 1 thread)", " million rays, ", " MB"})
+        EXPECT_THAT(info.out, HasSubstr(word));
+    EXPECT_THAT(cost({"--direct-only"}).out, Not(HasSubstr("all light")));
+    EXPECT_THAT(cost({"--memory", "0.01"}).out, HasSubstr("0 % of the rows of patches fit"));
+    EXPECT_EQ(runPenumbra({"info", room, "--cost", "--at", "0,0,0"}).exitCode, 2);
+}
+
 TEST(InfoComposition, SaysWhatEachPrimIsComposedOf) {
     const Workplace here;
     here.write("chair.usda", "#usda 1.0\ndef \"C\"\n{\n    def \"Seat\"\n    {\n    }\n}\n");

@@ -16,6 +16,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 const std::string kSensors = "x,y,z,nx,ny,nz\n0.4,0.4,0,0,0,1\n1.6,0.3,0,0,0,1\n0,1,1,1,0,0\n";
 
@@ -123,7 +124,7 @@ TEST_F(Solve, IsQuietWhenAsked) {
 }
 
 TEST_F(Solve, ShowsNoProgressWhenStandardErrorIsNoTerminal) {
-    EXPECT_THAT(runPenumbra(solve(room, {})).err, testing::Not(HasSubstr("\r")));
+    EXPECT_THAT(runPenumbra(solve(room, {})).err, Not(HasSubstr("\r")));
     EXPECT_THAT(runPenumbra(solve(room, {"--progress"})).err, HasSubstr("%"));
 }
 
@@ -197,7 +198,7 @@ TEST_F(Solve, WarnsWhereTheCertificateIsAsLargeAsTheLight) {
         return nlohmann::json::parse(readFile(stats)).at("solve").at("certificate_of_lit");
     };
     Outcome outcome = runPenumbra(solve(here.write("open.usda", smallRoom()), rough));
-    EXPECT_THAT(outcome.err, testing::Not(HasSubstr("warning")));
+    EXPECT_THAT(outcome.err, Not(HasSubstr("warning")));
     EXPECT_THAT(outcome.err, HasSubstr("% of the light on lit surfaces"));
     EXPECT_LT(share(), 1);
     outcome = runPenumbra(solve(here.write("shaded.usda", roomWith("100", kShade)), rough));
@@ -213,7 +214,7 @@ TEST_F(Solve, SaysThatNothingIsLit) {
         runPenumbra(solve(here.write("black.usda", roomWith("0", "")), {"--stats", stats}));
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("nothing is lit"));
-    EXPECT_THAT(outcome.err, testing::Not(HasSubstr("says nothing")));
+    EXPECT_THAT(outcome.err, Not(HasSubstr("says nothing")));
     const auto json = nlohmann::json::parse(readFile(stats)).at("solve");
     EXPECT_EQ(json.at("lit_illuminance"), 0);
     EXPECT_TRUE(json.at("certificate_of_lit").is_null());
