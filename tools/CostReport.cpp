@@ -54,11 +54,11 @@ void printCost(const SolveSettings& settings, const LoadedScene& loaded,
                const PlacedScene& placed) {
     const ThreadLimit limit(settings.threads);
     const RadiosityOptions resolved = resolvedOptions(settings, loaded, settings.frame);
-    SolverOptions solving = resolved.solving;
-    solving.directOnly = false; // both are told
+    SolverOptions direct = resolved.solving;
+    direct.directOnly = true;
     std::unique_ptr<LitScene> lit;
     try {
-        lit = std::make_unique<LitScene>(placed, sizesToLight(resolved.meshing, placed), solving);
+        lit = std::make_unique<LitScene>(placed, sizesToLight(resolved.meshing, placed), direct);
     } catch (const Error& error) {
         throw SceneFileError({settings.scene}, error.what());
     }
@@ -66,7 +66,7 @@ void printCost(const SolveSettings& settings, const LoadedScene& loaded,
     const double before = processorTime(); // reading and meshing, which both kinds of light take
     fmt::print("  {} patches, {} elements, {} emitters\n", set.patchCount(), set.elements.size(),
                set.emitters.size());
-    const CostEstimate cost = estimateCost(lit->solver(), set, lit->rays());
+    const CostEstimate cost = estimateCost(*lit, resolved.solving);
     const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
     const unsigned threads = settings.threads > 0 ? settings.threads : cores;
     printLine("direct light", before, cost.directSeconds, threads, cost.directRays,

@@ -298,6 +298,22 @@ void run(const InfoCommand& command) {
         explain(command.solve, *pointOf(command.at));
 }
 
+CLI::Option* addAtOption(CLI::App& info, std::string& point) {
+    CLI::Option* const at = info.add_option(
+        "--at", point,
+        "x,y,z (metres, scene frame): light the scene and say for the nearest surface, within\n"
+        "0.1 m or an element, what each light would give there, what arrives and which objects\n"
+        "take the rest. Where several stand in line one of them is charged. Indirect light is\n"
+        "one figure; without it (--direct-only) the answer comes sooner");
+    at->check(CLI::Validator(
+        [](std::string& text) {
+            return pointOf(text) ? std::string()
+                                 : fmt::format("'{}' is not x,y,z: three numbers, in metres", text);
+        },
+        ""));
+    return at;
+}
+
 /// Options of the light say nothing where nothing is lit, nor is to be.
 void checkLightOptions(const CLI::App& info, const InfoCommand& command) {
     for (const char* name : {"--patch-size", "--element-size", "--samples", "--residual",
@@ -314,23 +330,12 @@ void addInfoCommand(CLI::App& app) {
         "info", "What is in a scene, and what of it was not understood; with --at, why it is as\n"
                 "bright or dark as it is at a point; with --text, the file as USD text; with\n"
                 "--flatten, all that it is composed of as one file; with --composition, what\n"
-                "each prim is composed of, as JSON.\n"
+                "each prim is composed of, as JSON; with --cost, what lighting it will take.\n"
                 "Example: penumbra info room.usda --at 1.5,1,0 --direct-only");
     addSolveOptions(*info, command->solve);
     for (const char* name : {"--frames", "--from-scratch", "--stats"})
         info->remove_option(info->get_option(name));
-    CLI::Option* const at = info->add_option(
-        "--at", command->at,
-        "x,y,z (metres, scene frame): light the scene and say for the nearest surface, within\n"
-        "0.1 m or an element, what each light would give there, what arrives and which objects\n"
-        "take the rest. Where several stand in line one of them is charged. Indirect light is\n"
-        "one figure; without it (--direct-only) the answer comes sooner");
-    at->check(CLI::Validator(
-        [](std::string& text) {
-            return pointOf(text) ? std::string()
-                                 : fmt::format("'{}' is not x,y,z: three numbers, in metres", text);
-        },
-        ""));
+    CLI::Option* const at = addAtOption(*info, command->at);
     CLI::Option* const text = info->add_option(
         "--text", command->text,
         "FILE.usda: write the scene's file as USD text, whatever its kind (binary,\n"

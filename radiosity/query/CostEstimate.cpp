@@ -28,9 +28,6 @@ constexpr double kTime = 0.15; ///< processor time for each kind of sample [s]
 constexpr double kShotsAgain = 3;
 /// What sums take, and fine shadows; measured [bytes a vertex].
 constexpr double kVertexSums = 40, kVertexFine = 160;
-/// What a solver of all light takes before it begins, and one of direct light does not; measured
-/// [bytes].
-constexpr double kVertexIndirect = 230, kNodeIndirect = 300;
 
 /// Of this thread: other programs do not count [s].
 double processorSeconds() {
@@ -214,31 +211,53 @@ Sampled Sampler::vertices() {
 
 } // namespace
 
-CostEstimate estimateCost(const Solver& solver, const PatchSet& set, const RayScene& rays) {
-    CostEstimate cost;
-    cost.directBytes = cost.allBytes = double(residentMemory());
-    if (set.emitters.empty() || set.patches.empty()) return cost;
-    Sampler sampler(solver, set, rays);
-    const auto vertices = double(set.vertices.size()), nodes = double(set.nodes.size());
-    const Sampled lit = sampler.emitterBlocks(), linked = sampler.patchBlocks(),
-                  seen = sampler.nodes(), fine = sampler.vertices();
+namespace {
+
+void addDirect(Sampler& sampler, const PatchSet& set, CostEstimate& cost) {
+    const Sampled lit = sampler.emitterBlocks();
+    const auto vertices = double(set.vertices.size());
     const double pairs = vertices / kBlock * double(set.emitters.size());
-    const double links = countLinks(set, solver.indirect().senders());
     cost.directRays = pairs * lit.each(lit.rays);
     cost.directSeconds = pairs * lit.each(lit.seconds);
-    const double rowsAndSums = pairs * lit.each(lit.bytes) + kVertexSums * vertices;
-    cost.allBytes += rowsAndSums;
-    cost.directBytes += rowsAndSums - kVertexIndirect * vertices - kNodeIndirect * nodes;
+    const double bytes = pairs * lit.each(lit.bytes) + kVertexSums * vertices;
+    cost.directBytes += bytes;
+    cost.allBytes += bytes;
+}
+
+void addIndirect(Sampler& sampler, const PatchSet& set, const Solver& solver, CostEstimate& cost) {
+    const auto vertices = double(set.vertices.size()), nodes = double(set.nodes.size());
+    const Sampled linked = sampler.patchBlocks(), seen = sampler.nodes(), fine = sampler.vertices();
+    const double links = countLinks(set, solver.indirect().senders());
     cost.rowBytes = links * linked.each(linked.bytes) * kRowOverhead;
-    const double room = double(solver.memory()) - cost.allBytes - kVertexFine * vertices;
+    cost.allBytes += kVertexFine * vertices;
+    const double room = double(solver.memory()) - cost.allBytes;
     if (cost.rowBytes > room) cost.rowsKept = std::max(room, 0.0) / cost.rowBytes;
-    cost.allBytes += kVertexFine * vertices + cost.rowsKept * cost.rowBytes;
+    cost.allBytes += cost.rowsKept * cost.rowBytes;
 
     const double times = 1 + kShotsAgain * (1 - cost.rowsKept); // that a row is built
     cost.indirectRays = times * links * linked.each(linked.rays) + nodes * seen.each(seen.rays);
     cost.detailRays = vertices * fine.each(fine.rays);
     cost.allSeconds = cost.directSeconds + times * links * linked.each(linked.seconds) +
                       nodes * seen.each(seen.seconds) + vertices * fine.each(fine.seconds);
+}
+
+} // namespace
+
+CostEstimate estimateCost(const LitScene& scene, const SolverOptions& options) {
+    const PatchSet& set = scene.patches();
+    CostEstimate cost;
+    cost.directBytes = cost.allBytes = double(residentMemory());
+    if (set.emitters.empty() || set.patches.empty()) return cost;
+    if (options.directOnly) {
+        Sampler sampler(scene.solver(), set, scene.rays());
+        addDirect(sampler, set, cost);
+        return cost;
+    }
+    const Solver solver(set, scene.rays(), options);
+    cost.allBytes = double(residentMemory());
+    Sampler sampler(solver, set, scene.rays());
+    addDirect(sampler, set, cost);
+    addIndirect(sampler, set, solver, cost);
     return cost;
 }
 

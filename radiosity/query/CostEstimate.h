@@ -1,7 +1,7 @@
 // What it will take to light a scene, before any of it is lit.
 #pragma once
 
-#include "radiosity/mesh/PatchSet.h"
+#include "radiosity/transport/LitScene.h"
 #include "radiosity/transport/Solver.h"
 
 #include <cstddef>
@@ -25,8 +25,11 @@ struct CostEstimate {
 /// What light does not reach is not known: where much of a scene is sealed, less is traced.
 /// How often patches shoot is estimated from how much they reflect.
 ///
-/// \param solver of the scene as it was meshed, which has not begun; not for direct light only
+/// \param scene   meshed for direct light only, and not lit: a solver of all light is made beside
+/// it,
+///                so that what each takes before it begins is measured, too
+/// \param options those of the solution
 /// \pre residentMemory() is about what meshing the scene left
-CostEstimate estimateCost(const Solver& solver, const PatchSet& set, const RayScene& rays);
+CostEstimate estimateCost(const LitScene& scene, const SolverOptions& options);
 
 } // namespace penumbra

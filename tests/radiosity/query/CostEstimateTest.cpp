@@ -24,11 +24,12 @@ Scene furnished() {
 struct Unlit {
     Scene scene;
     PlacedScene placed = placeScene(scene);
-    LitScene lit;
+    LitScene lit{placed, kSizes, {.directOnly = true}};
 
-    explicit Unlit(Scene from, const SolverOptions& options = {})
-        : scene(std::move(from)), lit(placed, kSizes, options) {}
-    CostEstimate cost() const { return estimateCost(lit.solver(), lit.patches(), lit.rays()); }
+    explicit Unlit(Scene from) : scene(std::move(from)) {}
+    CostEstimate cost(const SolverOptions& options = {}) const {
+        return estimateCost(lit, options);
+    }
 };
 
 void expectWithinAFactorOfTwo(double estimate, double truth) {
@@ -48,6 +49,12 @@ TEST(CostEstimate, KnowsTheRaysAndBytesOfASolutionWithinAFactorOfTwo) {
     EXPECT_EQ(cost.rowsKept, 1);
 }
 
+TEST(CostEstimate, OfDirectLightAloneKnowsNothingElse) {
+    const CostEstimate cost = Unlit(furnished()).cost({.directOnly = true});
+    EXPECT_GT(cost.directRays, 0);
+    EXPECT_EQ(cost.indirectRays + cost.detailRays + cost.rowBytes, 0);
+}
+
 TEST(CostEstimate, TracesNothingThatTheSolverCounts) {
     const Unlit unlit(furnished());
     unlit.cost();
@@ -55,7 +62,7 @@ TEST(CostEstimate, TracesNothingThatTheSolverCounts) {
 }
 
 TEST(CostEstimate, RisesWhereRowsHaveNoRoom) {
-    const CostEstimate cost = Unlit(furnished(), {.memory = 1}).cost();
+    const CostEstimate cost = Unlit(furnished()).cost({.memory = 1});
     EXPECT_EQ(cost.rowsKept, 0);
     EXPECT_GT(cost.indirectRays, 2 * Unlit(furnished()).cost().indirectRays);
 }
