@@ -36,6 +36,7 @@ void LightPublisher::grow() {
     patchBlocks_.resize(set.patches.size());
     nodes_.resize(set.nodes.size());
     for (; objects_ < set.objects.size(); ++objects_) take(set.objects[objects_]);
+    for (std::uint32_t v = set.firstPrivate; v < set.vertices.size(); ++v) take(v);
     if (!lights_.empty() && emitters_ != set.emitters.size())
         setPreviewLights(previewSet_, std::exchange(previewed_, {}));
 }
@@ -44,10 +45,16 @@ void LightPublisher::grow() {
 void LightPublisher::take(const ObjectPart& object) {
     const PatchSet& set = scene_.patches();
     for (std::uint32_t v = object.vertices.first; v < object.vertices.end(); ++v) {
-        const std::uint32_t patch = set.vertexCoordinates[v].patch;
-        if (patch != Element::kNone) noteBlock(set.wholeOf(patch), v / kBlock);
+        take(v);
         if (v % kBlock == 0) touch(v / kBlock);
     }
+}
+
+/// Notes the block of a vertex for the patch whose nodes light it.
+void LightPublisher::take(std::uint32_t vertex) {
+    const PatchSet& set = scene_.patches();
+    const std::uint32_t patch = set.vertexCoordinates[vertex].patch;
+    if (patch != Element::kNone) noteBlock(set.wholeOf(patch), vertex / kBlock);
 }
 
 void LightPublisher::directIsDone() {
@@ -95,8 +102,7 @@ bool LightPublisher::canPublish(std::uint32_t block) const {
 void LightPublisher::follow(const SceneChange& change) {
     for (std::uint32_t vertex : change.vertices) {
         touch(vertex / kBlock);
-        const std::uint32_t patch = scene_.patches().vertexCoordinates[vertex].patch;
-        if (patch != Element::kNone) noteBlock(scene_.patches().wholeOf(patch), vertex / kBlock);
+        take(vertex);
     }
     for (std::uint32_t patch : change.parted)
         for (std::uint32_t block : patchBlocks_[patch]) touch(block);

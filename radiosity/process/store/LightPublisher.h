@@ -66,6 +66,7 @@ private:
     void noteBlock(std::uint32_t patch, std::uint32_t block);
     void markPatches(std::vector<DirtyStatus>& work) const;
     void take(const ObjectPart& object);
+    void take(std::uint32_t vertex);
     void touch(std::uint32_t block);
     void touchStale(std::uint32_t block);
     bool canPublish(std::uint32_t block) const;
