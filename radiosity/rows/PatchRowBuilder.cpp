@@ -101,7 +101,8 @@ bool open(const PatchSender& sender, const Receiver& receiver, RowBlock::Draft& 
     return any;
 }
 
-/// Where a sample stands among the cells of its sender: those of a quarter come one after the other.
+/// Where a sample stands among the cells of its sender: those of a quarter come one after the
+/// other.
 struct CellOfSample {
     CellOfSample(const PatchSender& sender, std::uint32_t sample) : within(sample) {
         const auto count = std::uint32_t(sender.patch ? kPatchSamples : sender.parts.size());

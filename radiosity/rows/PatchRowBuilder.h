@@ -24,7 +24,7 @@ struct SenderPart {
 
 /// A patch, or a cluster of patches, made ready to send light to receivers.
 struct PatchSender {
-    const Patch* patch = nullptr;       ///< null: a cluster
+    const Patch* patch = nullptr; ///< null: a cluster
     bool cells = false; ///< of a patch: its cells, one around each sample, send unlike each other
     std::span<const glm::vec3> outline; ///< of a patch
     std::span<const SenderPart> parts;  ///< of a cluster, as many as it has samples

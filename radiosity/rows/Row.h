@@ -80,10 +80,10 @@ public:
 
     /// An entry in the making.
     struct Draft {
-        float formFactor = 0;  ///< unoccluded; 0: no entry
-        float visibility = 1;  ///< weighted share of the samples that are visible
-        std::uint64_t visible; ///< mask of the visible samples
-        int blockerCount = 0;  ///< 0: all samples are visible
+        float formFactor = 0;            ///< unoccluded; 0: no entry
+        float visibility = 1;            ///< weighted share of the samples that are visible
+        std::uint64_t visible;           ///< mask of the visible samples
+        int blockerCount = 0;            ///< 0: all samples are visible
         Sharing sharing = Sharing::even; ///< the same for all entries of a block
         std::array<std::uint8_t, kMostShares> shares{};
         std::array<Blocker, kSize> blockers;
@@ -209,7 +209,7 @@ private:
     }
 
     static constexpr std::size_t kVisible = 8, kBytes = 16, kObjects = 18, kSeen = 20;
-    static constexpr std::uint16_t kWideObjects = 0x8000; ///< object ids of 4 bytes
+    static constexpr std::uint16_t kWideObjects = 0x8000;               ///< object ids of 4 bytes
     static constexpr std::uint16_t kQuarters = 0x4000, kCells = 0x2000; ///< there are shares
     static constexpr std::uint16_t kFlags = kWideObjects | kQuarters | kCells;
 
@@ -224,9 +224,7 @@ private:
         return present() == visible() ? visible() : at<std::uint64_t>(kSeen);
     }
     std::size_t size() const { return bytes_ ? at<std::uint16_t>(kBytes) : 0; }
-    std::size_t objectCount() const {
-        return bytes_ ? at<std::uint16_t>(kObjects) & ~kFlags : 0;
-    }
+    std::size_t objectCount() const { return bytes_ ? at<std::uint16_t>(kObjects) & ~kFlags : 0; }
     std::size_t objectSize() const { return at<std::uint16_t>(kObjects) & kWideObjects ? 4 : 2; }
 
     /// Where the parts begin. \pre there are entries

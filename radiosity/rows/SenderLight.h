@@ -16,8 +16,8 @@ namespace penumbra {
 ///
 ///     of one that sends evenly   1
 ///     of a patch                 16, around its samples, those of a quarter one after the other
-///     of a cluster               16 + 4: by how much more direct light leaves the places of its
-///                                samples than their quarters; and the means over its quarters
+///     of a cluster               16 + 4: by how much more direct light leaves the place of each of
+///                                its samples than its quarter in the mean; and the quarters' means
 using SenderLight = std::span<const glm::dvec3>;
 
 inline constexpr std::size_t kSenderCells = 16, kClusterCells = kSenderCells + 4;
@@ -62,8 +62,7 @@ inline glm::dvec3 seenLight(SenderLight light, RowBlock::Shares shares) {
             return light[4 * q + (which >> 2 * q & 3)] + quarter(q);
         });
     default:
-        return mean(shares.bytes,
-                    [&](std::size_t k) { return light[k] + quarter(k / 4); });
+        return mean(shares.bytes, [&](std::size_t k) { return light[k] + quarter(k / 4); });
     }
 }
 

@@ -34,8 +34,8 @@ EmitterSamples sampleEmitter(const Emitter& emitter, std::size_t count);
 /// ... 4 * i + 3 lie in the same quarter i of the patch.
 inline constexpr std::size_t kPatchSamples = 16;
 void samplePatch(const PatchSet& set, const Patch& patch, glm::vec3* points);
-/// The middle of the cell that sample `index` of a patch is near, in the patch's coordinates: bilinear
-/// between its corners. Cells are the 4 x 4 strata.
+/// The middle of the cell that sample `index` of a patch is near, in the patch's coordinates:
+/// bilinear between its corners. Cells are the 4 x 4 strata.
 glm::vec2 cellMiddle(std::size_t index);
 
 /// The factor cos cos of a segment d [m] to a sample of a sender: `here` and `there` are the

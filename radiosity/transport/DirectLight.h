@@ -64,8 +64,8 @@ public:
 
     std::span<const Rgb> vertices() const { return vertices_; }      ///< [lux]
     std::span<const glm::dvec3> patches() const { return patches_; } ///< means [lux]
-    /// Around each sample of a patch (see samplePatch()), if that has several elements [lux]: of the
-    /// nearest element that is lit, all shifted to the patch's mean. \pre the set has nodes
+    /// Around each sample of a patch (see samplePatch()), if that has several elements [lux]: of
+    /// the nearest element that is lit, all shifted to the patch's mean. \pre the set has nodes
     std::span<const Rgb, kPatchSamples> cells(std::uint32_t patch) const { return cells_[patch]; }
     /// Blocks of vertices that were summed anew since this was called last, each once.
     std::vector<std::uint32_t> takeSummedBlocks();
@@ -130,7 +130,8 @@ private:
     std::vector<Rgb> vertices_;
     std::vector<float> vertexSeen_; ///< sum of F V over all emitters
     std::vector<glm::dvec3> patches_;
-    std::vector<std::array<Rgb, kPatchSamples>> cells_; ///< one a patch; none in a set without nodes
+    std::vector<std::array<Rgb, kPatchSamples>>
+        cells_; ///< one a patch; none in a set without nodes
     std::vector<std::uint8_t> patchLit_;
     bool litChanged_ = false;
     bool described_ = false; ///< whether updates_ knows the receivers as they are

@@ -252,10 +252,11 @@ void IndirectLight::receiveAgain() {
             for (; slot < row.size() && row.blockAt(slot) < last; ++slot) {
                 const std::size_t node = row.blockAt(slot) * kBlock;
                 const RowBlock& block = row.begin()[std::ptrdiff_t(slot)];
-                forEachReceived(block, cellsOf(sent_, s), [&](int r, float factor, glm::dvec3 light) {
-                    nodes_[node + std::size_t(r)] += light;
-                    rowSums_[node + std::size_t(r)] += factor;
-                });
+                forEachReceived(block, cellsOf(sent_, s),
+                                [&](int r, float factor, glm::dvec3 light) {
+                                    nodes_[node + std::size_t(r)] += light;
+                                    rowSums_[node + std::size_t(r)] += factor;
+                                });
             }
         }
     });
@@ -438,8 +439,8 @@ int IndirectLight::updateBlock(RowBuilder& builder, const DirtyBlock& item,
         nodes[std::size_t(r)] = {0, -double(factor), -light};
     });
     ReceiverBlock receivers = receiversOf(item.row, item.block);
-    const ObjectId by = item.anew != 0 ? hiddenBy(item.row, item.block)
-                                       : hiddenBy(item.row, item.block, moved);
+    const ObjectId by =
+        item.anew != 0 ? hiddenBy(item.row, item.block) : hiddenBy(item.row, item.block, moved);
     if (by.valid()) {
         receivers.wanted = 0;
         builder.occluders.push_back(by);
@@ -475,9 +476,7 @@ bool IndirectLight::update(std::size_t effort, double enough) {
     const auto items = updates_.work(
         effort, enough, [&](std::uint32_t s) { return factsOf(s); },
         [&](RowBuilder& builder, const DirtyBlock& item, std::span<const MovedObject> moved,
-            std::size_t index) {
-            return updateBlock(builder, item, moved, deltas[index]);
-        });
+            std::size_t index) { return updateBlock(builder, item, moved, deltas[index]); });
     for (std::size_t i = 0; i < items.size(); ++i)
         for (const auto& [n, factor, light] : deltas[i].nodes) {
             nodes_[n] += light;

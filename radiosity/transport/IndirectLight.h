@@ -128,8 +128,8 @@ private:
         std::vector<NodeDelta> nodes;
         bool known = false; ///< row sums know of the sender
     };
-    int updateBlock(RowBuilder& builder, const DirtyBlock& item,
-                    std::span<const MovedObject> moved, BlockDelta& delta);
+    int updateBlock(RowBuilder& builder, const DirtyBlock& item, std::span<const MovedObject> moved,
+                    BlockDelta& delta);
     Arrived arrivedAt(std::uint32_t row, std::uint32_t block) const;
     RowUpdates::RowFacts factsOf(std::uint32_t sender) const;
     std::size_t blockCount() const { return set_.nodes.size() / PatchSet::kBlock; }
@@ -218,13 +218,13 @@ private:
 
     std::vector<glm::dvec3> nodes_; ///< [lux]
     std::vector<double> rowSums_;   ///< of F V over the senders whose rows are known, a node each
-    std::vector<glm::dvec3> sent_;       ///< S of every cell of every sender [lm/m^2]
-    std::vector<glm::dvec3> residuals_;  ///< R, likewise [lm/m^2]
-    std::vector<glm::dvec3> colours_;    ///< reflectances, likewise
-    std::vector<std::uint8_t> known_;    ///< rows that are part of rowSums_
-    std::vector<std::uint8_t> kept_;     ///< rows that are in the table
-    bool rowsMissing_ = false;           ///< some of those were not kept
-    bool completed_ = false; ///< all rows were known at one time; few are not since
+    std::vector<glm::dvec3> sent_;  ///< S of every cell of every sender [lm/m^2]
+    std::vector<glm::dvec3> residuals_; ///< R, likewise [lm/m^2]
+    std::vector<glm::dvec3> colours_;   ///< reflectances, likewise
+    std::vector<std::uint8_t> known_;   ///< rows that are part of rowSums_
+    std::vector<std::uint8_t> kept_;    ///< rows that are in the table
+    bool rowsMissing_ = false;          ///< some of those were not kept
+    bool completed_ = false;            ///< all rows were known at one time; few are not since
     std::size_t rowBytes_ = 0;
     std::optional<std::size_t> rowRoom_; ///< what they may take, once the first is built
     std::unique_ptr<Listing> listing_;   ///< never at the same time as shot_

@@ -206,7 +206,7 @@ void IndirectLight::updateResiduals() {
     for (std::size_t c = 0; c < now.size(); ++c) now[c] -= sent_[c];
     residuals_ = std::move(now);
     most_ = largest(residuals_);
-    // What a cluster sends is a quarter's mean, plus a cell's direct light, minus that one's mean.
+    // What a cluster sends is a quarter's mean, plus a cell's direct light, minus that quarter's.
     for (std::uint32_t s = senders_.patchCount(); s < senders_.count(); ++s)
         all.both = std::max(all.both, owed(s) + all.dirty + 4.0 / 3 * all.dirtyDirect);
     dirtyBound_ = all.dirty;

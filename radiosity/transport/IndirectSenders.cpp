@@ -33,7 +33,8 @@ IndirectSenders::IndirectSenders(const PatchSet& set, bool clusters)
     parallelFor(patches, 256, [&](std::size_t first, std::size_t last) {
         for (std::size_t p = first; p < last; ++p) placePatch(std::uint32_t(p));
     });
-    // What is of one element and stays so sends evenly. What is not there yet may come to be of any.
+    // What is of one element and stays so sends evenly. What is not there yet may come to be of
+    // any.
     const auto isEven = [&](std::uint32_t p) {
         return set.patches[p].elementCount == 1 && p < set.parts.firstPatch &&
                !set.room.patches.contains(p);
@@ -155,13 +156,14 @@ glm::dvec3 IndirectSenders::meanOfPatch(std::uint32_t patch,
     glm::dvec3 sum(0);
     double area = 0;
     for (const std::uint32_t part : parted->second) {
-        sum += double(areas_[part]) * meanOf(values.subspan(cells_[part].first, cells_[part].count));
+        sum +=
+            double(areas_[part]) * meanOf(values.subspan(cells_[part].first, cells_[part].count));
         area += double(areas_[part]);
     }
     return sum / area;
 }
 
-IndirectSenders::Means IndirectSenders::means(std::span<const glm::dvec3> values) const {
+void IndirectSenders::averageQuarters(std::span<glm::dvec3> values) const {
     std::vector<glm::dvec3> mean(count());
     std::vector<double> areas(count()); // of what is there of a cluster
     const auto give = [&](std::uint32_t s, double area) {
@@ -185,39 +187,42 @@ IndirectSenders::Means IndirectSenders::means(std::span<const glm::dvec3> values
             return mean[term.sender];
         return meanOf(values.subspan(cells.first + 4u * term.quarter, 4));
     };
-    std::vector<glm::dvec3> quarters(firstTerm_.size() - 1);
-    for (std::size_t i = 0; i < quarters.size(); ++i)
+    for (std::size_t i = 0; i + 1 < firstTerm_.size(); ++i) {
+        glm::dvec3 quarter(0);
         for (std::uint32_t t = firstTerm_[i]; t < firstTerm_[i + 1]; ++t)
-            quarters[i] += double(terms_[t].weight) * meanOver(terms_[t]);
-    return {std::move(mean), std::move(quarters)};
+            quarter += double(terms_[t].weight) * meanOver(terms_[t]);
+        values[cells_[patchCount() + i / 4].first + kSenderCells + i % 4] = quarter;
+    }
 }
 
 void IndirectSenders::average(std::span<glm::dvec3> values,
                               std::span<const glm::dvec3> direct) const {
-    const std::vector<glm::dvec3> quarters = means(values).quarters;
-    const Means evenly = direct.empty() ? Means() : means(direct);
-    for (std::uint32_t c = patchCount(); c < count(); ++c) {
-        const std::span<glm::dvec3> cells = values.subspan(cells_[c].first, kClusterCells);
-        std::copy_n(quarters.begin() + std::ptrdiff_t(4 * (c - patchCount())), 4,
-                    cells.begin() + kSenderCells);
-        if (!direct.empty()) deviate(c, direct, evenly, cells.first(kSenderCells));
-    }
+    averageQuarters(values);
+    if (direct.empty()) return;
+    std::vector<glm::dvec3> averaged(direct.begin(), direct.end());
+    averageQuarters(averaged);
+    for (std::uint32_t c = patchCount(); c < count(); ++c)
+        deviate(c, averaged, values.subspan(cells_[c].first, kSenderCells));
 }
 
-/// Fills in by how much more leaves the places of a cluster's samples than their quarters.
+/// Fills in by how much more leaves the place of each sample of a cluster than its quarter.
+/// \param direct one a cell; those of clusters as averageQuarters() has them
 void IndirectSenders::deviate(std::uint32_t cluster, std::span<const glm::dvec3> direct,
-                              const Means& means, std::span<glm::dvec3> cells) const {
+                              std::span<glm::dvec3> cells) const {
     const Family& family = families_[objects_[cluster].value];
     const std::size_t count = family.clusters.clusters()[cluster - family.first].partCount;
-    const std::size_t number = cluster - patchCount();
+    const Place* const places = &places_[(cluster - patchCount()) * kPatchSamples];
+    const glm::dvec3* const quarters = &direct[cells_[cluster].first + kSenderCells];
+    const auto at = [&](Place place) {
+        return isUneven(place.patch) && !set_.parts.of.contains(place.patch)
+                   ? direct[cells_[place.patch].first + place.sample]
+                   : meanOfPatch(place.patch, direct);
+    };
     std::ranges::fill(cells, glm::dvec3(0));
-    for (std::size_t k = 0, quarter = 0, first = 0; k < count; ++k) {
-        while (k >= (quarter + 1) * count / 4) first = ++quarter * count / 4;
-        const auto [patch, sample] = places_[number * kPatchSamples + k];
-        const glm::dvec3 here = isUneven(patch) && !set_.parts.of.contains(patch)
-                                    ? direct[cells_[patch].first + sample]
-                                    : means.senders[patch];
-        cells[4 * quarter + k - first] = here - means.quarters[4 * number + quarter];
+    for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+        const std::size_t first = quarter * count / 4, end = (quarter + 1) * count / 4;
+        for (std::size_t k = first; k < end; ++k)
+            cells[4 * quarter + k - first] = at(places[k]) - quarters[quarter];
     }
 }
 
@@ -277,8 +282,8 @@ void IndirectSenders::placeClusters(const Family& family) {
             }
             const std::uint32_t which = whole ? 5 * k : 4u * part.quarter + k % 4;
             samples_[s * kPatchSamples + k] = points[which % kPatchSamples];
-            places_[(s - patchCount()) * kPatchSamples + k] = {
-                middle, std::uint8_t(which % kPatchSamples)};
+            places_[(s - patchCount()) * kPatchSamples + k] = {middle,
+                                                               std::uint8_t(which % kPatchSamples)};
         }
         for (std::size_t k = cluster.partCount; k < kPatchSamples; ++k)
             samples_[s * kPatchSamples + k] = samples_[s * kPatchSamples];

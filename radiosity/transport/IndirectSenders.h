@@ -89,13 +89,9 @@ private:
     void listQuarters(const Family& family);
     bool sendsLike(std::uint32_t index, const IndirectSenders& others, std::uint32_t other) const;
     void placePatches(Range patches);
-    /// Means over what there is of every patch and cluster, and over the quarters of these.
-    struct Means {
-        std::vector<glm::dvec3> senders, quarters;
-    };
-    Means means(std::span<const glm::dvec3> values) const;
     glm::dvec3 meanOfPatch(std::uint32_t patch, std::span<const glm::dvec3> values) const;
-    void deviate(std::uint32_t cluster, std::span<const glm::dvec3> direct, const Means& means,
+    void averageQuarters(std::span<glm::dvec3> values) const;
+    void deviate(std::uint32_t cluster, std::span<const glm::dvec3> direct,
                  std::span<glm::dvec3> cells) const;
     void placeClusters(const Family& family);
     bool isFar(std::uint32_t index, const Bounds& receivers) const;
@@ -118,8 +114,8 @@ private:
         std::uint32_t patch = 0;
         std::uint8_t sample = 0;
     };
-    std::vector<Place> places_; ///< kPatchSamples a cluster
-    std::vector<SenderPart> parts_;  ///< kPatchSamples a cluster
+    std::vector<Place> places_;     ///< kPatchSamples a cluster
+    std::vector<SenderPart> parts_; ///< kPatchSamples a cluster
     /// A share of the mean over a quarter of a cluster.
     struct Term {
         std::uint32_t sender = 0;

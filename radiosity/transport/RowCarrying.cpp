@@ -105,8 +105,8 @@ RowCarrying::occluders(std::uint32_t row, std::span<const RowTable::BlockerNote>
     return notes;
 }
 
-std::vector<BlockMask>
-RowCarrying::partlyHidden(std::span<const RowTable::BlockerNote> were, const Row& now) const {
+std::vector<BlockMask> RowCarrying::partlyHidden(std::span<const RowTable::BlockerNote> were,
+                                                 const Row& now) const {
     std::vector<std::uint32_t> hidden;
     for (const auto& note : were) hidden.push_back(note.block);
     std::vector<BlockMask> masks;

@@ -38,9 +38,8 @@ public:
                                  EntryCarrier& carrier, RowTable& now) const;
 
     /// Who hid blocks that are whole, from a sender. \param were by block, as RowTable has them
-    std::vector<RowTable::BlockerNote> occluders(std::uint32_t row,
-                                                 std::span<const RowTable::BlockerNote> were,
-                                                 const Row& now) const;
+    std::vector<RowTable::BlockerNote>
+    occluders(std::uint32_t row, std::span<const RowTable::BlockerNote> were, const Row& now) const;
     /// Receivers of the other blocks of a row that were in a block of which there is such a note.
     std::vector<BlockMask> partlyHidden(std::span<const RowTable::BlockerNote> were,
                                         const Row& now) const;

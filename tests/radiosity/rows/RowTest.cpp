@@ -117,7 +117,8 @@ RC_GTEST_PROP(Row, VisitsTheSharesOfWhatIsSeen, ()) {
     block.forEachShared([&](int receiver, float, RowBlock::Shares shares) {
         const Draft& draft = drafts[std::size_t(receiver)];
         RC_ASSERT(shares.bytes.size() == RowBlock::shareCount(draft.sharing, draft.formFactor));
-        RC_ASSERT(std::ranges::equal(shares.bytes, std::span(draft.shares).first(shares.bytes.size())));
+        RC_ASSERT(
+            std::ranges::equal(shares.bytes, std::span(draft.shares).first(shares.bytes.size())));
     });
 }
 
