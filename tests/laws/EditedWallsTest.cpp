@@ -10,7 +10,6 @@ namespace penumbra {
 namespace {
 
 constexpr MeshingOptions kMeshing{.patchSize = 0.5f, .elementSize = 0.125f};
-constexpr SolverOptions kSolving{.directOnly = true};
 
 /// Two rooms of 2 m without a wall between them, a partition there that reaches beyond them on all
 /// sides, and a light in the first.
@@ -22,13 +21,17 @@ struct TwoRooms {
     std::shared_ptr<Transform> panel = panelAt(-1.2);
     Scene scene = sceneOf({room("first", -2.1f, -0.1f, {0, 2, 3, 4, 5}), choice,
                            room("second", 0.1f, 2.1f, {1, 2, 3, 4, 5}), panel});
-    LitScene lit{placeScene(scene), kMeshing, kSolving};
+    SolverOptions solving;
+    LitScene lit;
 
-    TwoRooms() { lit.solver().settle(); }
+    explicit TwoRooms(bool directOnly = true)
+        : solving{.directOnly = directOnly}, lit(placeScene(scene), kMeshing, solving) {
+        lit.solver().settle();
+    }
 
-    static std::shared_ptr<Transform> panelAt(double x) {
+    static std::shared_ptr<Transform> panelAt(double x, const char* name = "panel") {
         const auto panel =
-            objectOf("panel", {std::make_shared<Light>("light", RectShape{0.4f, 0.3f}, Rgb(10))});
+            objectOf(name, {std::make_shared<Light>("light", RectShape{0.4f, 0.3f}, Rgb(10))});
         panel->setMatrix(moved(x, 0, 0.95));
         return panel;
     }
@@ -63,6 +66,21 @@ struct TwoRooms {
                 entries += std::size_t(lit.solver().direct().rows()[emitter][b].entryCount());
         return entries;
     }
+    /// Of the light from patches of the first room onto nodes of the second.
+    std::size_t indirectEntriesBehind() const {
+        std::size_t entries = 0;
+        const PatchSet& set = lit.patches();
+        const Range nodes = part("/second").nodes;
+        for (std::uint32_t s = 0; s < lit.solver().patchRows().size(); ++s) {
+            const std::string& from =
+                set.objects[lit.solver().indirect().senders().object(s).value].path;
+            const Row& row = lit.solver().patchRows()[s];
+            for (std::size_t i = 0; i < row.size() && from == "/first"; ++i)
+                if (nodes.contains(row.blockAt(i) * PatchSet::kBlock))
+                    entries += std::size_t(row.begin()[std::ptrdiff_t(i)].entryCount());
+        }
+        return entries;
+    }
     bool litBehind() const {
         const Range vertices = part("/second").vertices;
         for (std::uint32_t v = vertices.first; v < vertices.end(); ++v)
@@ -70,7 +88,7 @@ struct TwoRooms {
         return false;
     }
     std::string differs() const {
-        LitScene scratch(placeScene(scene), sizesOf(lit.patches()), kSolving);
+        LitScene scratch(placeScene(scene), sizesOf(lit.patches()), solving);
         scratch.solver().settle();
         return difference(lit, scratch);
     }
@@ -98,6 +116,34 @@ TEST(EditedWalls, HideARoomWhereTheyAre) {
     rooms.partition->setMatrix(glm::dmat4(1.0));
     rooms.follow();
     rooms.expectDark("it is back");
+}
+
+TEST(EditedWalls, HideARoomFromIndirectLightAsWell) {
+    TwoRooms rooms(false);
+    const auto expectDark = [&](const char* what) {
+        EXPECT_EQ(rooms.indirectEntriesBehind(), 0u) << what;
+        EXPECT_EQ(rooms.differs(), "") << what;
+    };
+    const auto expectLit = [&](const char* what) {
+        EXPECT_GT(rooms.indirectEntriesBehind(), 200u) << what;
+        EXPECT_EQ(rooms.differs(), "") << what;
+    };
+    rooms.scene.root->add(TwoRooms::panelAt(1.2, "another")); // light is there in any case
+    rooms.follow();
+    expectDark("it has a light of its own");
+    rooms.partition->setMatrix(moved(0, 1.2, 0));
+    rooms.follow();
+    expectLit("the partition stands half across");
+    rooms.partition->setMatrix(moved(0.1, 0, 0));
+    rooms.follow();
+    expectDark("it is back, nearly");
+    rooms.choice->setVisible(false);
+    rooms.follow();
+    expectLit("it is hidden");
+    rooms.choice->setVisible(true);
+    rooms.partition->setMatrix(glm::dmat4(1.0));
+    rooms.follow();
+    expectDark("it is back");
 }
 
 TEST(EditedWalls, HideNothingWhileTheyAreHiddenOrTakenOut) {
