@@ -183,11 +183,11 @@ private:
         const Range own = senders_.cells(sender);
         return std::span(cells).subspan(own.first, own.count);
     }
-    void reflect(std::uint32_t patch, std::span<glm::dvec3> cells) const;
-    void reflectDirect(std::uint32_t patch, std::span<glm::dvec3> cells) const;
+    void reflect(std::uint32_t index, std::span<glm::dvec3> cells) const;
+    void reflectDirect(std::uint32_t index, std::span<glm::dvec3> cells) const;
     double owed(std::uint32_t sender) const;
-    bool sends(std::uint32_t patch) const;
-    double dirtyOver(std::uint32_t patch) const;
+    bool sends(std::uint32_t index) const;
+    double dirtyOver(std::uint32_t index) const;
     double dirtyAt(std::uint32_t index) const;
     glm::dvec3 ambient() const;
 

@@ -68,6 +68,25 @@ void spread(const PatchSet& set, const Watchers& watchers, std::vector<std::uint
     }
 }
 
+/// Fills in the bits of the nodes. \param reached 1: light gets there \pre the patches are known
+void noteNodes(const PatchSet& set, const NodeHits& hits, std::span<const std::uint8_t> reached,
+               Reach& reach) {
+    reach.nodes.resize((reached.size() + 63) / 64);
+    reach.enclosed.resize(reach.nodes.size());
+    const auto isEnclosed = [&](std::size_t n) {
+        return reached[n] != 0 && std::ranges::all_of(hits.hits(n), [&](std::uint32_t hit) {
+                   const std::uint32_t p = patchMet(set, hit);
+                   return p != Element::kNone && reach.patches[p] != 0;
+               });
+    };
+    parallelFor(reach.nodes.size(), 16, [&](std::size_t first, std::size_t last) {
+        for (std::size_t n = first * 64; n < std::min(last * 64, reached.size()); ++n) {
+            reach.nodes[n / 64] |= std::uint64_t(reached[n]) << n % 64;
+            reach.enclosed[n / 64] |= std::uint64_t(isEnclosed(n)) << n % 64;
+        }
+    });
+}
+
 } // namespace
 
 Reach findReach(const PatchSet& set, const NodeHits& hits, std::span<const std::uint8_t> lit) {
@@ -107,20 +126,7 @@ Reach findReach(const PatchSet& set, const NodeHits& hits, std::span<const std::
     if (!found.empty() && !others.empty())
         spread(set, {set, hits, others}, found, reached, reach.patches);
 
-    reach.nodes.resize((reached.size() + 63) / 64);
-    reach.enclosed.resize(reach.nodes.size());
-    const auto isEnclosed = [&](std::size_t n) {
-        return reached[n] != 0 && std::ranges::all_of(hits.hits(n), [&](std::uint32_t hit) {
-                   const std::uint32_t p = patchMet(set, hit);
-                   return p != Element::kNone && reach.patches[p] != 0;
-               });
-    };
-    parallelFor(reach.nodes.size(), 16, [&](std::size_t first, std::size_t last) {
-        for (std::size_t n = first * 64; n < std::min(last * 64, reached.size()); ++n) {
-            reach.nodes[n / 64] |= std::uint64_t(reached[n]) << n % 64;
-            reach.enclosed[n / 64] |= std::uint64_t(isEnclosed(n)) << n % 64;
-        }
-    });
+    noteNodes(set, hits, reached, reach);
     return reach;
 }
 
