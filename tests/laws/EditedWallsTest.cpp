@@ -30,7 +30,7 @@ struct TwoRooms {
     }
 
     static std::shared_ptr<Transform> panelAt(double x, const char* name = "panel") {
-        const auto panel =
+        auto panel =
             objectOf(name, {std::make_shared<Light>("light", RectShape{0.4f, 0.3f}, Rgb(10))});
         panel->setMatrix(moved(x, 0, 0.95));
         return panel;
