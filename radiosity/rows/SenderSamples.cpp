@@ -109,22 +109,22 @@ EmitterSamples sampleEmitter(const Emitter& emitter, std::size_t count) {
     return samples;
 }
 
-glm::vec2 cellMiddle(std::size_t index) {
-    const std::size_t quarter = index / 4, within = index % 4; // quarter by quarter
-    const std::size_t column = quarter % 2 * 2 + within % 2, row = quarter / 2 * 2 + within / 2;
-    return {(float(column) + 0.5f) / 4, (float(row) + 0.5f) / 4};
-}
-
 namespace {
+
+/// Column and row of a patch's cell among 4 x 4, quarter by quarter.
+glm::uvec2 cellOf(std::size_t index) {
+    const std::size_t quarter = index / 4, within = index % 4;
+    return {quarter % 2 * 2 + within % 2, quarter / 2 * 2 + within / 2};
+}
 
 /// Where sample i of 4 x 4 lies, in coordinates from 0 to 1. Not in the very middle of its cell:
 /// people build with round numbers, and rays from there run along the faces of things, where
 /// rounding decides what is in the way.
 glm::vec2 stratum(std::size_t i) {
-    const std::size_t column = i / 4 % 2 * 2 + i % 2, row = i / 8 * 2 + i % 4 / 2;
-    const float aside = (column + row) % 2 == 0 ? 1.0f : -1.0f;
-    return {(float(column) + 0.5f + 0.0137f * aside) / 4,
-            (float(row) + 0.5f - 0.0211f * aside) / 4};
+    const glm::uvec2 cell = cellOf(i);
+    const float aside = (cell.x + cell.y) % 2 == 0 ? 1.0f : -1.0f;
+    return {(float(cell.x) + 0.5f + 0.0137f * aside) / 4,
+            (float(cell.y) + 0.5f - 0.0211f * aside) / 4};
 }
 
 glm::vec3 pointOfOutline(std::span<const glm::vec3> corners, glm::vec3 centre, glm::vec2 st) {
@@ -164,6 +164,11 @@ glm::vec3 moveOntoNearest(const PatchSet& set, std::span<const std::uint32_t> el
 }
 
 } // namespace
+
+glm::vec2 cellMiddle(std::size_t index) {
+    const glm::uvec2 cell = cellOf(index);
+    return {(float(cell.x) + 0.5f) / 4, (float(cell.y) + 0.5f) / 4};
+}
 
 void samplePatch(const PatchSet& set, const Patch& patch, glm::vec3* points) {
     const auto corners = std::span(set.corners).subspan(patch.firstCorner, patch.cornerCount);

@@ -384,18 +384,23 @@ bool DirectLight::averagePatches(std::size_t effort) {
     return true;
 }
 
+/// Calls visit(element, number of its corners) for what is lit and seen of a patch.
+template <class Visit>
+void DirectLight::forEachLit(std::uint32_t patch, Visit visit) const {
+    const Patch& p = set_.patches[patch];
+    const std::uint32_t count = set_.sends(patch) ? p.elementCount : 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t e = set_.patchElements[p.firstElement + i];
+        if (set_.receives(e)) visit(set_.elements[e], set_.elements[e].isTriangle() ? 3u : 4u);
+    }
+}
+
 /// Mean over the elements that are not covered.
 void DirectLight::average(std::uint32_t index) {
-    const Patch& patch = set_.patches[index];
     glm::dvec3 sum(0);
     double area = 0;
     bool lit = false;
-    const std::uint32_t count = set_.sends(index) ? patch.elementCount : 0;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t e = set_.patchElements[patch.firstElement + i];
-        if (!set_.receives(e)) continue;
-        const Element& element = set_.elements[e];
-        const std::size_t corners = element.isTriangle() ? 3 : 4;
+    forEachLit(index, [&](const Element& element, std::size_t corners) {
         const double size = elementArea(set_, element);
         glm::dvec3 mean(0);
         for (std::size_t k = 0; k < corners; ++k) {
@@ -405,27 +410,21 @@ void DirectLight::average(std::uint32_t index) {
         }
         sum += size * mean;
         area += size;
-    }
+    });
     patches_[index] = area > 0 ? sum / area : glm::dvec3(0);
     patchLit_[index] = lit;
-    if (!cells_.empty() && patch.elementCount > 1) averageCells(index);
+    if (!cells_.empty() && set_.patches[index].elementCount > 1) averageCells(index);
 }
 
 /// What the nearest element has, shifted so that the cells have the patch's mean: 16 places of
 /// many elements may miss that.
 void DirectLight::averageCells(std::uint32_t index) {
-    const Patch& patch = set_.patches[index];
     std::array<glm::vec3, kPatchSamples> samples;
-    samplePatch(set_, patch, samples.data());
+    samplePatch(set_, set_.patches[index], samples.data());
     std::array<float, kPatchSamples> nearest;
     nearest.fill(std::numeric_limits<float>::max());
     cells_[index].fill(Rgb());
-    const std::uint32_t count = set_.sends(index) ? patch.elementCount : 0;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t e = set_.patchElements[patch.firstElement + i];
-        if (!set_.receives(e)) continue;
-        const Element& element = set_.elements[e];
-        const std::size_t corners = element.isTriangle() ? 3 : 4;
+    forEachLit(index, [&](const Element& element, std::size_t corners) {
         glm::vec3 middle(0);
         Rgb mean;
         for (std::size_t k = 0; k < corners; ++k) {
@@ -438,7 +437,7 @@ void DirectLight::averageCells(std::uint32_t index) {
             nearest[k] = glm::dot(d, d);
             cells_[index][k] = mean;
         }
-    }
+    });
     Rgb missing{float(patches_[index].x), float(patches_[index].y), float(patches_[index].z)};
     for (const Rgb& cell : cells_[index]) missing -= (1.0f / kPatchSamples) * cell;
     for (Rgb& cell : cells_[index]) cell += missing;

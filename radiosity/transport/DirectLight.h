@@ -110,6 +110,8 @@ private:
     bool sumBlocks(std::size_t effort);
     bool averagePatches(std::size_t effort);
     void sumBlock(std::uint32_t block);
+    template <class Visit>
+    void forEachLit(std::uint32_t patch, Visit visit) const;
     void average(std::uint32_t index);
     void averageCells(std::uint32_t index);
 
