@@ -129,6 +129,7 @@ Sampled Sampler::patchBlocks() {
         const double weight = double(linked.size()) / kOfABlock;
         for (std::uint32_t i = 0; i < kOfABlock; ++i) {
             const std::uint32_t s = linked[below(linked.size(), pairHash(hash, i + 1))];
+            if (solver_.indirect().hiddenBy(s, b).valid()) continue; // costs next to nothing
             RowBlock block;
             const double start = processorSeconds();
             patches_.build(
@@ -208,10 +209,6 @@ Sampled Sampler::vertices() {
     sum.count *= kRun;
     return sum;
 }
-
-} // namespace
-
-namespace {
 
 void addDirect(Sampler& sampler, const PatchSet& set, CostEstimate& cost) {
     const Sampled lit = sampler.emitterBlocks();

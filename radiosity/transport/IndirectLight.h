@@ -88,6 +88,9 @@ public:
     std::size_t rowsNotKept() const;
     const RowUpdates& updates() const { return updates_; }
     bool reached(std::uint32_t node) const { return reach_.node(node); } ///< see Reach
+    /// Whose wall hides a block of nodes from a sender altogether, if any does: a function of poses
+    /// alone. There are no entries then.
+    ObjectId hiddenBy(std::uint32_t sender, std::uint32_t block) const;
     const RayCount& buildRays() const { return buildRays_; } ///< of rows that were built whole
 
 private:
@@ -143,7 +146,6 @@ private:
     void markRows(std::span<const std::uint32_t> senders);
     ReceiverBlock receiversOf(std::uint32_t sender, std::uint32_t block) const;
     void placeStands(ObjectId object);
-    ObjectId hiddenBy(std::uint32_t sender, std::uint32_t block) const;
     ObjectId hiddenBy(std::uint32_t sender, std::uint32_t block,
                       std::span<const MovedObject> moved) const;
     std::vector<std::uint32_t> keptFor(const IndirectSenders& senders,
@@ -184,6 +186,7 @@ private:
         return std::span(cells).subspan(own.first, own.count);
     }
     void reflect(std::uint32_t index, std::span<glm::dvec3> cells) const;
+    void reflectDirect();
     void reflectDirect(std::uint32_t index, std::span<glm::dvec3> cells) const;
     double owed(std::uint32_t sender) const;
     bool sends(std::uint32_t index) const;
@@ -211,7 +214,7 @@ private:
     std::uint64_t reachRevision_ = 0;          ///< of the node hits that it is made of
     std::vector<std::uint8_t> sendersReached_; ///< 1: light gets to any of a sender
     std::vector<std::uint32_t> forgotten_;     ///< senders that are to be, see forget()
-    bool reachStale_ = true, residualsStale_ = true;
+    bool reachStale_ = true, residualsStale_ = true, directStale_ = true;
     std::vector<std::uint8_t> planar_; ///< of patches: samples lie in one plane
     std::vector<float> reflectances_;  ///< largest, a block of nodes each
     bool described_ = false;           ///< whether updates_ knows the receivers as they are
@@ -219,12 +222,13 @@ private:
     std::vector<glm::dvec3> nodes_; ///< [lux]
     std::vector<double> rowSums_;   ///< of F V over the senders whose rows are known, a node each
     std::vector<glm::dvec3> sent_;  ///< S of every cell of every sender [lm/m^2]
-    std::vector<glm::dvec3> residuals_; ///< R, likewise [lm/m^2]
-    std::vector<glm::dvec3> colours_;   ///< reflectances, likewise
-    std::vector<std::uint8_t> known_;   ///< rows that are part of rowSums_
-    std::vector<std::uint8_t> kept_;    ///< rows that are in the table
-    bool rowsMissing_ = false;          ///< some of those were not kept
-    bool completed_ = false;            ///< all rows were known at one time; few are not since
+    std::vector<glm::dvec3> residuals_;       ///< R, likewise [lm/m^2]
+    std::vector<glm::dvec3> colours_;         ///< reflectances, likewise
+    std::vector<glm::dvec3> reflectedDirect_; ///< of direct light, unless directStale_ [lm/m^2]
+    std::vector<std::uint8_t> known_;         ///< rows that are part of rowSums_
+    std::vector<std::uint8_t> kept_;          ///< rows that are in the table
+    bool rowsMissing_ = false;                ///< some of those were not kept
+    bool completed_ = false; ///< all rows were known at one time; few are not since
     std::size_t rowBytes_ = 0;
     std::optional<std::size_t> rowRoom_; ///< what they may take, once the first is built
     std::unique_ptr<Listing> listing_;   ///< never at the same time as shot_

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace penumbra {
 
@@ -116,7 +117,16 @@ void IndirectLight::reflect(std::uint32_t index, std::span<glm::dvec3> cells) co
                           indirect.mean(patch.cornerCount == 4 ? kWeights[k] : NodeWeights{}));
 }
 
-/// What cells of a patch reflect of the direct light.
+/// What cells reflect of the direct light; of clusters, by how much that differs in place.
+void IndirectLight::reflectDirect() {
+    reflectedDirect_.assign(senders_.cellCount(), glm::dvec3(0));
+    parallelFor(senders_.patchCount(), 512, [&](std::size_t first, std::size_t last) {
+        for (auto p = std::uint32_t(first); p < last; ++p)
+            reflectDirect(p, cellsOf(reflectedDirect_, p));
+    });
+    senders_.deviate(reflectedDirect_);
+}
+
 void IndirectLight::reflectDirect(std::uint32_t index, std::span<glm::dvec3> cells) const {
     if (!sends(index)) return;
     const glm::dvec3 rho = toDouble(patchReflectance(set_, index));
@@ -174,7 +184,8 @@ void IndirectLight::updateResiduals() {
     constexpr std::size_t kGrain = 512;
     std::vector<Part> parts((senders_.patchCount() + kGrain - 1) / kGrain);
     const std::vector<double> dirtyDirect = direct_.dirtyLight();
-    std::vector<glm::dvec3> now(senders_.cellCount()), direct(now.size());
+    if (std::exchange(directStale_, false)) reflectDirect();
+    std::vector<glm::dvec3> now(senders_.cellCount());
     parallelFor(senders_.patchCount(), kGrain, [&](std::size_t first, std::size_t last) {
         Part& part = parts[first / kGrain];
         for (auto p = std::uint32_t(first); p < last; ++p) {
@@ -186,7 +197,6 @@ void IndirectLight::updateResiduals() {
             }
             const std::span<glm::dvec3> cells = cellsOf(now, p);
             reflect(p, cells);
-            reflectDirect(p, cellsOf(direct, p));
             const double rho = maxChannel(patchReflectance(set_, p));
             // A cell's direct light is an element's, plus the patch's mean, minus the cells' own.
             const double dirtyHere = (senders_.isUneven(p) ? 3 : 1) * rho * dirtyDirect[p];
@@ -202,7 +212,10 @@ void IndirectLight::updateResiduals() {
     });
     Part all;
     for (const Part& part : parts) all.add(part);
-    senders_.average(now, direct);
+    senders_.average(now);
+    for (std::uint32_t s = senders_.patchCount(); s < senders_.count(); ++s)
+        std::ranges::copy(cellsOf(reflectedDirect_, s).first(kSenderCells),
+                          cellsOf(now, s).begin());
     for (std::size_t c = 0; c < now.size(); ++c) now[c] -= sent_[c];
     residuals_ = std::move(now);
     most_ = largest(residuals_);
@@ -218,6 +231,7 @@ void IndirectLight::updateResiduals() {
 /// the maximum norm; row sums are at most 1. Means over clusters differ from the exact ones by no
 /// more than what they are the means of.
 void IndirectLight::coloursChanged() {
+    directStale_ = true;
     float most = 0;
     colours_.assign(senders_.cellCount(), glm::dvec3(0));
     reflectances_.assign(blockCount(), 0.0f);
@@ -235,7 +249,7 @@ void IndirectLight::coloursChanged() {
         at(patch.centreNode);
         if (patch.hasCornerNodes) std::for_each_n(patch.cornerNodes.begin(), 4, at);
     }
-    senders_.average(colours_, {});
+    senders_.average(colours_);
     gain_ = 1 / (1 - double(most));
 }
 

@@ -14,7 +14,7 @@ namespace {
 /// How many times its own size a cluster must be away to represent its patches.
 constexpr float kFar = 3.5f;
 
-static_assert(Clusters::kParts == kPatchSamples);
+static_assert(Clusters::kParts == kPatchSamples && kSenderCells == kPatchSamples);
 
 /// Square of the distance between two boxes [m^2]. Rounding never makes a box nearer than one
 /// around it.
@@ -163,7 +163,7 @@ glm::dvec3 IndirectSenders::meanOfPatch(std::uint32_t patch,
     return sum / area;
 }
 
-void IndirectSenders::averageQuarters(std::span<glm::dvec3> values) const {
+void IndirectSenders::average(std::span<glm::dvec3> values) const {
     std::vector<glm::dvec3> mean(count());
     std::vector<double> areas(count()); // of what is there of a cluster
     const auto give = [&](std::uint32_t s, double area) {
@@ -195,34 +195,27 @@ void IndirectSenders::averageQuarters(std::span<glm::dvec3> values) const {
     }
 }
 
-void IndirectSenders::average(std::span<glm::dvec3> values,
-                              std::span<const glm::dvec3> direct) const {
-    averageQuarters(values);
-    if (direct.empty()) return;
-    std::vector<glm::dvec3> averaged(direct.begin(), direct.end());
-    averageQuarters(averaged);
-    for (std::uint32_t c = patchCount(); c < count(); ++c)
-        deviate(c, averaged, values.subspan(cells_[c].first, kSenderCells));
+void IndirectSenders::deviate(std::span<glm::dvec3> direct) const {
+    average(direct);
+    for (std::uint32_t c = patchCount(); c < count(); ++c) deviate(c, direct);
 }
 
-/// Fills in by how much more leaves the place of each sample of a cluster than its quarter.
-/// \param direct one a cell; those of clusters as averageQuarters() has them
-void IndirectSenders::deviate(std::uint32_t cluster, std::span<const glm::dvec3> direct,
-                              std::span<glm::dvec3> cells) const {
+/// By how much more leaves the place of each sample of a cluster than its quarter.
+void IndirectSenders::deviate(std::uint32_t cluster, std::span<glm::dvec3> direct) const {
     const Family& family = families_[objects_[cluster].value];
     const std::size_t count = family.clusters.clusters()[cluster - family.first].partCount;
     const Place* const places = &places_[(cluster - patchCount()) * kPatchSamples];
-    const glm::dvec3* const quarters = &direct[cells_[cluster].first + kSenderCells];
+    const std::span<glm::dvec3> cells = direct.subspan(cells_[cluster].first, kClusterCells);
     const auto at = [&](Place place) {
         return isUneven(place.patch) && !set_.parts.of.contains(place.patch)
                    ? direct[cells_[place.patch].first + place.sample]
                    : meanOfPatch(place.patch, direct);
     };
-    std::ranges::fill(cells, glm::dvec3(0));
+    std::ranges::fill(cells.first(kSenderCells), glm::dvec3(0));
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
         const std::size_t first = quarter * count / 4, end = (quarter + 1) * count / 4;
         for (std::size_t k = first; k < end; ++k)
-            cells[4 * quarter + k - first] = at(places[k]) - quarters[quarter];
+            cells[4 * quarter + k - first] = at(places[k]) - cells[kSenderCells + quarter];
     }
 }
 

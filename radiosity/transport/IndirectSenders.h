@@ -61,10 +61,11 @@ public:
     bool isUneven(std::uint32_t patch) const {
         return cells_[patch].count > 1 && set_.patches[patch].elementCount > 1;
     }
-    /// Fills in the cells of the clusters, see SenderLight.h.
-    /// \param values one a cell; those of patches are known
-    /// \param direct the share of these that differs from place to place; empty: none of them
-    void average(std::span<glm::dvec3> values, std::span<const glm::dvec3> direct) const;
+    /// Fills in the quarters of the clusters. \param values one a cell; those of patches are known
+    void average(std::span<glm::dvec3> values) const;
+    /// Fills in the other cells of the clusters, see SenderLight.h, and their quarters.
+    /// \param direct what is reflected of direct light, one a cell; of patches it is known
+    void deviate(std::span<glm::dvec3> direct) const;
 
     /// Whether receivers in a box take light from a sender itself, and not from a part of it, nor
     /// from a larger one.
@@ -90,9 +91,7 @@ private:
     bool sendsLike(std::uint32_t index, const IndirectSenders& others, std::uint32_t other) const;
     void placePatches(Range patches);
     glm::dvec3 meanOfPatch(std::uint32_t patch, std::span<const glm::dvec3> values) const;
-    void averageQuarters(std::span<glm::dvec3> values) const;
-    void deviate(std::uint32_t cluster, std::span<const glm::dvec3> direct,
-                 std::span<glm::dvec3> cells) const;
+    void deviate(std::uint32_t cluster, std::span<glm::dvec3> direct) const;
     void placeClusters(const Family& family);
     bool isFar(std::uint32_t index, const Bounds& receivers) const;
     bool isEnough(std::uint32_t index, const Bounds& receivers) const {

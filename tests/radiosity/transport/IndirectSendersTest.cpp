@@ -78,7 +78,7 @@ TEST_F(SendersOfARoom, SendWhatTheirPatchesDoOnAverage) {
             area[s] += double(senders.area(p));
         }
     }
-    senders.average(light, {});
+    senders.average(light);
     for (std::uint32_t s = senders.patchCount(); s < senders.count(); ++s) {
         EXPECT_NEAR(area[s], double(senders.area(s)), 1e-5 * area[s]);
         glm::dvec3 mean(0);
