@@ -166,6 +166,12 @@ public:
     /// Bits: receivers that have an entry.
     std::uint64_t present() const { return bytes_ ? at<std::uint64_t>(0) : 0; }
     int entryCount() const { return std::popcount(present()); }
+    /// Has the processor load what is read first: blocks lie all over memory.
+    void prefetch() const {
+        constexpr std::size_t kLine = 64, kLines = 4;
+        for (std::size_t line = 0; bytes_ && line < kLines; ++line)
+            __builtin_prefetch(bytes_.get() + line * kLine);
+    }
     /// Bytes it takes, what the allocator adds left out.
     std::size_t bytes() const { return sizeof *this + size(); }
 
@@ -283,6 +289,10 @@ public:
         return const_cast<RowBlock&>(*find(std::uint32_t(block)));
     }
     const RowBlock& operator[](std::size_t block) const { return *find(std::uint32_t(block)); }
+    /// The same. \param slot where it is likely to be
+    RowBlock& at(std::uint32_t block, std::size_t slot) {
+        return slot < size() && blockAt(slot) == block ? entries_[slot] : (*this)[block];
+    }
     /// Null if the row does not have the block.
     const RowBlock* find(std::uint32_t block) const;
 

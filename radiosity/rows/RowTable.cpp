@@ -90,7 +90,8 @@ void RowTable::forgetOccluders(std::size_t row, ObjectId object, const PendingCh
 }
 
 std::vector<BlockMask> RowTable::concerned(std::size_t row, const Bounds& sender, ObjectId object,
-                                           const PendingChange& change, Blocks blocks) const {
+                                           const PendingChange& change, Blocks blocks,
+                                           const Hiding& hidden) const {
     std::vector<BlockMask> masks;
     const Row& entries = rows_[row];
     const auto isOne = [&](std::uint32_t b) { return b >= blocks.first && b < blocks.end; };
@@ -105,6 +106,11 @@ std::vector<BlockMask> RowTable::concerned(std::size_t row, const Bounds& sender
         [](const BlockMask& mask, std::uint32_t first) { return mask.block < first; });
     for (auto mask = anew; mask != change.receivers.end() && mask->block < blocks.end; ++mask)
         if (entries.has(mask->block)) masks.push_back(*mask);
+    // Its own faces may stand before all of its box, but what it hides changes.
+    const auto isBehindOthers = [&](const MovedObject& m) {
+        const ObjectId by = hidden ? hidden(m.box) : ObjectId();
+        return by.valid() && by.value != m.object;
+    };
     for (const MovedObject& m : change.moved) {
         forEachOf(blockers_[row], m.object, blocks, [&](std::uint32_t b) {
             masks.push_back({b, 0});
@@ -112,7 +118,7 @@ std::vector<BlockMask> RowTable::concerned(std::size_t row, const Bounds& sender
         forEachOf(occluders_[row], m.object, blocks, [&](std::uint32_t b) {
             if (entries.has(b)) masks.push_back({b, ~entries[b].present()});
         });
-        if (m.present) crossed(entries, blocks, sender, m.box, 0, masks);
+        if (m.present && !isBehindOthers(m)) crossed(entries, blocks, sender, m.box, 0, masks);
     }
     for (const Bounds& region : change.regions)
         crossed(entries, blocks, sender, region, ~std::uint64_t(0), masks);

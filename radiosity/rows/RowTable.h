@@ -7,6 +7,7 @@
 #include "radiosity/rows/RowBuilder.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -78,11 +79,16 @@ public:
     struct Blocks {
         std::uint32_t first = 0, end = 0xffffffffu;
     };
+    /// Who hides all that is within a box from a sender altogether [m, world]; invalid: nobody is
+    /// known to. Empty: nobody ever does.
+    using Hiding = std::function<ObjectId(const Bounds& box)>;
     /// Those of them that a change concerns, in order, with the entries to be evaluated anew.
     /// \param sender box around the sender's samples [m, world]
     /// \param object the sender's
+    /// \param hidden of the sender: what is hidden from it throws no shadow of its light
     std::vector<BlockMask> concerned(std::size_t row, const Bounds& sender, ObjectId object,
-                                     const PendingChange& change, Blocks blocks) const;
+                                     const PendingChange& change, Blocks blocks,
+                                     const Hiding& hidden = {}) const;
     /// Forgets who hid receivers of them before a change: they are evaluated anew.
     void forgetOccluders(std::size_t row, ObjectId object, const PendingChange& change,
                          Blocks blocks);

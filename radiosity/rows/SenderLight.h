@@ -40,29 +40,37 @@ inline glm::dvec3 meanOf(SenderLight light) {
     return sum / double(light.size());
 }
 
+/// Mean over kUpTo + 1 parts.
+/// \param upTo how much the first, the first two, ... are, of 255
+template <std::size_t kUpTo, class Part>
+glm::dvec3 meanOfParts(const std::uint8_t* upTo, const Part& part) {
+    glm::dvec3 sum(0);
+    int before = 0;
+    for (std::size_t k = 0; k < kUpTo; ++k) {
+        sum += double(upTo[k] - before) * part(k);
+        before = upTo[k];
+    }
+    return (sum + double(255 - before) * part(kUpTo)) * (1.0 / 255);
+}
+
 /// What an entry sees of a sender: a mean over its cells.
 inline glm::dvec3 seenLight(SenderLight light, RowBlock::Shares shares) {
     if (shares.bytes.empty()) return light[0];
-    const auto mean = [](std::span<const std::uint8_t> upTo, const auto& part) {
-        glm::dvec3 sum = 255.0 * part(upTo.size()); // put by the steps from part to part
-        for (std::size_t k = 0; k < upTo.size(); ++k)
-            sum += double(upTo[k]) * (part(k) - part(k + 1));
-        return sum / 255.0;
-    };
+    const std::uint8_t* const bytes = shares.bytes.data();
     const bool cluster = light.size() == kClusterCells;
     const auto quarter = [&](std::size_t q) {
         return cluster ? light[kSenderCells + q] : glm::dvec3(0);
     };
-    const std::uint8_t which = shares.bytes[0];
+    const std::uint8_t which = bytes[0];
     switch (shares.samples) {
     case 1:
-        return light[which] + (cluster ? mean(shares.bytes.subspan(1), quarter) : glm::dvec3(0));
+        return light[which] + (cluster ? meanOfParts<3>(bytes + 1, quarter) : glm::dvec3(0));
     case 4:
-        return mean(shares.bytes.subspan(1), [&](std::size_t q) {
+        return meanOfParts<3>(bytes + 1, [&](std::size_t q) {
             return light[4 * q + (which >> 2 * q & 3)] + quarter(q);
         });
     default:
-        return mean(shares.bytes, [&](std::size_t k) { return light[k] + quarter(k / 4); });
+        return meanOfParts<15>(bytes, [&](std::size_t k) { return light[k] + quarter(k / 4); });
     }
 }
 

@@ -161,8 +161,9 @@ ObjectId RowUpdates::hidden(const Search& search, const BlockMask& mask,
 
 void RowUpdates::find(Search& search) const {
     std::map<std::uint32_t, ObjectId> objects;
-    for (const BlockMask& mask : table_.concerned(search.row, search.facts.box, search.facts.object,
-                                                  *search.change, search.blocks)) {
+    for (const BlockMask& mask :
+         table_.concerned(search.row, search.facts.box, search.facts.object, *search.change,
+                          search.blocks, search.facts.hidden)) {
         const bool empty = table_[search.row][mask.block].entryCount() == 0;
         if (empty && mask.receivers == 0) continue;
         if (empty && search.facts.hidden) {

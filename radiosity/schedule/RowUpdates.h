@@ -48,9 +48,7 @@ public:
         ObjectId object;
         float area = 0;               ///< of the sender [m^2]
         glm::vec3 centre{}, normal{}; ///< of a planar sender; else the normal is zero
-        /// Who hides it altogether from all that is within a box [m, world]; invalid: nobody is
-        /// known to. Empty: nobody ever does.
-        std::function<ObjectId(const Bounds& box)> hidden = {};
+        RowTable::Hiding hidden = {};
         /// What is asked for of each block; empty: the boxes of the table [m, world].
         std::span<const Bounds> boxes = {};
     };

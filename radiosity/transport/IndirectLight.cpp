@@ -421,8 +421,9 @@ IndirectLight::Arrived IndirectLight::arrivedAt(std::uint32_t row, std::uint32_t
     const auto found = std::find(shot_->senders.begin(), shot_->senders.end(), row);
     if (found == shot_->senders.end()) return arrived;
     const auto i = std::uint32_t(found - shot_->senders.begin());
-    const std::vector<std::uint32_t>& from = shot_->receivers[block];
-    if (block >= shot_->next && std::binary_search(from.begin(), from.end(), i)) return arrived;
+    if (block >= shot_->next &&
+        std::ranges::binary_search(shot_->receivers[block], i, {}, &Link::sender))
+        return arrived;
     for (std::size_t c = 0; c < sent.size(); ++c) arrived.light[c] += shot_->light[i][c];
     arrived.known = true;
     return arrived;

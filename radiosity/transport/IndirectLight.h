@@ -94,23 +94,28 @@ public:
     const RayCount& buildRays() const { return buildRays_; } ///< of rows that were built whole
 
 private:
+    /// Of a block with a sender of a batch.
+    struct Link {
+        std::uint32_t sender; ///< index into those of the batch
+        std::uint32_t slot;   ///< of the block in the row, if none was opened since
+    };
     /// A batch of senders on its way: receivers are served block by block.
     struct Shot {
         std::vector<std::uint32_t> senders;
-        std::vector<std::vector<glm::dvec3>> light;        ///< what cells of each send [lm/m^2]
-        std::vector<std::uint8_t> fresh, build;            ///< first time; row is not there
-        bool dark = false;                                 ///< nothing is sent, only rows are built
-        std::vector<std::vector<std::uint32_t>> receivers; ///< indices into `senders`, a block each
-        std::size_t next = 0;                              ///< block: those before it are served
+        std::vector<std::vector<glm::dvec3>> light; ///< what cells of each send [lm/m^2]
+        std::vector<std::uint8_t> fresh, build;     ///< first time; row is not there
+        bool dark = false;                          ///< nothing is sent, only rows are built
+        std::vector<std::vector<Link>> receivers;   ///< a block each
+        std::size_t next = 0;                       ///< block: those before it are served
         std::size_t bytes = 0;
     };
     /// A batch of senders of which it is being found out, a piece at a time, whom they serve.
     struct Listing {
         std::vector<std::uint32_t> senders;
         bool dark = false;
-        std::size_t next = 0;                              ///< index into `senders`
-        std::vector<std::vector<std::uint32_t>> linked;    ///< to senders without a row, one each
-        std::vector<std::vector<std::uint32_t>> receivers; ///< as of Shot
+        std::size_t next = 0;                           ///< index into `senders`
+        std::vector<std::vector<std::uint32_t>> linked; ///< to senders without a row, one each
+        std::vector<std::vector<Link>> receivers;       ///< as of Shot
     };
     /// Who blocks what of the rows that a shot builds, and whose walls hide blocks of them.
     struct ShotNotes {
@@ -171,6 +176,9 @@ private:
     void serve(std::size_t effort);
     void serveBlock(std::uint32_t block, PatchRowBuilder& builder, std::size_t& bytes,
                     ShotNotes& notes);
+    void buildBlock(std::uint32_t s, std::uint32_t b, PatchRowBuilder& builder, RowBlock& block,
+                    std::size_t& bytes, ShotNotes& notes);
+    void serveLink(std::uint32_t i, std::uint32_t b, const RowBlock& block);
     void finishShot();
     void residualsChanged();
     void updateResiduals();
@@ -233,7 +241,7 @@ private:
     std::optional<std::size_t> rowRoom_; ///< what they may take, once the first is built
     std::unique_ptr<Listing> listing_;   ///< never at the same time as shot_
     std::unique_ptr<Shot> shot_;
-    std::vector<std::vector<std::uint32_t>> lists_; ///< empty: a shot's, kept for their memory
+    std::vector<std::vector<Link>> lists_; ///< empty: a shot's, kept for their memory
     std::vector<PatchRowBuilder> builders_;
     RayCount buildRays_;
     std::uint64_t shots_ = 0, served_ = 0;

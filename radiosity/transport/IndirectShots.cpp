@@ -13,6 +13,7 @@
 #include "importance/HighestPriorities.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace penumbra {
@@ -81,15 +82,18 @@ void IndirectLight::list(std::size_t effort) {
     for (std::size_t cost = 0; cost < effort && listing.next < listing.senders.size();) {
         const auto i = std::uint32_t(listing.next++);
         const std::uint32_t s = listing.senders[i];
-        const auto toServe = [&](std::uint32_t block) { listing.receivers[block].push_back(i); };
+        const auto toServe = [&](std::uint32_t block, std::size_t slot) {
+            listing.receivers[block].push_back({i, std::uint32_t(slot)});
+        };
         if (kept_[s]) {
             const Row& row = table_[s];
-            for (std::size_t b = 0; b < row.size(); ++b) toServe(row.blockAt(b));
+            for (std::size_t slot = 0; slot < row.size(); ++slot) toServe(row.blockAt(slot), slot);
             cost += 1 + row.size() / kBlocksARay;
             continue;
         }
         listing.linked[i] = senders_.linkedBlocks(s, linkBoxes_);
-        for (std::uint32_t b : listing.linked[i]) toServe(b);
+        const std::vector<std::uint32_t>& linked = listing.linked[i];
+        for (std::size_t slot = 0; slot < linked.size(); ++slot) toServe(linked[slot], slot);
         cost += kFind;
     }
     if (listing.next < listing.senders.size()) return;
@@ -148,8 +152,8 @@ void IndirectLight::serve(std::size_t effort) {
     for (std::size_t sum = 0, pairs = 0; last < shot.receivers.size() && sum < effort; ++last) {
         if (pairs >= kGrain) cuts.push_back(last), pairs = 0;
         pairs += shot.receivers[last].size();
-        for (std::uint32_t i : shot.receivers[last])
-            sum += shot.build[i] ? cost::kBuild : cost::kServe;
+        for (const Link link : shot.receivers[last])
+            sum += shot.build[link.sender] ? cost::kBuild : cost::kServe;
     }
     cuts.push_back(last);
     const std::size_t tasks = cuts.size() - 1;
@@ -176,28 +180,45 @@ void IndirectLight::serve(std::size_t effort) {
 
 void IndirectLight::serveBlock(std::uint32_t b, PatchRowBuilder& builder, std::size_t& bytes,
                                ShotNotes& notes) {
-    const Shot& shot = *shot_;
-    for (const std::uint32_t i : shot.receivers[b]) {
-        const std::uint32_t s = shot.senders[i];
-        RowBlock passing;
-        RowBlock& block = kept_[s] ? table_[s][b] : passing;
-        if (shot.build[i]) {
-            ReceiverBlock receivers = receiversOf(s, b);
-            const ObjectId by = receivers.wanted != 0 ? hiddenBy(s, b) : ObjectId();
-            if (by.valid()) receivers.wanted = 0;
-            builder.build(senders_.sender(s), receivers, block);
-            if (kept_[s]) {
-                bytes += block.bytes();
-                RowTable::listBlockers(s, b, block, notes.blockers);
-                if (by.valid()) notes.occluders.push_back({s, b, by.value});
-            }
+    constexpr std::size_t kAhead = 16; // so many are fetched at a time
+    const std::vector<Link>& links = shot_->receivers[b];
+    for (std::size_t first = 0; first < links.size(); first += kAhead) {
+        const auto some =
+            std::span(links).subspan(first).first(std::min(kAhead, links.size() - first));
+        std::array<RowBlock, kAhead> passing;
+        std::array<RowBlock*, kAhead> blocks;
+        for (std::size_t k = 0; k < some.size(); ++k) {
+            const std::uint32_t s = shot_->senders[some[k].sender];
+            blocks[k] = kept_[s] ? &table_[s].at(b, some[k].slot) : &passing[k];
         }
-        const bool fresh = shot.fresh[i];
-        forEachReceived(block, shot.light[i], [&](int r, float factor, glm::dvec3 light) {
-            nodes_[b * kBlock + std::size_t(r)] += light;
-            if (fresh) rowSums_[b * kBlock + std::size_t(r)] += factor;
-        });
+        for (std::size_t k = 0; k < some.size(); ++k) blocks[k]->prefetch();
+        for (std::size_t k = 0; k < some.size(); ++k) {
+            if (shot_->build[some[k].sender])
+                buildBlock(shot_->senders[some[k].sender], b, builder, *blocks[k], bytes, notes);
+            serveLink(some[k].sender, b, *blocks[k]);
+        }
     }
+}
+
+void IndirectLight::buildBlock(std::uint32_t s, std::uint32_t b, PatchRowBuilder& builder,
+                               RowBlock& block, std::size_t& bytes, ShotNotes& notes) {
+    ReceiverBlock receivers = receiversOf(s, b);
+    const ObjectId by = receivers.wanted != 0 ? hiddenBy(s, b) : ObjectId();
+    if (by.valid()) receivers.wanted = 0;
+    builder.build(senders_.sender(s), receivers, block);
+    if (!kept_[s]) return;
+    bytes += block.bytes();
+    RowTable::listBlockers(s, b, block, notes.blockers);
+    if (by.valid()) notes.occluders.push_back({s, b, by.value});
+}
+
+/// \param i index into the senders of the batch
+void IndirectLight::serveLink(std::uint32_t i, std::uint32_t b, const RowBlock& block) {
+    const bool fresh = shot_->fresh[i];
+    forEachReceived(block, shot_->light[i], [&](int r, float factor, glm::dvec3 light) {
+        nodes_[b * kBlock + std::size_t(r)] += light;
+        if (fresh) rowSums_[b * kBlock + std::size_t(r)] += factor;
+    });
 }
 
 void IndirectLight::finishShot() {
@@ -212,7 +233,7 @@ void IndirectLight::finishShot() {
     rowBytes_ += shot_->bytes;
     if (!shot_->dark) shots_ += shot_->senders.size();
     lists_ = std::move(shot_->receivers);
-    for (std::vector<std::uint32_t>& list : lists_) list.clear();
+    for (std::vector<Link>& list : lists_) list.clear();
     shot_.reset();
     residualsChanged();
 }

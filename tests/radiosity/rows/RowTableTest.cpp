@@ -23,8 +23,9 @@ protected:
         for (std::size_t row = 0; row < 2; ++row) table[row].resize(10);
     }
     std::vector<BlockMask> concerned(const PendingChange& change, std::size_t row = 0,
-                                     RowTable::Blocks blocks = {}) const {
-        return table.concerned(row, kSender, kSenderObject, change, blocks);
+                                     RowTable::Blocks blocks = {},
+                                     const RowTable::Hiding& hidden = {}) const {
+        return table.concerned(row, kSender, kSenderObject, change, blocks, hidden);
     }
     RowTable table;
 };
@@ -72,6 +73,14 @@ TEST_F(RowTableOfTenBlocks, ARunOfBlocksFindsWhatAllOfThemFindThere) {
 TEST_F(RowTableOfTenBlocks, WhatIsNowHiddenThrowsNoNewShadow) {
     const PendingChange hidden{{{3, false, {{0.2f, 0.2f, 2.5f}, {0.8f, 0.8f, 2.6f}}}}, {}};
     EXPECT_THAT(concerned(hidden), IsEmpty());
+}
+
+TEST_F(RowTableOfTenBlocks, WhatOthersHideFromTheSenderThrowsNoNewShadow) {
+    const PendingChange here{{{3, true, {{0.2f, 0.2f, 2.5f}, {0.8f, 0.8f, 2.6f}}}}, {}};
+    EXPECT_THAT(concerned(here, 0, {}, [](const Bounds&) { return ObjectId{5}; }), IsEmpty());
+    // Its own face stands before its box: what it hides is in its new shadow.
+    EXPECT_THAT(concerned(here, 0, {}, [](const Bounds&) { return ObjectId{3}; }),
+                ElementsAre(is(0, 0), is(1, 0)));
 }
 
 TEST_F(RowTableOfTenBlocks, ReceiversThatLieElsewhereAreEvaluatedAnew) {
