@@ -195,6 +195,7 @@ private:
     }
     void reflect(std::uint32_t index, std::span<glm::dvec3> cells) const;
     void reflectDirect();
+    void averageClusters(std::vector<glm::dvec3>& cells) const;
     void reflectDirect(std::uint32_t index, std::span<glm::dvec3> cells) const;
     double owed(std::uint32_t sender) const;
     bool sends(std::uint32_t index) const;

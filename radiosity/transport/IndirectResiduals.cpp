@@ -179,6 +179,14 @@ struct Part {
 
 } // namespace
 
+/// Fills in what clusters send, from what their patches do.
+void IndirectLight::averageClusters(std::vector<glm::dvec3>& cells) const {
+    senders_.average(cells);
+    for (std::uint32_t s = senders_.patchCount(); s < senders_.count(); ++s)
+        std::ranges::copy(cellsOf(reflectedDirect_, s).first(kSenderCells),
+                          cellsOf(cells, s).begin());
+}
+
 void IndirectLight::updateResiduals() {
     residualsStale_ = false;
     constexpr std::size_t kGrain = 512;
@@ -212,10 +220,7 @@ void IndirectLight::updateResiduals() {
     });
     Part all;
     for (const Part& part : parts) all.add(part);
-    senders_.average(now);
-    for (std::uint32_t s = senders_.patchCount(); s < senders_.count(); ++s)
-        std::ranges::copy(cellsOf(reflectedDirect_, s).first(kSenderCells),
-                          cellsOf(now, s).begin());
+    averageClusters(now);
     for (std::size_t c = 0; c < now.size(); ++c) now[c] -= sent_[c];
     residuals_ = std::move(now);
     most_ = largest(residuals_);
