@@ -195,8 +195,8 @@ private:
     }
     void reflect(std::uint32_t index, std::span<glm::dvec3> cells) const;
     void reflectDirect();
-    void averageClusters(std::vector<glm::dvec3>& cells) const;
     void reflectDirect(std::uint32_t index, std::span<glm::dvec3> cells) const;
+    void averageClusters(std::vector<glm::dvec3>& cells) const;
     double owed(std::uint32_t sender) const;
     bool sends(std::uint32_t index) const;
     double dirtyOver(std::uint32_t index) const;

@@ -127,6 +127,7 @@ void IndirectLight::reflectDirect() {
     senders_.deviate(reflectedDirect_);
 }
 
+/// Of a patch. \param cells all 0
 void IndirectLight::reflectDirect(std::uint32_t index, std::span<glm::dvec3> cells) const {
     if (!sends(index)) return;
     const glm::dvec3 rho = toDouble(patchReflectance(set_, index));
@@ -136,6 +137,14 @@ void IndirectLight::reflectDirect(std::uint32_t index, std::span<glm::dvec3> cel
     }
     const auto direct = direct_.cells(index);
     for (std::size_t k = 0; k < cells.size(); ++k) cells[k] = rho * toDouble(direct[k]);
+}
+
+/// Fills in what clusters send, from what their patches do.
+void IndirectLight::averageClusters(std::vector<glm::dvec3>& cells) const {
+    senders_.average(cells);
+    for (std::uint32_t s = senders_.patchCount(); s < senders_.count(); ++s)
+        std::ranges::copy(cellsOf(reflectedDirect_, s).first(kSenderCells),
+                          cellsOf(cells, s).begin());
 }
 
 /// What dirty blocks may change in what arrives at any cell of a patch by other patches [lux].
@@ -178,14 +187,6 @@ struct Part {
 };
 
 } // namespace
-
-/// Fills in what clusters send, from what their patches do.
-void IndirectLight::averageClusters(std::vector<glm::dvec3>& cells) const {
-    senders_.average(cells);
-    for (std::uint32_t s = senders_.patchCount(); s < senders_.count(); ++s)
-        std::ranges::copy(cellsOf(reflectedDirect_, s).first(kSenderCells),
-                          cellsOf(cells, s).begin());
-}
 
 void IndirectLight::updateResiduals() {
     residualsStale_ = false;
