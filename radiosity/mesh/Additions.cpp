@@ -39,7 +39,8 @@ public:
           patches_(takeFrom(to.patches.room.patches, from.patches.patches.size())),
           elements_(std::uint32_t(to.patches.elements.size())),
           corners_(std::uint32_t(to.patches.corners.size())),
-          run_(std::uint32_t(to.patches.patchElements.size())) {
+          run_(std::uint32_t(to.patches.patchElements.size())),
+          near_(std::uint32_t(to.patches.nearClusters.size())) {
         for (std::uint32_t m = 0; m < from.patches.materials.size(); ++m)
             materials_.push_back(materialIn(to, from, m));
     }
@@ -60,6 +61,7 @@ public:
     Patch operator()(Patch patch) const {
         patch.firstCorner += corners_;
         patch.firstElement += run_;
+        patch.firstNear += near_;
         patch.centreNode = node(patch.centreNode);
         patch.cornerNodes = nodes(patch);
         patch.material = materials_[patch.material];
@@ -101,7 +103,7 @@ private:
         return std::uint32_t(materials.size() - 1);
     }
 
-    std::uint32_t objects_, vertices_, nodes_, patches_, elements_, corners_, run_;
+    std::uint32_t objects_, vertices_, nodes_, patches_, elements_, corners_, run_, near_;
     std::vector<std::uint32_t> materials_;
 };
 
@@ -110,9 +112,13 @@ void addVertices(PatchSet& to, PatchSet& from, const Renumbering& now) {
     for (std::uint32_t v = 0; v < from.vertices.size(); ++v) {
         PatchCoordinate at = from.vertexCoordinates[v];
         at.patch = now.patch(at.patch);
+        if (at.blend != kNone) at.blend += std::uint32_t(to.blends.size());
         to.vertexCoordinates[now.vertex(v)] = at;
         to.parts.vertexNode[now.vertex(v)] = now.node(from.parts.vertexNode[v]);
     }
+    for (NodeBlend& blend : from.blends)
+        for (std::uint32_t& patch : blend.patches) patch = now.patch(patch);
+    append(to.blends, from.blends);
     for (std::uint32_t b = 0; b < from.vertexBlockObject.size(); ++b)
         to.vertexBlockObject[now.vertex(0) / kBlock + b] = now.object(from.vertexBlockObject[b]);
 }
@@ -156,6 +162,7 @@ void addPatches(PatchSet& to, PatchSet& from, const Renumbering& now) {
         to.parts.cornerNodes[now.patch(p)] = now.nodes(from.patches[p]);
     }
     append(to.corners, from.corners);
+    for (const std::uint32_t p : from.nearClusters) to.nearClusters.push_back(now.patch(p));
     for (const std::uint32_t e : from.patchElements) to.patchElements.push_back(now.element(e));
 }
 

@@ -1,4 +1,4 @@
-// What is known at a patch's nodes, in between.
+// What is known at the nodes of patches, in between.
 #pragma once
 
 #include "radiosity/mesh/PatchSet.h"
@@ -24,10 +24,29 @@ Value interpolate(const Patch& patch, float s, float t, const ValueAt& valueAt) 
     return value;
 }
 
+/// Value at a vertex: in its patch or, on a dense mesh, between the middles of the patches around
+/// it, as far as these are not covered. \pre it lies in a patch
+template <class Value, class ValueAt>
+Value interpolate(const PatchSet& set, const PatchCoordinate& at, const ValueAt& valueAt) {
+    const Patch& patch = set.patches[at.patch];
+    if (at.blend == PatchCoordinate::kNone) return interpolate<Value>(patch, at.s, at.t, valueAt);
+    const NodeBlend& blend = set.blends[at.blend];
+    Value sum = 0.0 * valueAt(patch.centreNode);
+    double weights = 0;
+    for (std::size_t k = 0; k < blend.patches.size() && blend.weights[k] > 0; ++k) {
+        const std::uint32_t p = blend.patches[k];
+        if (!set.parts.used.empty() && !set.parts.used[p]) continue;
+        sum = sum + double(blend.weights[k]) * valueAt(set.patches[p].centreNode);
+        weights += double(blend.weights[k]);
+    }
+    return weights > 0 ? (1 / weights) * sum : valueAt(patch.centreNode);
+}
+
 /// The same from a list. \param nodeValues one value a node of the PatchSet
 template <class Value>
-Value interpolateNodes(const Patch& patch, float s, float t, std::span<const Value> nodeValues) {
-    return interpolate<Value>(patch, s, t, [&](std::uint32_t n) { return nodeValues[n]; });
+Value interpolateNodes(const PatchSet& set, const PatchCoordinate& at,
+                       std::span<const Value> nodeValues) {
+    return interpolate<Value>(set, at, [&](std::uint32_t n) { return nodeValues[n]; });
 }
 
 } // namespace penumbra

@@ -269,7 +269,12 @@ PatchCoordinate Parting::placeIn(std::uint32_t whole, std::uint32_t element,
                                  std::size_t corner) const {
     const glm::vec2 st = glm::clamp(set_.parts.elementCoordinates[element][corner], 0.0f, 1.0f);
     const std::uint32_t patch = set_.elements[element].patch;
-    if (patch == whole) return {whole, st.x, st.y};
+    if (patch == whole) {
+        const std::uint32_t shared = set_.uncoveredElements[element].vertices[corner];
+        const bool blends = set_.patches[whole].cluster;
+        return {whole, st.x, st.y,
+                blends ? set_.parts.vertexCoordinates[shared].blend : PatchCoordinate::kNone};
+    }
     const PatchRectangle& spans = spans_[patch - set_.parts.firstPatch];
     const glm::vec2 size = glm::max(spans.high - spans.low, glm::vec2(1e-6f));
     const glm::vec2 in = glm::clamp((st - spans.low) / size, 0.0f, 1.0f);

@@ -2,10 +2,16 @@
 
 #include "radiosity/mesh/Contact.h"
 #include "radiosity/mesh/LightShapes.h"
+#include "radiosity/mesh/NodeBlends.h"
 #include "radiosity/mesh/PatchGeometry.h"
+#include "radiosity/surface/FaceGroups.h"
 
 #include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
 #include <unordered_map>
+#include <utility>
 
 namespace penumbra {
 
@@ -105,9 +111,13 @@ void PatchAssembly::addRays(const SurfaceMesh& mesh, const Tessellation& tessell
 void PatchAssembly::addSheet(const SurfaceMesh& mesh, const Tessellation& tessellation,
                              ObjectId object, bool back) {
     const auto firstCell = std::uint32_t(cells_.size());
+    std::vector<std::uint32_t> cellsOfFace(mesh.faces.size());
+    for (const Cell& cell : tessellation.cells) ++cellsOfFace[cell.face];
     for (const Cell& cell : tessellation.cells) {
         SheetCell sheet;
+        sheet.back = back;
         sheet.whole = cell.whole;
+        sheet.alone = cellsOfFace[cell.face] == 1;
         sheet.smooth = tessellation.smooth;
         sheet.object = object;
         const SurfaceFace& face = mesh.faces[cell.face];
@@ -160,24 +170,22 @@ void PatchAssembly::addElements(const Tessellation& tessellation, std::uint32_t 
 
 void PatchAssembly::finish() {
     pullReceiversIn(out_.skin, out_.elements, out_.vertices);
-    const std::vector<std::uint32_t> order = cellsInOrder();
-    std::vector<std::vector<std::uint32_t>> cellElements(cells_.size());
-    for (std::uint32_t e = 0; e < elementCell_.size(); ++e)
-        cellElements[elementCell_[e]].push_back(e);
-    orderVertices(cellElements, order);
+    const std::vector<Group> order = groupsInOrder();
+    std::vector<std::vector<std::uint32_t>> elements = elementsOf(order);
+    orderElements(order, elements);
+    orderVertices(elements, order);
     out_.covered.assign(out_.elements.size(), 0);
     out_.vertexCoordinates.assign(out_.vertices.size(), {});
     out_.parts.vertexNode.assign(out_.vertices.size(), kNone);
 
     for (std::size_t i = 0; i < order.size();) {
-        const ObjectId object = cells_[order[i]].object;
+        const ObjectId object = cells_[order[i][0]].object;
         ObjectPart& part = out_.objects[object.value];
         part.patches.first = std::uint32_t(out_.patches.size());
         part.nodes.first = std::uint32_t(out_.nodes.size());
         part.corners.first = std::uint32_t(out_.corners.size());
-        for (; i < order.size() && cells_[order[i]].object == object; ++i)
-            if (!cellElements[order[i]].empty())
-                makePatch(cells_[order[i]], cellElements[order[i]]);
+        for (; i < order.size() && cells_[order[i][0]].object == object; ++i)
+            if (!elements[i].empty()) makePatch(order[i], elements[i]);
         part.patches.count = std::uint32_t(out_.patches.size()) - part.patches.first;
         part.nodes.count = std::uint32_t(out_.nodes.size()) - part.nodes.first;
         part.corners.count = std::uint32_t(out_.corners.size()) - part.corners.first;
@@ -187,47 +195,120 @@ void PatchAssembly::finish() {
     out_.uncoveredNodes = out_.nodes;
     out_.uncoveredElements = out_.elements;
     out_.firstPrivate = std::uint32_t(out_.vertices.size());
+    blendNodes(out_);
     findTextureMeans(out_);
     placeObjects();
 }
 
+/// Each cell on its own, but for small faces of one side of an object.
+std::vector<PatchAssembly::Group> PatchAssembly::groupCells() const {
+    std::map<std::pair<ObjectId, bool>, std::vector<std::uint32_t>> sides;
+    for (std::uint32_t c = 0; c < cells_.size(); ++c)
+        if (cells_[c].alone && !cells_[c].smooth && !cells_[c].outline.empty())
+            sides[{cells_[c].object, cells_[c].back}].push_back(c);
+    std::vector<Group> groups;
+    std::vector<std::uint8_t> grouped(cells_.size());
+    for (const auto& [side, cells] : sides) {
+        std::vector<WholeFace> faces;
+        for (const std::uint32_t c : cells)
+            faces.push_back({cells_[c].outline, cells_[c].material});
+        for (Group& group : groupFaces(faces, out_.patchSize, out_.elementSize)) {
+            for (std::uint32_t& c : group) {
+                c = cells[c];
+                grouped[c] = 1;
+            }
+            groups.push_back(std::move(group));
+        }
+    }
+    for (std::uint32_t c = 0; c < cells_.size(); ++c)
+        if (!grouped[c] && !cells_[c].outline.empty()) groups.push_back({c});
+    return groups;
+}
+
 /// Object by object, within one along a space-filling curve: what is near in space shall be near
 /// in memory.
-std::vector<std::uint32_t> PatchAssembly::cellsInOrder() const {
+std::vector<PatchAssembly::Group> PatchAssembly::groupsInOrder() const {
+    std::vector<Group> groups = groupCells();
     std::vector<Bounds> bounds(out_.objects.size());
-    std::vector<glm::vec3> middle(cells_.size());
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-        if (cells_[c].outline.empty()) continue;
-        for (glm::vec3 point : cells_[c].outline)
-            middle[c] += point / float(cells_[c].outline.size());
-        bounds[cells_[c].object.value].add(middle[c]);
+    std::vector<glm::vec3> middle(groups.size());
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        for (const std::uint32_t c : groups[g]) {
+            glm::vec3 of(0);
+            for (glm::vec3 point : cells_[c].outline) of += point / float(cells_[c].outline.size());
+            middle[g] += of / float(groups[g].size());
+        }
+        bounds[cells_[groups[g][0]].object.value].add(middle[g]);
     }
-    std::vector<std::uint64_t> key(cells_.size());
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-        const Bounds& box = bounds[cells_[c].object.value];
-        key[c] = std::uint64_t(cells_[c].object.value) << 32 |
-                 mortonCode((middle[c] - box.lower) / glm::max(box.size(), glm::vec3(1e-20f)));
+    std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::size_t>> keys;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const std::uint32_t object = cells_[groups[g][0]].object.value;
+        const Bounds& box = bounds[object];
+        keys.emplace_back(
+            object, mortonCode((middle[g] - box.lower) / glm::max(box.size(), glm::vec3(1e-20f))),
+            groups[g][0], g);
     }
-    std::vector<std::uint32_t> order;
-    for (std::uint32_t c = 0; c < cells_.size(); ++c)
-        if (!cells_[c].outline.empty()) order.push_back(c);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return key[a] < key[b]; });
+    std::sort(keys.begin(), keys.end());
+    std::vector<Group> order;
+    for (const auto& key : keys) order.push_back(std::move(groups[std::get<3>(key)]));
     return order;
 }
 
+std::vector<std::vector<std::uint32_t>>
+PatchAssembly::elementsOf(const std::vector<Group>& groups) const {
+    std::vector<std::vector<std::uint32_t>> ofCell(cells_.size());
+    for (std::uint32_t e = 0; e < elementCell_.size(); ++e) ofCell[elementCell_[e]].push_back(e);
+    std::vector<std::vector<std::uint32_t>> elements(groups.size());
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        for (const std::uint32_t c : groups[g])
+            elements[g].insert(elements[g].end(), ofCell[c].begin(), ofCell[c].end());
+    return elements;
+}
+
+/// Puts the elements of objects with clusters in the order in which their groups have them: see
+/// Patch::cluster. Those of others stay as they are, whatever else there is.
+void PatchAssembly::orderElements(const std::vector<Group>& groups,
+                                  std::vector<std::vector<std::uint32_t>>& elements) {
+    std::vector<std::uint8_t> clustered(out_.objects.size());
+    for (const Group& group : groups)
+        clustered[cells_[group[0]].object.value] |= std::uint8_t(group.size() > 1);
+    std::vector<std::uint32_t> order(out_.elements.size()), next;
+    std::iota(order.begin(), order.end(), 0u);
+    for (const ObjectPart& part : out_.objects) next.push_back(part.elements.first);
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const ObjectId object = cells_[groups[g][0]].object;
+        if (!clustered[object.value]) continue;
+        for (std::uint32_t& e : elements[g]) {
+            const std::uint32_t now = next[object.value]++;
+            order[now] = e;
+            e = now;
+        }
+    }
+    const auto arrange = [&](auto& items) {
+        if (items.empty()) return;
+        auto arranged = items;
+        for (std::size_t i = 0; i < order.size(); ++i) arranged[i] = items[order[i]];
+        items = std::move(arranged);
+    };
+    arrange(out_.elements);
+    arrange(out_.elementObject);
+    arrange(elementCell_);
+    arrange(out_.parts.elementCoordinates);
+    out_.textures.uvs.resize(out_.textures.uvs.empty() ? 0 : out_.elements.size());
+    arrange(out_.textures.uvs);
+}
+
 /// Puts the vertices into blocks: object by object, cell by cell.
-void PatchAssembly::orderVertices(const std::vector<std::vector<std::uint32_t>>& cellElements,
-                                  const std::vector<std::uint32_t>& order) {
+void PatchAssembly::orderVertices(const std::vector<std::vector<std::uint32_t>>& elements,
+                                  const std::vector<Group>& order) {
     std::vector<std::uint32_t> index(out_.vertices.size(), kNone);
     std::vector<Vertex> ordered;
     ordered.reserve(out_.vertices.size() + PatchSet::kBlock * out_.objects.size());
     for (std::size_t i = 0; i < order.size();) {
-        const ObjectId object = cells_[order[i]].object;
+        const ObjectId object = cells_[order[i][0]].object;
         Range& range = out_.objects[object.value].vertices;
         range.first = std::uint32_t(ordered.size());
-        for (; i < order.size() && cells_[order[i]].object == object; ++i)
-            for (std::uint32_t e : cellElements[order[i]])
+        for (; i < order.size() && cells_[order[i][0]].object == object; ++i)
+            for (std::uint32_t e : elements[i])
                 for (std::uint32_t& v : out_.elements[e].vertices) {
                     if (index[v] == kNone) {
                         index[v] = std::uint32_t(ordered.size());
@@ -260,13 +341,15 @@ void PatchAssembly::placeObjects() {
     }
 }
 
-/// A cell becomes a patch, if it has any area. It is the cell as it is when nothing is near:
-/// Parting sees to what parts it.
-void PatchAssembly::makePatch(const SheetCell& cell, const std::vector<std::uint32_t>& elements) {
+/// Cells become a patch, if they have any area. It is as it is when nothing is near: Parting sees
+/// to what parts it.
+void PatchAssembly::makePatch(const Group& group, const std::vector<std::uint32_t>& elements) {
+    const SheetCell& cell = cells_[group[0]];
     Patch patch;
     patch.material = cell.material;
     patch.object = cell.object;
-    patch.divisible = !cell.whole && cell.outline.size() == 4;
+    patch.cluster = group.size() > 1;
+    patch.divisible = !patch.cluster && !cell.whole && cell.outline.size() == 4;
     patch.smooth = cell.smooth;
     const bool any = measurePatch(out_, elements, patch);
     const auto index = any ? std::uint32_t(out_.patches.size()) : kNone;
@@ -277,11 +360,36 @@ void PatchAssembly::makePatch(const SheetCell& cell, const std::vector<std::uint
     patch.elementCount = std::uint32_t(elements.size());
     out_.patchElements.insert(out_.patchElements.end(), elements.begin(), elements.end());
     patch.firstCorner = std::uint32_t(out_.corners.size());
-    patch.cornerCount = std::uint32_t(cell.outline.size());
-    out_.corners.insert(out_.corners.end(), cell.outline.begin(), cell.outline.end());
+    if (patch.cluster)
+        makeCluster(group, elements, patch);
+    else
+        out_.corners.insert(out_.corners.end(), cell.outline.begin(), cell.outline.end());
+    patch.cornerCount = std::uint32_t(out_.corners.size()) - patch.firstCorner;
     placeNodes(patch, cell, elements);
     placeVertices(index, elements);
     out_.patches.push_back(patch);
+}
+
+/// A box as outline; and coordinates of which the middle is where the cluster's centre is nearest.
+void PatchAssembly::makeCluster(const Group& group, const std::vector<std::uint32_t>& elements,
+                                Patch& patch) {
+    Bounds box;
+    float farthest = 0;
+    for (const std::uint32_t c : group)
+        for (const glm::vec3 point : cells_[c].outline) {
+            box.add(point);
+            farthest = std::max(farthest, glm::distance(point, patch.centre));
+        }
+    for (int k = 0; k < 8; ++k)
+        out_.corners.emplace_back(k & 1 ? box.upper.x : box.lower.x,
+                                  k & 2 ? box.upper.y : box.lower.y,
+                                  k & 4 ? box.upper.z : box.lower.z);
+    for (const std::uint32_t e : elements)
+        for (std::size_t k = 0; k < 4; ++k) {
+            const glm::vec3 at = out_.vertices[out_.elements[e].vertices[k]].position;
+            const float away = glm::distance(at, patch.centre) / std::max(farthest, 1e-20f);
+            out_.parts.elementCoordinates[e][k] = {0.5f + 0.5f * std::min(away, 1.0f), 0.5f};
+        }
 }
 
 /// Tells the vertices of a patch that no other patch has where they lie in it.
@@ -302,7 +410,7 @@ void PatchAssembly::placeNodes(Patch& patch, const SheetCell& cell,
     const NodePlaces places = findNodePlaces(out_, patch, elements, {glm::vec2(0), glm::vec2(1)});
     patch.centreNode = std::uint32_t(out_.nodes.size());
     out_.nodes.push_back(places.centre);
-    patch.hasCornerNodes = !cell.whole && !places.small;
+    patch.hasCornerNodes = !cell.whole && !places.small && !patch.cluster;
     if (patch.hasCornerNodes)
         for (std::size_t c = 0; c < 4; ++c) patch.cornerNodes[c] = nodeOfVertex(places.vertices[c]);
     out_.parts.cornerNodes.push_back(patch.cornerNodes);

@@ -41,20 +41,29 @@ private:
         std::uint32_t material = 0;
         ObjectId object;
         bool present = false; ///< the surface has this side here
+        bool back = false;
         bool whole = false;
+        bool alone = false;  ///< its face has no other cell
         bool smooth = false; ///< of a subdivision surface
     };
+    /// Cells that become a patch together; a cluster if there are more than one.
+    using Group = std::vector<std::uint32_t>;
     void addSheet(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object,
                   bool back);
     void addElements(const Tessellation& tessellation, std::uint32_t firstCell, ObjectId object,
                      bool back, bool textured);
     void addRays(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object);
     std::uint32_t materialIndex(const Material& material, bool emits);
-    std::vector<std::uint32_t> cellsInOrder() const;
-    void orderVertices(const std::vector<std::vector<std::uint32_t>>& cellElements,
-                       const std::vector<std::uint32_t>& order);
+    std::vector<Group> groupCells() const;
+    std::vector<Group> groupsInOrder() const;
+    std::vector<std::vector<std::uint32_t>> elementsOf(const std::vector<Group>& groups) const;
+    void orderElements(const std::vector<Group>& groups,
+                       std::vector<std::vector<std::uint32_t>>& elements);
+    void orderVertices(const std::vector<std::vector<std::uint32_t>>& elements,
+                       const std::vector<Group>& order);
     void placeObjects();
-    void makePatch(const SheetCell& cell, const std::vector<std::uint32_t>& elements);
+    void makePatch(const Group& group, const std::vector<std::uint32_t>& elements);
+    void makeCluster(const Group& group, const std::vector<std::uint32_t>& elements, Patch& patch);
     void placeVertices(std::uint32_t index, const std::vector<std::uint32_t>& elements);
     void placeNodes(Patch& patch, const SheetCell& cell,
                     const std::vector<std::uint32_t>& elements);

@@ -38,8 +38,17 @@ struct Vertex {
 
 /// Where a vertex lies in its patch, for interpolating what is known at the patch's nodes.
 struct PatchCoordinate {
-    std::uint32_t patch = 0xffffffffu; ///< this value: in none, covered all round
-    float s = 0, t = 0;                ///< in [0, 1]
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+
+    std::uint32_t patch = kNone; ///< kNone: in none, covered all round
+    float s = 0, t = 0;          ///< in [0, 1]
+    std::uint32_t blend = kNone; ///< of PatchSet::blends; kNone: the patch's own nodes are enough
+};
+
+/// A mean over the middle nodes of patches that lie around a vertex of a dense mesh.
+struct NodeBlend {
+    std::array<std::uint32_t, 4> patches{};
+    std::array<float, 4> weights{}; ///< at least 0; those that are 0 come last
 };
 
 /// A fine cell: a quadrilateral, or a triangle when the last two corners are the same.
@@ -52,9 +61,11 @@ struct Element {
     bool isTriangle() const { return vertices[2] == vertices[3]; }
 };
 
-/// A coarse cell that sends light, one-sided.
+/// A coarse cell that sends light, one-sided: a face or a part of one, or a cluster of small faces
+/// that lie together and look about the same way.
 struct Patch {
-    std::uint32_t firstCorner = 0; ///< its outline: PatchSet::corners[first ... first + count)
+    /// Its outline: PatchSet::corners[first ... first + count). Of a cluster a box around it.
+    std::uint32_t firstCorner = 0;
     std::uint32_t cornerCount = 0;
     std::uint32_t firstElement =
         0; ///< its elements: PatchSet::patchElements[first ... first + count)
@@ -62,8 +73,11 @@ struct Patch {
     std::array<std::uint32_t, 4> cornerNodes{}; ///< nodes at its four corners, if hasCornerNodes
     std::uint32_t centreNode = 0;
     bool hasCornerNodes = false;
-    bool divisible = false; ///< a quadrilateral with coordinates: contacts may part it
-    bool smooth = false;    ///< of a subdivision surface
+    bool divisible = false;      ///< a quadrilateral with coordinates: contacts may part it
+    bool smooth = false;         ///< of a subdivision surface
+    bool cluster = false;        ///< its elements come in an order in which near ones are near
+    std::uint32_t firstNear = 0; ///< clusters that it touches: of PatchSet::nearClusters
+    std::uint32_t nearCount = 0;
     glm::vec3 centre{};
     glm::vec3 normal{}; ///< unit, area-weighted mean
     float area = 0;     ///< of its elements [m^2]
@@ -184,6 +198,8 @@ struct PatchSet {
 
     std::vector<Vertex> vertices;
     std::vector<PatchCoordinate> vertexCoordinates; ///< one a vertex
+    std::vector<NodeBlend> blends;                  ///< of vertices of clusters
+    std::vector<std::uint32_t> nearClusters;        ///< patches; each is near to those near to it
     std::vector<ObjectId> vertexBlockObject;        ///< one a block of vertices
     std::vector<ObjectId> nodeBlockObject;          ///< one a block of nodes
     std::vector<Element> elements;
@@ -233,6 +249,10 @@ struct PatchSet {
         const auto parted = parts.of.find(whole);
         if (parted == parts.of.end()) return visit(whole);
         for (const std::uint32_t part : parted->second) visit(part);
+    }
+    /// The clusters that one touches, some of whose vertices blend with it.
+    std::span<const std::uint32_t> clustersNear(const Patch& patch) const {
+        return std::span(nearClusters).subspan(patch.firstNear, patch.nearCount);
     }
     /// The patch of the mesh that a patch is, or is a part of.
     std::uint32_t wholeOf(std::uint32_t patch) const {

@@ -196,9 +196,9 @@ Sampled Sampler::vertices() {
         };
         for (std::uint32_t v = first; v < first + kRun; ++v) {
             if (!there(v)) continue;
-            const auto [patch, s, t] = set_.vertexCoordinates[v];
-            expected[v - first] = interpolate<double>(
-                set_.patches[patch], s, t, [&](std::uint32_t n) { return openness(n, others); });
+            expected[v - first] =
+                interpolate<double>(set_, set_.vertexCoordinates[v],
+                                    [&](std::uint32_t n) { return openness(n, others); });
         }
         const double start = processorSeconds();
         for (std::uint32_t v = first; v < first + kRun; ++v)

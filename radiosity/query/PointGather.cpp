@@ -61,6 +61,7 @@ PointGather::PointGather(const PatchSet& patches, const RayScene& rays, const Li
         const Patch& patch = patches.patches[p];
         if (!patches.sends(p)) continue;
         samplePatch(patches, patch, patchSamples_.data() + p * kPatchSamples);
+        if (patch.cluster) clusterParts_.emplace(p, partsOf(patches, patch).parts);
         for (std::uint32_t i = 0; i < patch.cornerCount; ++i)
             patchRadius_[p] =
                 std::max(patchRadius_[p],
@@ -105,8 +106,10 @@ float PointGather::patchVisibility(std::uint32_t index, const Receiver& receiver
         const glm::vec3 target = patchSamples_[index * kPatchSamples + std::size_t(i)];
         const glm::vec3 d = target - receiver.position;
         const float d2 = glm::dot(d, d);
-        weight[std::size_t(i)] = std::max(0.0f, glm::dot(receiver.normal, d)) *
-                                 std::max(0.0f, -glm::dot(patch.normal, d)) / (d2 * d2);
+        weight[std::size_t(i)] =
+            patch.cluster ? partFormFactor(receiver, clusterParts_.at(index)[std::size_t(i)])
+                          : std::max(0.0f, glm::dot(receiver.normal, d)) *
+                                std::max(0.0f, -glm::dot(patch.normal, d)) / (d2 * d2);
         if (weight[std::size_t(i)] > 0) rays.set(i, receiver.position, target);
     }
     rays_.occluded(rays);
@@ -117,6 +120,20 @@ float PointGather::patchVisibility(std::uint32_t index, const Receiver& receiver
         if (rays.blocker[i] == ObjectId::kNone) seen += weight[std::size_t(i)];
     }
     return total > 0 ? seen / total : 0.0f;
+}
+
+/// Form factor of all of a patch, unoccluded.
+float PointGather::patchFactor(std::uint32_t index, const Receiver& receiver) const {
+    const Patch& patch = patches_.patches[index];
+    if (patch.cluster) {
+        float sum = 0;
+        for (const SenderPart& part : clusterParts_.at(index))
+            sum += partFormFactor(receiver, part);
+        return sum;
+    }
+    if (glm::dot(patch.normal, receiver.position - patch.centre) <= 0) return 0;
+    const auto outline = std::span(patches_.corners).subspan(patch.firstCorner, patch.cornerCount);
+    return polygonFormFactor(receiver.position, receiver.normal, outline);
 }
 
 bool PointGather::somethingNear(const Receiver& receiver) const {
@@ -180,10 +197,7 @@ Rgb PointGather::indirectByForm(const Receiver& receiver) const {
         if (glm::dot(receiver.normal, away) >= patchRadius_[p]) continue;
         const bool near = glm::dot(away, away) < kNear * kNear * patchRadius_[p] * patchRadius_[p];
         if (!near) {
-            if (glm::dot(patch.normal, away) <= 0) continue;
-            const auto outline =
-                std::span(patches_.corners).subspan(patch.firstCorner, patch.cornerCount);
-            const float factor = polygonFormFactor(receiver.position, receiver.normal, outline);
+            const float factor = patchFactor(p, receiver);
             const float visible = factor > 0 ? patchVisibility(p, receiver) : 0;
             // What is in half shadow itself often has another light where it is seen than
             // elsewhere.

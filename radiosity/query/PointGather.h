@@ -5,10 +5,12 @@
 #include "radiosity/mesh/DrawnSurface.h"
 #include "radiosity/mesh/PatchSet.h"
 #include "radiosity/rays/RayScene.h"
+#include "radiosity/rows/ClusterParts.h"
 #include "radiosity/rows/EmitterSender.h"
 #include "radiosity/rows/HemisphereRays.h"
 #include "radiosity/transport/Solver.h"
 
+#include <unordered_map>
 #include <vector>
 
 namespace penumbra {
@@ -26,6 +28,7 @@ public:
     Rgb indirect(const Receiver& receiver) const; ///< [lux]
 
 private:
+    float patchFactor(std::uint32_t index, const Receiver& receiver) const;
     float patchVisibility(std::uint32_t index, const Receiver& receiver) const;
     bool somethingNear(const Receiver& receiver) const;
     Rgb indirectByForm(const Receiver& receiver) const;
@@ -44,6 +47,7 @@ private:
     std::vector<Rgb> patchRadiosity_;
     std::vector<float> patchRadius_;
     std::vector<glm::vec3> patchSamples_;
+    std::unordered_map<std::uint32_t, std::array<SenderPart, kPatchSamples>> clusterParts_;
 };
 
 } // namespace penumbra

@@ -37,7 +37,8 @@ struct PartKernels {
         : count(std::uint32_t(sender.parts.size())) {
         for (std::uint32_t k = 0; k < count; ++k) {
             const SenderPart& piece = sender.parts[k];
-            part[k] = piece.area * kernel(receiver, piece.centre, piece.normal);
+            part[k] = sender.patch ? partFormFactor(receiver, piece)
+                                   : piece.area * kernel(receiver, piece.centre, piece.normal);
             total += part[k];
         }
     }
@@ -93,8 +94,8 @@ float patchFormFactor(const PatchSender& sender, const Receiver& receiver) {
 
 /// Begins an entry with its unoccluded form factor; false if there is none.
 bool open(const PatchSender& sender, const Receiver& receiver, RowBlock::Draft& draft) {
-    const float factor =
-        sender.patch ? patchFormFactor(sender, receiver) : PartKernels(sender, receiver).total;
+    const float factor = sender.isOfParts() ? PartKernels(sender, receiver).total
+                                            : patchFormFactor(sender, receiver);
     const bool any = factor > 1e-9f;
     draft.begin(any ? factor : 0);
     if (any) draft.sharing = sharingOf(sender);
@@ -105,7 +106,7 @@ bool open(const PatchSender& sender, const Receiver& receiver, RowBlock::Draft& 
 /// other.
 struct CellOfSample {
     CellOfSample(const PatchSender& sender, std::uint32_t sample) : within(sample) {
-        const auto count = std::uint32_t(sender.patch ? kPatchSamples : sender.parts.size());
+        const auto count = std::uint32_t(sender.isOfParts() ? sender.parts.size() : kPatchSamples);
         const auto begin = [&](std::uint32_t q) { return q * count / 4; };
         while (quarter < 3 && sample >= begin(quarter + 1)) ++quarter;
         within -= begin(quarter);
@@ -129,7 +130,7 @@ void PatchRowBuilder::listSamples(const PatchSender& sender, const ReceiverBlock
         total += weight;
         samples_.push_back({std::uint8_t(r), std::uint8_t(sample), weight, kNone});
     };
-    if (sender.patch) {
+    if (!sender.isOfParts()) {
         const std::uint32_t count = sampleCount(factor, kPatchSamples);
         for (std::uint32_t k = 0; k < count; ++k) {
             const std::uint32_t sample = count == kPatchSamples ? k

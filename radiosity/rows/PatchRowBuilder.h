@@ -3,6 +3,7 @@
 
 #include "radiosity/mesh/PatchSet.h"
 #include "radiosity/rays/RayScene.h"
+#include "radiosity/rows/ClusterParts.h"
 #include "radiosity/rows/MovedObject.h"
 #include "radiosity/rows/RayCount.h"
 #include "radiosity/rows/ReceiverBlock.h"
@@ -15,19 +16,14 @@
 
 namespace penumbra {
 
-/// A piece of a cluster as it is seen from far away.
-struct SenderPart {
-    glm::vec3 centre{}; ///< [m, world]
-    glm::vec3 normal{}; ///< mean, unit
-    float area = 0;     ///< as its mean normal sees it [m^2]
-};
-
 /// A patch, or a cluster of patches, made ready to send light to receivers.
 struct PatchSender {
-    const Patch* patch = nullptr; ///< null: a cluster
+    const Patch* patch = nullptr; ///< null: a cluster of patches
     bool cells = false; ///< of a patch: its cells, one around each sample, send unlike each other
-    std::span<const glm::vec3> outline; ///< of a patch
+    std::span<const glm::vec3> outline; ///< of a patch, but for a cluster of faces
     std::span<const SenderPart> parts;  ///< of a cluster, as many as it has samples
+
+    bool isOfParts() const { return !parts.empty(); }
     const glm::vec3* samples =
         nullptr;                 ///< points on the surface [m, world]; kPatchSamples of a patch
     const Bounds* box = nullptr; ///< around all of that [m, world]

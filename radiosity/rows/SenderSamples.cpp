@@ -3,6 +3,7 @@
 #include "base/Frame.h"
 #include "radiosity/mesh/LightShapes.h"
 #include "radiosity/rays/Margins.h"
+#include "radiosity/rows/ClusterParts.h"
 
 #include <algorithm>
 #include <array>
@@ -171,6 +172,10 @@ glm::vec2 cellMiddle(std::size_t index) {
 }
 
 void samplePatch(const PatchSet& set, const Patch& patch, glm::vec3* points) {
+    if (patch.cluster) {
+        std::ranges::copy(partsOf(set, patch).samples, points);
+        return;
+    }
     const auto corners = std::span(set.corners).subspan(patch.firstCorner, patch.cornerCount);
     const auto elements =
         std::span(set.patchElements).subspan(patch.firstElement, patch.elementCount);

@@ -31,7 +31,7 @@ struct EmitterSamples {
 EmitterSamples sampleEmitter(const Emitter& emitter, std::size_t count);
 
 /// kPatchSamples points on the elements of a patch, roundingAt() over them, in 4 x 4 strata: 4 * i
-/// ... 4 * i + 3 lie in the same quarter i of the patch.
+/// ... 4 * i + 3 lie in the same quarter i of the patch. Of a cluster those of its parts.
 inline constexpr std::size_t kPatchSamples = 16;
 void samplePatch(const PatchSet& set, const Patch& patch, glm::vec3* points);
 /// The middle of the cell that sample `index` of a patch is near, in the patch's coordinates:

@@ -154,11 +154,11 @@ void DetailGather::interpolateVertices(Sweep& sweep, std::size_t first, std::siz
     constexpr std::size_t kGroup = DetailHits::kGroup;
     for (std::size_t group = first; group < last; ++group) {
         for (std::size_t v = group * kGroup; v < (group + 1) * kGroup; ++v) {
-            const auto [patch, s, t] = patches_.vertexCoordinates[v];
+            const PatchCoordinate& at = patches_.vertexCoordinates[v];
             sweep.indirect[v] = Rgb();
-            if (patch == Element::kNone) continue;
-            sweep.indirect[v] = toRgb(
-                interpolateNodes<glm::dvec3>(patches_.patches[patch], s, t, sweep.nodeIndirect));
+            if (at.patch == Element::kNone) continue;
+            sweep.indirect[v] =
+                toRgb(interpolateNodes<glm::dvec3>(patches_, at, sweep.nodeIndirect));
         }
         for (const auto& gatherer : hits_.gatherers(group))
             if (gatherer.weighs()) sweep.indirect[gatherer.vertex] *= 1 - gatherer.shut;
@@ -226,11 +226,10 @@ glm::dvec3 DetailGather::gathered(const Sent& sent, std::span<const std::uint32_
 /// others.
 glm::dvec3 DetailGather::difference(const Sent& sent, std::span<const std::uint32_t> hits,
                                     const DetailHits::Gatherer& gatherer, glm::dvec3 known) const {
-    const auto [patch, s, t] = patches_.vertexCoordinates[gatherer.vertex];
-    const Patch& p = patches_.patches[patch];
+    const PatchCoordinate& at = patches_.vertexCoordinates[gatherer.vertex];
     const float most = kMostOfFar * luminance(toRgb(glm::max(known, 0.0)));
     return gathered(sent, hits, false, ~gatherer.near, most) -
-           interpolate<glm::dvec3>(p, s, t, [&](std::uint32_t n) {
+           interpolate<glm::dvec3>(patches_, at, [&](std::uint32_t n) {
                return gathered(sent, hits_.nodes().hits(n), false, ~hits_.nodes().near(n), most);
            });
 }
@@ -243,13 +242,12 @@ glm::dvec3 DetailGather::nodeValue(const Sent& sent, std::size_t node, glm::dvec
 Rgb DetailGather::received(const Sent& sent, std::size_t group,
                            const DetailHits::Gatherer& gatherer,
                            std::span<const glm::dvec3> nodeIndirect) const {
-    const auto [patch, s, t] = patches_.vertexCoordinates[gatherer.vertex];
-    const Patch& p = patches_.patches[patch];
+    const PatchCoordinate& at = patches_.vertexCoordinates[gatherer.vertex];
     const auto hits = hits_.hits(group, gatherer);
     glm::dvec3 light(0);
     if (gatherer.shut < 1) {
         light = interpolate<glm::dvec3>(
-            p, s, t, [&](std::uint32_t n) { return nodeValue(sent, n, nodeIndirect[n]); });
+            patches_, at, [&](std::uint32_t n) { return nodeValue(sent, n, nodeIndirect[n]); });
         if (gatherer.detail > 0)
             light += double(gatherer.detail) * difference(sent, hits, gatherer, light);
     }

@@ -68,7 +68,7 @@ void DetailHits::apply(const SceneChange& change, std::span<const NodeHits::Move
     }
     for (std::uint32_t v : change.vertices) dirty_.add(v / kGroup, 1u << v % kGroup);
     for (std::uint32_t p : change.patches) revisit(p, true);
-    for (std::uint32_t p : change.parted) revisit(p, false);
+    for (std::uint32_t p : change.parted) revisitLit(p);
 }
 
 void DetailHits::invalidate(const Bounds& region) {
@@ -90,6 +90,12 @@ void DetailHits::revisit(std::uint32_t index, bool slitsOnly) {
     }
 }
 
+/// The same of all vertices that its nodes light.
+void DetailHits::revisitLit(std::uint32_t index) {
+    revisit(index, false);
+    for (const std::uint32_t p : patches_.clustersNear(patches_.patches[index])) revisit(p, false);
+}
+
 /// The same for all patches of nodes that see more or less.
 void DetailHits::judgeChanged() {
     std::vector<std::uint32_t> patches;
@@ -99,7 +105,7 @@ void DetailHits::judgeChanged() {
     }
     std::sort(patches.begin(), patches.end());
     patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
-    for (const std::uint32_t p : patches) revisit(p, false);
+    for (const std::uint32_t p : patches) revisitLit(p);
 }
 
 double DetailHits::share() const {
@@ -131,12 +137,11 @@ GroupOutcome DetailHits::trace(std::uint32_t group) {
     Group& out = groups_[group] = {};
     for (std::uint32_t i = 0; i < kGroup; ++i) {
         const std::uint32_t v = group * kGroup + i;
-        const auto [patch, s, t] = patches_.vertexCoordinates[v];
-        if (patch == Element::kNone ||
+        const PatchCoordinate& at = patches_.vertexCoordinates[v];
+        if (at.patch == Element::kNone ||
             !nodes_.isThere(patches_.vertexBlockObject[v / PatchSet::kBlock]))
             continue;
-        const double expected =
-            interpolateNodes<double>(patches_.patches[patch], s, t, nodes_.openness());
+        const double expected = interpolateNodes<double>(patches_, at, nodes_.openness());
         follow(
             {v, patches_.vertices[v].receiver, expected, (dirty.anew >> i & 1) != 0, known, moved},
             out, outcome);

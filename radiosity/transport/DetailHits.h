@@ -99,6 +99,7 @@ private:
                     const std::vector<std::uint32_t>& elements);
     void resize();
     void revisit(std::uint32_t index, bool slitsOnly);
+    void revisitLit(std::uint32_t index);
     void judgeChanged();
     GroupOutcome trace(std::uint32_t group);
     bool anyAffected(std::uint32_t group, const DetailRays::Moved& moved) const;

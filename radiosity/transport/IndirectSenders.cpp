@@ -30,6 +30,7 @@ IndirectSenders::IndirectSenders(const PatchSet& set, bool clusters)
     const std::size_t patches = set.patches.size();
     boxes_.resize(patches), parents_.assign(patches, Clusters::kNone), areas_.resize(patches);
     keys_.resize(patches), objects_.resize(patches), samples_.resize(patches * kPatchSamples);
+    listFaceClusters({0, patchCount()});
     parallelFor(patches, 256, [&](std::size_t first, std::size_t last) {
         for (std::size_t p = first; p < last; ++p) placePatch(std::uint32_t(p));
     });
@@ -49,9 +50,19 @@ IndirectSenders::IndirectSenders(const PatchSet& set, bool clusters)
 
 void IndirectSenders::add(ObjectId object) {
     const Range patches = set_.objects[object.value].patches;
+    listFaceClusters(patches);
     for (std::uint32_t p = patches.first; p < patches.end(); ++p) placePatch(p);
     addObject(object);
     listChildren();
+}
+
+/// Makes room for the parts of those patches that are clusters of faces.
+void IndirectSenders::listFaceClusters(Range patches) {
+    faces_.resize(patchCount(), Clusters::kNone);
+    std::uint32_t count = std::uint32_t(faceParts_.size());
+    for (std::uint32_t p = patches.first; p < patches.end(); ++p)
+        if (set_.patches[p].cluster) faces_[p] = count++;
+    faceParts_.resize(count);
 }
 
 void IndirectSenders::addObject(ObjectId object) {
@@ -237,7 +248,13 @@ void IndirectSenders::placePatch(std::uint32_t p) {
     objects_[p] = patch.object;
     if (whole != p) parents_[p] = there ? parents_[whole] : Clusters::kNone;
     if (!there) return;
-    samplePatch(set_, patch, samples_.data() + p * kPatchSamples);
+    if (patch.cluster) {
+        const ClusterParts own = partsOf(set_, patch);
+        std::ranges::copy(own.samples, samples_.begin() + p * kPatchSamples);
+        faceParts_[faces_[p]] = own.parts;
+    } else {
+        samplePatch(set_, patch, samples_.data() + p * kPatchSamples);
+    }
     for (std::uint32_t c = 0; c < patch.cornerCount; ++c)
         boxes_[p].add(set_.corners[patch.firstCorner + c]);
     for (std::size_t k = 0; k < kPatchSamples; ++k) boxes_[p].add(samples_[p * kPatchSamples + k]);
@@ -292,7 +309,10 @@ PatchSender IndirectSenders::sender(std::uint32_t index) const {
         const Patch& patch = set_.patches[index];
         sender.patch = &patch;
         sender.cells = isUneven(index);
-        sender.outline = std::span(set_.corners).subspan(patch.firstCorner, patch.cornerCount);
+        if (patch.cluster)
+            sender.parts = faceParts_[faces_[index]];
+        else
+            sender.outline = std::span(set_.corners).subspan(patch.firstCorner, patch.cornerCount);
         return sender;
     }
     const Family& family = families_[objects_[index].value];

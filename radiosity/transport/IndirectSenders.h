@@ -84,6 +84,7 @@ private:
         Clusters clusters;
         std::uint32_t first = 0; ///< sender index of its first cluster
     };
+    void listFaceClusters(Range patches);
     void addObject(ObjectId object);
     void addFamily(std::span<const ClusterPatch> patches);
     void listChildren();
@@ -113,8 +114,10 @@ private:
         std::uint32_t patch = 0;
         std::uint8_t sample = 0;
     };
-    std::vector<Place> places_;     ///< kPatchSamples a cluster
-    std::vector<SenderPart> parts_; ///< kPatchSamples a cluster
+    std::vector<Place> places_;        ///< kPatchSamples a cluster
+    std::vector<SenderPart> parts_;    ///< kPatchSamples a cluster
+    std::vector<std::uint32_t> faces_; ///< of a patch that is a cluster of faces: of faceParts_
+    std::vector<std::array<SenderPart, kPatchSamples>> faceParts_;
     /// A share of the mean over a quarter of a cluster.
     struct Term {
         std::uint32_t sender = 0;

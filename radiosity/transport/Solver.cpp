@@ -314,12 +314,12 @@ void Solver::light(std::span<const std::uint32_t> blocks, Lighting& lighting) co
         for (std::size_t i = first; i < last; ++i) {
             const std::uint32_t begin = blocks[i] * PatchSet::kBlock;
             for (std::uint32_t v = begin; v < begin + PatchSet::kBlock; ++v) {
-                const auto [index, s, t] = set_.vertexCoordinates[v];
+                const PatchCoordinate& at = set_.vertexCoordinates[v];
                 lighting.direct[v] = direct_.vertices()[v];
                 lighting.indirect[v] = Rgb();
-                if (index != Element::kNone && indirect_)
-                    lighting.indirect[v] = toRgb(glm::max(
-                        interpolateNodes<glm::dvec3>(set_.patches[index], s, t, nodes), 0.0));
+                if (at.patch != Element::kNone && indirect_)
+                    lighting.indirect[v] =
+                        toRgb(glm::max(interpolateNodes<glm::dvec3>(set_, at, nodes), 0.0));
             }
             if (detail_) detail_->correct(blocks[i], nodes, lighting.indirect);
         }
@@ -343,7 +343,9 @@ double Solver::litIlluminance() const {
         const Patch& patch = set_.patches[p];
         if (!set_.sends(p) || !(maxChannel(patchReflectance(set_, p)) > 0)) continue;
         glm::dvec3 h = direct_.patches()[p];
-        if (indirect_) h += interpolateNodes<glm::dvec3>(patch, 0.5f, 0.5f, nodes);
+        if (indirect_)
+            h += interpolate<glm::dvec3>(patch, 0.5f, 0.5f,
+                                         [&](std::uint32_t n) { return nodes[n]; });
         level.add(std::max({h.r, h.g, h.b}), patch.area);
     }
     return level.median();

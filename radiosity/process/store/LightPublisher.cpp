@@ -43,18 +43,22 @@ void LightPublisher::grow() {
 
 /// The vertices of an object that is known now.
 void LightPublisher::take(const ObjectPart& object) {
-    const PatchSet& set = scene_.patches();
     for (std::uint32_t v = object.vertices.first; v < object.vertices.end(); ++v) {
         take(v);
         if (v % kBlock == 0) touch(v / kBlock);
     }
 }
 
-/// Notes the block of a vertex for the patch whose nodes light it.
+/// Notes the block of a vertex for the patches whose nodes light it.
 void LightPublisher::take(std::uint32_t vertex) {
     const PatchSet& set = scene_.patches();
-    const std::uint32_t patch = set.vertexCoordinates[vertex].patch;
-    if (patch != Element::kNone) noteBlock(set.wholeOf(patch), vertex / kBlock);
+    const PatchCoordinate& at = set.vertexCoordinates[vertex];
+    if (at.patch == Element::kNone) return;
+    noteBlock(set.wholeOf(at.patch), vertex / kBlock);
+    if (at.blend == PatchCoordinate::kNone) return;
+    const NodeBlend& blend = set.blends[at.blend];
+    for (std::size_t k = 0; k < blend.patches.size() && blend.weights[k] > 0; ++k)
+        noteBlock(blend.patches[k], vertex / kBlock);
 }
 
 void LightPublisher::directIsDone() {
@@ -261,9 +265,9 @@ LightBlock LightPublisher::blockOf(std::uint32_t block) const {
 
 Rgb LightPublisher::interpolatedAt(std::uint32_t vertex) const {
     const PatchSet& set = scene_.patches();
-    const auto [index, s, t] = set.vertexCoordinates[vertex];
-    if (index == Element::kNone || scene_.solver().directOnly()) return {};
-    const glm::dvec3 light = interpolateNodes<glm::dvec3>(set.patches[index], s, t, nodes_);
+    const PatchCoordinate& at = set.vertexCoordinates[vertex];
+    if (at.patch == Element::kNone || scene_.solver().directOnly()) return {};
+    const glm::dvec3 light = interpolateNodes<glm::dvec3>(set, at, nodes_);
     return {float(light.x), float(light.y), float(light.z)};
 }
 

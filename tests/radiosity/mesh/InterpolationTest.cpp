@@ -19,8 +19,12 @@ Patch withCorners() {
 
 constexpr std::array<double, 5> kValues{1, 5, 3, 7, 20};
 
+auto valueIn(const std::array<double, 5>& values) {
+    return [&values](std::uint32_t node) { return values[node]; };
+}
+
 double at(float s, float t) {
-    return interpolateNodes<double>(withCorners(), s, t, kValues);
+    return interpolate<double>(withCorners(), s, t, valueIn(kValues));
 }
 
 TEST(InterpolateNodes, MeetsEveryNode) {
@@ -44,13 +48,14 @@ TEST(InterpolateNodes, KeepsAPlane) {
     const std::array<double, 5> plane{0, 2, 5, 3, 2.5}; // 2 s + 3 t
     for (float s : {0.1f, 0.4f, 0.9f})
         for (float t : {0.2f, 0.7f})
-            EXPECT_NEAR(interpolateNodes<double>(withCorners(), s, t, plane), 2 * s + 3 * t, 1e-6);
+            EXPECT_NEAR(interpolate<double>(withCorners(), s, t, valueIn(plane)), 2 * s + 3 * t,
+                        1e-6);
 }
 
 TEST(InterpolateNodes, HasItsMiddleAllOverWithoutCorners) {
     Patch patch;
     patch.centreNode = 2;
-    EXPECT_DOUBLE_EQ(interpolateNodes<double>(patch, 0.1f, 0.9f, kValues), 3);
+    EXPECT_DOUBLE_EQ(interpolate<double>(patch, 0.1f, 0.9f, valueIn(kValues)), 3);
 }
 
 } // namespace

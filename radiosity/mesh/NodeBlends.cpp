@@ -1,0 +1,111 @@
+#include "radiosity/mesh/NodeBlends.h"
+
+#include <algorithm>
+#include <array>
+#include <compare>
+#include <utility>
+#include <vector>
+
+namespace penumbra {
+
+namespace {
+
+constexpr float kLeastCosine = 0.5f; ///< between normals: what lies beyond a crease does not count
+
+/// A corner of a cluster's elements, and the cluster.
+struct Corner {
+    std::array<float, 3> place;
+    std::uint32_t patch;
+    auto operator<=>(const Corner&) const = default;
+};
+
+std::vector<Corner> cornersInOrder(const PatchSet& set) {
+    std::vector<Corner> corners;
+    for (std::uint32_t p = 0; p < set.patches.size(); ++p) {
+        const Patch& patch = set.patches[p];
+        for (std::uint32_t i = 0; patch.cluster && i < patch.elementCount; ++i)
+            for (std::uint32_t v :
+                 set.elements[set.patchElements[patch.firstElement + i]].vertices) {
+                const glm::vec3 at = set.vertices[v].position;
+                corners.push_back({{at.x, at.y, at.z}, p});
+            }
+    }
+    std::sort(corners.begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    return corners;
+}
+
+/// Fills in which clusters of an object touch each other.
+void listNear(PatchSet& set) {
+    const std::vector<Corner> corners = cornersInOrder(set);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    for (auto first = corners.begin(); first != corners.end();) {
+        const auto last = std::find_if(first, corners.end(),
+                                       [&](const Corner& c) { return c.place != first->place; });
+        for (auto a = first; a != last; ++a)
+            for (auto b = first; b != last; ++b)
+                if (a != b && set.patches[a->patch].object == set.patches[b->patch].object)
+                    pairs.emplace_back(a->patch, b->patch);
+        first = last;
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    for (const auto& [patch, near] : pairs) {
+        Patch& of = set.patches[patch];
+        if (of.nearCount++ == 0) of.firstNear = std::uint32_t(set.nearClusters.size());
+        set.nearClusters.push_back(near);
+    }
+}
+
+/// How far a node is from a vertex, and the patch that has it.
+using Near = std::pair<float, std::uint32_t>;
+
+NodeBlend blendOf(std::span<Near> near, float size) {
+    std::sort(near.begin(), near.end());
+    NodeBlend blend;
+    const std::size_t count = std::min(near.size(), blend.patches.size());
+    const float last = near[count - 1].first;
+    const float reach =
+        std::max(near.size() > count ? near[count].first : 1.5f * last, 1.01f * last);
+    float sum = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        const float d = std::max(near[k].first, 1e-3f * size);
+        const float weight = std::max(reach - d, 0.0f) / (reach * d);
+        blend.patches[k] = near[k].second;
+        blend.weights[k] = weight * weight;
+        sum += blend.weights[k];
+    }
+    if (!(sum > 0)) blend.weights[0] = sum = 1;
+    for (float& weight : blend.weights) weight /= sum;
+    return blend;
+}
+
+} // namespace
+
+void blendNodes(PatchSet& set) {
+    listNear(set);
+    std::vector<Near> near;
+    for (std::uint32_t v = 0; v < set.vertexCoordinates.size(); ++v) {
+        PatchCoordinate& at = set.vertexCoordinates[v];
+        if (at.patch == PatchCoordinate::kNone) continue;
+        const auto others = set.clustersNear(set.patches[at.patch]);
+        if (others.empty()) continue;
+        const Vertex& vertex = set.vertices[v];
+        near.clear();
+        const auto add = [&](std::uint32_t p) {
+            const Receiver& node = set.nodes[set.patches[p].centreNode];
+            const float cosine = glm::dot(node.normal, vertex.receiver.normal);
+            if (p != at.patch && cosine < kLeastCosine) return;
+            near.emplace_back(glm::distance(node.position, vertex.position) +
+                                  2 * set.patchSize * (1 - cosine),
+                              p);
+        };
+        add(at.patch);
+        for (const std::uint32_t p : others) add(p);
+        if (near.size() < 2) continue;
+        at.blend = std::uint32_t(set.blends.size());
+        set.blends.push_back(blendOf(near, set.patchSize));
+    }
+}
+
+} // namespace penumbra

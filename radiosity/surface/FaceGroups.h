@@ -1,0 +1,25 @@
+// Which faces send light as one patch.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace penumbra {
+
+/// A face that may be joined with others.
+struct WholeFace {
+    std::span<const glm::vec3> outline; ///< convex [m, frame of the object]
+    std::uint32_t material = 0;
+};
+
+/// Groups those faces of one side of an object that are smaller than some elements: dense meshes
+/// cost as their area does, not as their polygons. What is left is a patch of its own each.
+/// \return indices into `faces`, group by group; those of a group in an order in which near ones
+/// that look the same way follow on each other. A function of the faces alone, see FaceClusters.h.
+std::vector<std::vector<std::uint32_t>> groupFaces(std::span<const WholeFace> faces,
+                                                   float patchSize, float elementSize);
+
+} // namespace penumbra
