@@ -361,7 +361,7 @@ void PatchAssembly::makePatch(const Group& group, const std::vector<std::uint32_
     out_.patchElements.insert(out_.patchElements.end(), elements.begin(), elements.end());
     patch.firstCorner = std::uint32_t(out_.corners.size());
     if (patch.cluster)
-        makeCluster(group, elements, patch);
+        placeElements(patch, elements);
     else
         out_.corners.insert(out_.corners.end(), cell.outline.begin(), cell.outline.end());
     patch.cornerCount = std::uint32_t(out_.corners.size()) - patch.firstCorner;
@@ -370,26 +370,17 @@ void PatchAssembly::makePatch(const Group& group, const std::vector<std::uint32_
     out_.patches.push_back(patch);
 }
 
-/// A box as outline; and coordinates of which the middle is where the cluster's centre is nearest.
-void PatchAssembly::makeCluster(const Group& group, const std::vector<std::uint32_t>& elements,
-                                Patch& patch) {
-    Bounds box;
-    float farthest = 0;
-    for (const std::uint32_t c : group)
-        for (const glm::vec3 point : cells_[c].outline) {
-            box.add(point);
-            farthest = std::max(farthest, glm::distance(point, patch.centre));
-        }
-    for (int k = 0; k < 8; ++k)
-        out_.corners.emplace_back(k & 1 ? box.upper.x : box.lower.x,
-                                  k & 2 ? box.upper.y : box.lower.y,
-                                  k & 4 ? box.upper.z : box.lower.z);
+/// Coordinates of a cluster: the middle is where its centre is nearest.
+void PatchAssembly::placeElements(const Patch& patch, const std::vector<std::uint32_t>& elements) {
+    const auto away = [&](std::uint32_t e, std::size_t k) {
+        return glm::distance(out_.vertices[out_.elements[e].vertices[k]].position, patch.centre);
+    };
+    float farthest = 1e-20f;
     for (const std::uint32_t e : elements)
-        for (std::size_t k = 0; k < 4; ++k) {
-            const glm::vec3 at = out_.vertices[out_.elements[e].vertices[k]].position;
-            const float away = glm::distance(at, patch.centre) / std::max(farthest, 1e-20f);
-            out_.parts.elementCoordinates[e][k] = {0.5f + 0.5f * std::min(away, 1.0f), 0.5f};
-        }
+        for (std::size_t k = 0; k < 4; ++k) farthest = std::max(farthest, away(e, k));
+    for (const std::uint32_t e : elements)
+        for (std::size_t k = 0; k < 4; ++k)
+            out_.parts.elementCoordinates[e][k] = {0.5f + 0.5f * away(e, k) / farthest, 0.5f};
 }
 
 /// Tells the vertices of a patch that no other patch has where they lie in it.

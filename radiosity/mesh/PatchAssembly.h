@@ -63,7 +63,7 @@ private:
                        const std::vector<Group>& order);
     void placeObjects();
     void makePatch(const Group& group, const std::vector<std::uint32_t>& elements);
-    void makeCluster(const Group& group, const std::vector<std::uint32_t>& elements, Patch& patch);
+    void placeElements(const Patch& patch, const std::vector<std::uint32_t>& elements);
     void placeVertices(std::uint32_t index, const std::vector<std::uint32_t>& elements);
     void placeNodes(Patch& patch, const SheetCell& cell,
                     const std::vector<std::uint32_t>& elements);

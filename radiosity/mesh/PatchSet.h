@@ -64,7 +64,7 @@ struct Element {
 /// A coarse cell that sends light, one-sided: a face or a part of one, or a cluster of small faces
 /// that lie together and look about the same way.
 struct Patch {
-    /// Its outline: PatchSet::corners[first ... first + count). Of a cluster a box around it.
+    /// Its outline: PatchSet::corners[first ... first + count). A cluster has none.
     std::uint32_t firstCorner = 0;
     std::uint32_t cornerCount = 0;
     std::uint32_t firstElement =
@@ -249,6 +249,17 @@ struct PatchSet {
         const auto parted = parts.of.find(whole);
         if (parted == parts.of.end()) return visit(whole);
         for (const std::uint32_t part : parted->second) visit(part);
+    }
+    /// Calls visit(point) for the outline of a patch or, of a cluster, for the corners of all of
+    /// its elements: all of it lies between these, and none of them outside of its object [m,
+    /// world].
+    template <class Visit>
+    void forEachCorner(const Patch& patch, const Visit& visit) const {
+        for (std::uint32_t c = 0; c < patch.cornerCount; ++c) visit(corners[patch.firstCorner + c]);
+        for (std::uint32_t i = 0; patch.cluster && i < patch.elementCount; ++i)
+            for (const std::uint32_t v :
+                 uncoveredElements[patchElements[patch.firstElement + i]].vertices)
+                visit(vertices[v].position);
     }
     /// The clusters that one touches, some of whose vertices blend with it.
     std::span<const std::uint32_t> clustersNear(const Patch& patch) const {

@@ -62,10 +62,9 @@ PointGather::PointGather(const PatchSet& patches, const RayScene& rays, const Li
         if (!patches.sends(p)) continue;
         samplePatch(patches, patch, patchSamples_.data() + p * kPatchSamples);
         if (patch.cluster) clusterParts_.emplace(p, partsOf(patches, patch).parts);
-        for (std::uint32_t i = 0; i < patch.cornerCount; ++i)
-            patchRadius_[p] =
-                std::max(patchRadius_[p],
-                         glm::distance(patch.centre, patches.corners[patch.firstCorner + i]));
+        patches.forEachCorner(patch, [&](glm::vec3 corner) {
+            patchRadius_[p] = std::max(patchRadius_[p], glm::distance(patch.centre, corner));
+        });
         Rgb sum;
         for (std::uint32_t i = 0; i < patch.elementCount; ++i) {
             const std::uint32_t e = patches.patchElements[patch.firstElement + i];

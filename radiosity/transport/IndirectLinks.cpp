@@ -31,8 +31,7 @@ void IndirectLight::placeStands(ObjectId object) {
     const auto stand = [&](std::uint32_t node, const Patch& patch) {
         Bounds& box = stands_[node / kBlock];
         box.add(set_.uncoveredNodes[node].position);
-        for (std::uint32_t c = 0; c < patch.cornerCount; ++c)
-            box.add(set_.corners[patch.firstCorner + c]);
+        set_.forEachCorner(patch, [&](glm::vec3 corner) { box.add(corner); });
     };
     for (std::uint32_t p = part.patches.first; p < part.patches.end(); ++p) {
         const Patch& patch = set_.patches[p];

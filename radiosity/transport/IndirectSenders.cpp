@@ -255,8 +255,7 @@ void IndirectSenders::placePatch(std::uint32_t p) {
     } else {
         samplePatch(set_, patch, samples_.data() + p * kPatchSamples);
     }
-    for (std::uint32_t c = 0; c < patch.cornerCount; ++c)
-        boxes_[p].add(set_.corners[patch.firstCorner + c]);
+    set_.forEachCorner(patch, [&](glm::vec3 corner) { boxes_[p].add(corner); });
     for (std::size_t k = 0; k < kPatchSamples; ++k) boxes_[p].add(samples_[p * kPatchSamples + k]);
 }
 
