@@ -66,9 +66,11 @@ DetailGather::Light DetailGather::usual(const std::vector<Light>& lights) {
     return {mean, luminance(mean)};
 }
 
-/// Of what is new nothing is known but what is usual.
+/// Of what is new nothing is known but what is usual. Sweeps under way know nothing of it: they
+/// begin again, though it may be hidden and no edit follow.
 void DetailGather::add(std::span<const ObjectId> objects) {
     hits_.add(objects);
+    sweeping_ = false;
     if (sent_.nodes.empty()) return;
     sent_.all.resize(patches_.elements.size(), usual(sent_.all));
     sent_.direct.resize(patches_.elements.size(), usual(sent_.direct));
@@ -235,6 +237,7 @@ glm::dvec3 DetailGather::difference(const Sent& sent, std::span<const std::uint3
 }
 
 glm::dvec3 DetailGather::nodeValue(const Sent& sent, std::size_t node, glm::dvec3 known) const {
+    if (node >= sent.nodes.size()) return known; // it is new
     return glm::mix(known, sent.nodes[node], shutNodeWeight(hits_.nodes().openness(node)));
 }
 

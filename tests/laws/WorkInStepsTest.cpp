@@ -109,6 +109,33 @@ TEST(WorkInSteps, LookingAtLightThatIsHalfDoneChangesNothing) {
     EXPECT_TRUE(seenEarly);
 }
 
+TEST(WorkInSteps, HiddenThingsMayBeBroughtInWhateverIsUnderWay) {
+    // Nothing that is drawn changes, so that what is under way goes on: fine shadows were swept
+    // over elements that the sweep had no room for.
+    EditableRoom room(1);
+    LitScene lit(placeScene(room.scene()), EditableRoom::meshing(), kTight);
+    int steps = 0, added = 0;
+    bool sweeps = false;
+    const auto note = [&](const std::string& phase, double share) {
+        sweeps |= phase == "fine shadows" && share == 1;
+    };
+    while (lit.solver().state() == SolutionState::working && lit.solver().work(64, note)) {
+        if (++steps % (sweeps ? 10 : 500) != 0 || added == 40) continue;
+        const std::string name = "hidden" + std::to_string(added++);
+        const auto choice = std::make_shared<Switch>(name);
+        choice->setVisible(false);
+        choice->add(object(name + "Box", boxData({1, 1, 1}, {1.5f, 1.5f, 1.5f}, false)));
+        room.scene().root->add(choice);
+        lit.follow(placeScene(room.scene()));
+    }
+    lit.solver().settle();
+    EXPECT_TRUE(sweeps);
+    EXPECT_EQ(added, 40);
+    LitScene fresh(placeScene(room.scene()), EditableRoom::meshing(), kTight);
+    fresh.solver().settle();
+    EXPECT_EQ(difference(lit, fresh), "");
+}
+
 TEST(WorkInSteps, NoBudgetDoesNoWork) {
     const EditableRoom room(1);
     LitScene lit(placeScene(room.scene()), EditableRoom::meshing(), kTight);
