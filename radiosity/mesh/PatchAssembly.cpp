@@ -111,13 +111,10 @@ void PatchAssembly::addRays(const SurfaceMesh& mesh, const Tessellation& tessell
 void PatchAssembly::addSheet(const SurfaceMesh& mesh, const Tessellation& tessellation,
                              ObjectId object, bool back) {
     const auto firstCell = std::uint32_t(cells_.size());
-    std::vector<std::uint32_t> cellsOfFace(mesh.faces.size());
-    for (const Cell& cell : tessellation.cells) ++cellsOfFace[cell.face];
     for (const Cell& cell : tessellation.cells) {
         SheetCell sheet;
         sheet.back = back;
         sheet.whole = cell.whole;
-        sheet.alone = cellsOfFace[cell.face] == 1;
         sheet.smooth = tessellation.smooth;
         sheet.object = object;
         const SurfaceFace& face = mesh.faces[cell.face];
@@ -201,13 +198,12 @@ void PatchAssembly::finish() {
 }
 
 /// Each cell on its own, but for small faces of one side of an object.
-std::vector<PatchAssembly::Group> PatchAssembly::groupCells() const {
+std::vector<PatchAssembly::Group> PatchAssembly::groupCells() {
     std::map<std::pair<ObjectId, bool>, std::vector<std::uint32_t>> sides;
     for (std::uint32_t c = 0; c < cells_.size(); ++c)
-        if (cells_[c].alone && !cells_[c].smooth && !cells_[c].outline.empty())
+        if (!cells_[c].smooth && !cells_[c].outline.empty())
             sides[{cells_[c].object, cells_[c].back}].push_back(c);
     std::vector<Group> groups;
-    std::vector<std::uint8_t> grouped(cells_.size());
     for (const auto& [side, cells] : sides) {
         std::vector<WholeFace> faces;
         for (const std::uint32_t c : cells)
@@ -215,19 +211,19 @@ std::vector<PatchAssembly::Group> PatchAssembly::groupCells() const {
         for (Group& group : groupFaces(faces, out_.patchSize, out_.elementSize)) {
             for (std::uint32_t& c : group) {
                 c = cells[c];
-                grouped[c] = 1;
+                cells_[c].clustered = true;
             }
             groups.push_back(std::move(group));
         }
     }
     for (std::uint32_t c = 0; c < cells_.size(); ++c)
-        if (!grouped[c] && !cells_[c].outline.empty()) groups.push_back({c});
+        if (!cells_[c].clustered && !cells_[c].outline.empty()) groups.push_back({c});
     return groups;
 }
 
 /// Object by object, within one along a space-filling curve: what is near in space shall be near
 /// in memory.
-std::vector<PatchAssembly::Group> PatchAssembly::groupsInOrder() const {
+std::vector<PatchAssembly::Group> PatchAssembly::groupsInOrder() {
     std::vector<Group> groups = groupCells();
     std::vector<Bounds> bounds(out_.objects.size());
     std::vector<glm::vec3> middle(groups.size());
@@ -270,7 +266,7 @@ void PatchAssembly::orderElements(const std::vector<Group>& groups,
                                   std::vector<std::vector<std::uint32_t>>& elements) {
     std::vector<std::uint8_t> clustered(out_.objects.size());
     for (const Group& group : groups)
-        clustered[cells_[group[0]].object.value] |= std::uint8_t(group.size() > 1);
+        clustered[cells_[group[0]].object.value] |= std::uint8_t(cells_[group[0]].clustered);
     std::vector<std::uint32_t> order(out_.elements.size()), next;
     std::iota(order.begin(), order.end(), 0u);
     for (const ObjectPart& part : out_.objects) next.push_back(part.elements.first);
@@ -348,7 +344,7 @@ void PatchAssembly::makePatch(const Group& group, const std::vector<std::uint32_
     Patch patch;
     patch.material = cell.material;
     patch.object = cell.object;
-    patch.cluster = group.size() > 1;
+    patch.cluster = cell.clustered;
     patch.divisible = !patch.cluster && !cell.whole && cell.outline.size() == 4;
     patch.smooth = cell.smooth;
     const bool any = measurePatch(out_, elements, patch);

@@ -43,10 +43,10 @@ private:
         bool present = false; ///< the surface has this side here
         bool back = false;
         bool whole = false;
-        bool alone = false;  ///< its face has no other cell
-        bool smooth = false; ///< of a subdivision surface
+        bool smooth = false;    ///< of a subdivision surface
+        bool clustered = false; ///< in a group that is a cluster
     };
-    /// Cells that become a patch together; a cluster if there are more than one.
+    /// Cells that become a patch together.
     using Group = std::vector<std::uint32_t>;
     void addSheet(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object,
                   bool back);
@@ -54,8 +54,8 @@ private:
                      bool back, bool textured);
     void addRays(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object);
     std::uint32_t materialIndex(const Material& material, bool emits);
-    std::vector<Group> groupCells() const;
-    std::vector<Group> groupsInOrder() const;
+    std::vector<Group> groupCells();
+    std::vector<Group> groupsInOrder();
     std::vector<std::vector<std::uint32_t>> elementsOf(const std::vector<Group>& groups) const;
     void orderElements(const std::vector<Group>& groups,
                        std::vector<std::vector<std::uint32_t>>& elements);

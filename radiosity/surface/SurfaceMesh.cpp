@@ -1,6 +1,7 @@
 #include "radiosity/surface/SurfaceMesh.h"
 
 #include "radiosity/rays/Traceable.h"
+#include "radiosity/surface/TrianglePairs.h"
 #include "radiosity/surface/Triangulate.h"
 #include "radiosity/surface/UnionFind.h"
 #include "radiosity/surface/WeldedPoints.h"
@@ -324,6 +325,7 @@ SurfaceMesh placeSurface(const MeshData& data, const glm::dmat4& toWorld) {
             ++mesh.skipped;
     }
     placeNormals(mesh, weld, toWorld);
+    if (!mesh.subdivided()) joinTriangles(mesh);
     return mesh;
 }
 

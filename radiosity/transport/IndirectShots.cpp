@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace penumbra {
@@ -26,13 +27,24 @@ constexpr std::size_t kLeastBatch = 32, kMostBatch = 1024, kBatchShare = 32;
 
 } // namespace
 
-/// The most power first, of those that owe too much: large patches that owe next to nothing would
-/// be served again and again before small ones that owe a lot.
+/// Those that owe most, by the root of their areas, of those that owe too much. By power alone,
+/// what is small and bright, as what lies beside a light, would be left to the end, the certificate
+/// with it; by radiosity alone large surfaces would wait. And a few that owe most, whatever their
+/// size: the certificate is theirs.
 std::vector<std::uint32_t> IndirectLight::chooseSenders(double enough) const {
-    std::vector<double> power(senders_.count());
-    for (std::uint32_t s = 0; s < power.size(); ++s)
-        if (const double most = owed(s); most > enough) power[s] = most * double(senders_.area(s));
-    return highestPriorities(power, batch());
+    constexpr std::size_t kTinyShare = 64;
+    std::vector<double> gain(senders_.count()), most(senders_.count());
+    for (std::uint32_t s = 0; s < gain.size(); ++s)
+        if (const double now = owed(s); now > enough) {
+            most[s] = now;
+            gain[s] = now * std::sqrt(double(senders_.area(s)));
+        }
+    const std::size_t tiny = 1 + batch() / kTinyShare;
+    std::vector<std::uint32_t> chosen = highestPriorities(gain, batch() - tiny);
+    for (const std::uint32_t s : chosen) most[s] = 0;
+    const std::vector<std::uint32_t> rest = highestPriorities(most, tiny);
+    chosen.insert(chosen.end(), rest.begin(), rest.end());
+    return chosen;
 }
 
 std::size_t IndirectLight::batch() const {

@@ -21,6 +21,7 @@ constexpr std::size_t kMostPromptEffort = 1536; ///< of a piece within a prompt 
 constexpr double kPrompt = 2e-3;                ///< a budget below is one [s]
 /// What deferred work may change, of what the certificate allows.
 constexpr double kDirectMayStayDirty = 0.04, kIndirectMayStayDirty = 0.35;
+constexpr double kFinish = 0.3; ///< of what is certified: relaxation ends there
 /// A piece of work within a prompt budget takes about so long; within others it takes the budget,
 /// up to so long [s]: small pieces have threads wait for each other, and work take longer in all.
 constexpr double kPause = 3e-4, kLongest = 0.05;
@@ -227,17 +228,20 @@ bool Solver::workOnIndirect(Pace& pace, const Progress& progress) {
     if (more && progress) progress("shadows of indirect light", indirect_->updates().share());
     // Rows that are missing come all at once, for each changes a little of what is owed, and
     // early, so that this is sent along with the rest.
-    constexpr double kEarly = 100;
+    constexpr double kEarly = 1000;
     if (!more && !completed_ && !spent() && !indirect_->relaxing() &&
         !indirect_->residualsStale() && indirect_->certificate() <= kEarly * target())
         completing_ = completed_ = true;
     if (!more && completing_)
         completing_ = more = pace.work(
             Pace::completion, [&](std::size_t effort) { return indirect_->complete(effort); });
-    const bool done = certificateMet() || spent();
-    if (!more && (!done || indirect_->relaxing() || indirect_->residualsStale())) {
-        more = pace.work(Pace::relaxation,
-                         [&](std::size_t effort) { return indirect_->relax(effort, target()); });
+    finished_ = isFinished();
+    if (!more &&
+        (!(finished_ || spent()) || indirect_->relaxing() || indirect_->residualsStale())) {
+        more = pace.work(Pace::relaxation, [&](std::size_t effort) {
+            return indirect_->relax(effort, kFinish * target());
+        });
+        finished_ = finished_ || (!more && certificateMet()); // what is left is deferred
         reportRelaxation(progress);
     }
     return more;
@@ -284,6 +288,14 @@ double Solver::target() const {
 
 bool Solver::certificateMet() const {
     return !indirect_->residualsStale() && indirect_->certificate() <= target();
+}
+
+/// Whether relaxation is at its end: it goes on to well below what is certified, for all that is
+/// owed by then comes at once, as an estimate; and begins again when the certificate is lost.
+bool Solver::isFinished() const {
+    if (indirect_->residualsStale()) return finished_;
+    const double now = indirect_->certificate();
+    return now <= kFinish * target() || (finished_ && now <= target());
 }
 
 bool Solver::spent() const {

@@ -211,6 +211,7 @@ private:
     double mayStayDirty(double share) const { return idle_ ? 0 : tolerance(share); }
     bool workOnDetail(Pace& pace, const Progress& progress);
     bool certificateMet() const;
+    bool isFinished() const;
     bool spent() const;
     double target() const;
 
@@ -227,6 +228,7 @@ private:
     std::unique_ptr<DetailGather> detail_;
     bool handedOver_ = false; ///< whether the indirect light knows of the direct light as it is
     bool completing_ = false, completed_ = false; ///< see IndirectLight::complete()
+    bool finished_ = false;                       ///< see isFinished()
     SolutionState state_ = SolutionState::working;
     bool idle_ = false;    ///< all is done but for what was deferred; nothing is any more
     bool stopped_ = false; ///< see stopped()
