@@ -203,6 +203,14 @@ TEST(ComparePolicies, FilmsTheFrameThatIsAskedFor) {
     EXPECT_NE(film[0].picture.colours, result.truth.colours);
 }
 
+/// Pictures are letters in which any word may occur.
+std::string withoutPictures(std::string page) {
+    const std::string begins = "data:image/png;base64,";
+    for (std::size_t at = 0; (at = page.find(begins, at)) != std::string::npos; ++at)
+        page.erase(at, page.find('\'', at) - at);
+    return page;
+}
+
 TEST(HtmlReport, SaysAllThatWasFoundInOneFile) {
     const ComparisonResult result = compared();
     const std::string page = htmlReport(
@@ -216,7 +224,7 @@ TEST(HtmlReport, SaysAllThatWasFoundInOneFile) {
     EXPECT_THAT(page, Not(HasSubstr("<script")));
     EXPECT_THAT(page, Not(HasSubstr("src='http")));
     EXPECT_THAT(page, Not(HasSubstr("url(http")));
-    EXPECT_THAT(page, Not(HasSubstr("nan")));
+    EXPECT_THAT(withoutPictures(page), Not(HasSubstr("nan")));
 }
 
 TEST(HtmlReport, RanksNoOrderByWhatCantBeSeen) {
