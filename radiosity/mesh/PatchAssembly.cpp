@@ -197,7 +197,8 @@ void PatchAssembly::finish() {
     placeObjects();
 }
 
-/// Each cell on its own, but for small faces of one side of an object.
+/// Each cell on its own, but for small ones and slivers of one side of an object: which of them are
+/// clustered is noted.
 std::vector<PatchAssembly::Group> PatchAssembly::groupCells() {
     std::map<std::pair<ObjectId, bool>, std::vector<std::uint32_t>> sides;
     for (std::uint32_t c = 0; c < cells_.size(); ++c)
@@ -205,7 +206,7 @@ std::vector<PatchAssembly::Group> PatchAssembly::groupCells() {
             sides[{cells_[c].object, cells_[c].back}].push_back(c);
     std::vector<Group> groups;
     for (const auto& [side, cells] : sides) {
-        std::vector<WholeFace> faces;
+        std::vector<FacePiece> faces;
         for (const std::uint32_t c : cells)
             faces.push_back({cells_[c].outline, cells_[c].material});
         for (Group& group : groupFaces(faces, out_.patchSize, out_.elementSize)) {

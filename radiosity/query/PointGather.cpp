@@ -60,8 +60,13 @@ PointGather::PointGather(const PatchSet& patches, const RayScene& rays, const Li
     for (std::uint32_t p = 0; p < patches.patches.size(); ++p) {
         const Patch& patch = patches.patches[p];
         if (!patches.sends(p)) continue;
-        samplePatch(patches, patch, patchSamples_.data() + p * kPatchSamples);
-        if (patch.cluster) clusterParts_.emplace(p, partsOf(patches, patch).parts);
+        if (patch.cluster) {
+            const ClusterParts own = partsOf(patches, patch);
+            std::ranges::copy(own.samples, patchSamples_.begin() + p * kPatchSamples);
+            clusterParts_.emplace(p, own.parts);
+        } else {
+            samplePatch(patches, patch, patchSamples_.data() + p * kPatchSamples);
+        }
         patches.forEachCorner(patch, [&](glm::vec3 corner) {
             patchRadius_[p] = std::max(patchRadius_[p], glm::distance(patch.centre, corner));
         });

@@ -22,12 +22,12 @@ struct PatchSender {
     bool cells = false; ///< of a patch: its cells, one around each sample, send unlike each other
     std::span<const glm::vec3> outline; ///< of a patch, but for a cluster of faces
     std::span<const SenderPart> parts;  ///< of a cluster, as many as it has samples
-
-    bool isOfParts() const { return !parts.empty(); }
     const glm::vec3* samples =
         nullptr;                 ///< points on the surface [m, world]; kPatchSamples of a patch
     const Bounds* box = nullptr; ///< around all of that [m, world]
     std::uint32_t key = 0;       ///< its address, see PatchSet.h
+
+    bool isOfParts() const { return !parts.empty(); }
 };
 
 /// Builds and updates one block of a patch's or cluster's row at a time; one builder a thread, for

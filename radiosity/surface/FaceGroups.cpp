@@ -14,7 +14,7 @@ struct Shape {
     float width = 0;  ///< [m]
 };
 
-Shape shapeOf(const WholeFace& face) {
+Shape shapeOf(const FacePiece& face) {
     Shape shape;
     glm::vec3 twiceArea(0);
     for (std::size_t i = 0; i < face.outline.size(); ++i)
@@ -29,7 +29,7 @@ Shape shapeOf(const WholeFace& face) {
 
 /// Those of `faces` that are listed, in clusters of at most a size.
 /// \param thread of this width a face is a cluster on its own [m]
-void cluster(std::span<const WholeFace> faces, std::span<const std::uint32_t> listed, float size,
+void cluster(std::span<const FacePiece> faces, std::span<const std::uint32_t> listed, float size,
              float thread, std::vector<std::vector<std::uint32_t>>& groups) {
     constexpr std::size_t kLeast = 3; // faces: two triangles are as good as they are
     std::vector<glm::vec3> points;
@@ -60,7 +60,7 @@ void cluster(std::span<const WholeFace> faces, std::span<const std::uint32_t> li
 
 } // namespace
 
-std::vector<std::vector<std::uint32_t>> groupFaces(std::span<const WholeFace> faces,
+std::vector<std::vector<std::uint32_t>> groupFaces(std::span<const FacePiece> faces,
                                                    float patchSize, float elementSize) {
     const float small = std::min(2 * elementSize, 0.5f * patchSize); // extent of small faces
     const float narrow = std::min(elementSize, 0.125f * patchSize);  // width of slivers

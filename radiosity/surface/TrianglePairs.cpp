@@ -63,7 +63,7 @@ public:
         return {ownedByFirst_[0], ownedByFirst_[1], ownedByFirst_[2], ownedBySecond_[1]};
     }
 
-    bool isOne() const {
+    bool isQuadrilateral() const {
         return point(ownedByFirst_[0]) == point(ownedBySecond_[2]) &&
                point(ownedByFirst_[2]) == point(ownedBySecond_[0]) &&
                &mesh_.materialOf(faces_[0]) == &mesh_.materialOf(faces_[1]) && isRegular() &&
@@ -136,9 +136,9 @@ void joinTriangles(SurfaceMesh& mesh) {
         const auto last = std::find_if(first, edges.end(), [&](const LongestEdge& e) {
             return e.points() != first->points();
         });
-        if (last - first == 2) { // of more than two, which are one is anyone's guess
+        if (last - first == 2) { // of more than two, which belong together is anyone's guess
             const Pair pair(mesh, first[0], first[1]);
-            if (pair.isOne()) {
+            if (pair.isQuadrilateral()) {
                 joined[first[0].face] = std::uint32_t(quads.size());
                 joined[first[1].face] = kGone;
                 quads.push_back(pair.corners());

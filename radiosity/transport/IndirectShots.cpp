@@ -33,14 +33,14 @@ constexpr std::size_t kLeastBatch = 32, kMostBatch = 1024, kBatchShare = 32;
 /// size: the certificate is theirs.
 std::vector<std::uint32_t> IndirectLight::chooseSenders(double enough) const {
     constexpr std::size_t kTinyShare = 64;
-    std::vector<double> gain(senders_.count()), most(senders_.count());
-    for (std::uint32_t s = 0; s < gain.size(); ++s)
+    std::vector<double> priority(senders_.count()), most(senders_.count());
+    for (std::uint32_t s = 0; s < priority.size(); ++s)
         if (const double now = owed(s); now > enough) {
             most[s] = now;
-            gain[s] = now * std::sqrt(double(senders_.area(s)));
+            priority[s] = now * std::sqrt(double(senders_.area(s)));
         }
     const std::size_t tiny = 1 + batch() / kTinyShare;
-    std::vector<std::uint32_t> chosen = highestPriorities(gain, batch() - tiny);
+    std::vector<std::uint32_t> chosen = highestPriorities(priority, batch() - tiny);
     for (const std::uint32_t s : chosen) most[s] = 0;
     const std::vector<std::uint32_t> rest = highestPriorities(most, tiny);
     chosen.insert(chosen.end(), rest.begin(), rest.end());

@@ -27,7 +27,7 @@ std::vector<Outline> strip(int count, float length, float width) {
 }
 
 std::vector<std::vector<std::uint32_t>> groupsOf(const std::vector<Outline>& outlines) {
-    std::vector<WholeFace> faces;
+    std::vector<FacePiece> faces;
     for (const Outline& outline : outlines) faces.push_back({outline, 0});
     return groupFaces(faces, kPatch, kElement);
 }
