@@ -79,6 +79,7 @@ public:
     double meanRadiosity() const { return meanRadiosity_; }
     std::uint64_t shots() const { return shots_; }
     std::uint64_t blocksServed() const { return served_; } ///< by shots
+    std::uint64_t blocksKept() const;                      ///< of all rows; goes through them
 
     const IndirectSenders& senders() const { return senders_; }
     const RowTable& rows() const { return table_; } ///< one a sender

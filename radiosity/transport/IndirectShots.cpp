@@ -119,6 +119,12 @@ std::size_t IndirectLight::rowsNotKept() const {
     return count;
 }
 
+std::uint64_t IndirectLight::blocksKept() const {
+    std::uint64_t count = 0;
+    for (const Row& row : table_.rows()) count += row.size();
+    return count;
+}
+
 /// Begins a batch.
 void IndirectLight::load(Listing& listing) {
     shot_ = std::make_unique<Shot>();

@@ -299,11 +299,13 @@ bool Solver::isFinished() const {
 }
 
 bool Solver::spent() const {
-    constexpr std::uint64_t kMostBlocks = 150'000'000, kAnyway = 2000; // shots
+    constexpr std::uint64_t kMostBlocks = 150'000'000, kMostTimes = 50; // each block is served
+    constexpr std::uint64_t kAnyway = 2000;                             // shots
     const std::uint64_t shots = indirect_->shots() - shotsBefore_;
+    const std::uint64_t served = indirect_->blocksServed() - servedBefore_;
     if (options_.mostShots > 0) return shots >= options_.mostShots;
-    return options_.residual == 0 && shots >= kAnyway &&
-           indirect_->blocksServed() - servedBefore_ >= kMostBlocks;
+    if (options_.residual > 0 || shots < kAnyway || served < kMostBlocks) return false;
+    return served >= kMostTimes * indirect_->blocksKept();
 }
 
 std::vector<glm::dvec3> Solver::nodeIlluminance() const {
