@@ -30,31 +30,6 @@ float kernel(const Receiver& receiver, glm::vec3 at, glm::vec3 normal) {
            (std::numbers::pi_v<float> * d2 * d2);
 }
 
-/// Unoccluded form factors of a cluster's parts, in order; each quarter of them represents a
-/// quarter of the cluster.
-struct PartKernels {
-    PartKernels(const PatchSender& sender, const Receiver& receiver)
-        : count(std::uint32_t(sender.parts.size())) {
-        for (std::uint32_t k = 0; k < count; ++k) {
-            const SenderPart& piece = sender.parts[k];
-            part[k] = sender.patch ? partFormFactor(receiver, piece)
-                                   : piece.area * kernel(receiver, piece.centre, piece.normal);
-            total += part[k];
-        }
-    }
-    std::uint32_t begin(std::uint32_t group, std::uint32_t groups) const {
-        return group * count / groups;
-    }
-    float sum(std::uint32_t first, std::uint32_t last) const {
-        float sum = 0;
-        for (std::uint32_t k = first; k < last; ++k) sum += part[k];
-        return sum;
-    }
-    std::uint32_t count;
-    float part[kPatchSamples];
-    float total = 0;
-};
-
 /// Shares of some parts as RowBlock has them: of all but the last one.
 void putShares(std::span<const float> parts, std::uint8_t* shares) {
     float total = 0, upTo = 0;
@@ -75,14 +50,21 @@ RowBlock::Sharing sharingOf(const PatchSender& sender) {
     return sender.cells ? RowBlock::Sharing::cells : RowBlock::Sharing::even;
 }
 
+/// Squared distance of the farthest corner of a planar patch from its middle [m^2].
+float squaredRadius(const PatchSender& sender) {
+    float radius2 = 0;
+    for (glm::vec3 corner : sender.outline) {
+        const glm::vec3 d = corner - sender.patch->centre;
+        radius2 = std::max(radius2, glm::dot(d, d));
+    }
+    return radius2;
+}
+
 /// Unoccluded form factor of a planar patch; 0 behind it.
-float patchFormFactor(const PatchSender& sender, const Receiver& receiver) {
+float patchFormFactor(const PatchSender& sender, float radius2, const Receiver& receiver) {
     const Patch& patch = *sender.patch;
     const glm::vec3 away = receiver.position - patch.centre;
     if (glm::dot(patch.normal, away) <= 0) return 0;
-    float radius2 = 0;
-    for (glm::vec3 corner : sender.outline)
-        radius2 = std::max(radius2, glm::dot(corner - patch.centre, corner - patch.centre));
     // From afar the point kernel is as good as the closed form: it errs by (radius / distance)^2.
     const float distance2 = glm::dot(away, away);
     const float facing = -glm::dot(receiver.normal, away);
@@ -90,16 +72,6 @@ float patchFormFactor(const PatchSender& sender, const Receiver& receiver) {
         return polygonFormFactor(receiver.position, receiver.normal, sender.outline);
     return facing * glm::dot(patch.normal, away) * patch.area /
            (std::numbers::pi_v<float> * distance2 * distance2);
-}
-
-/// Begins an entry with its unoccluded form factor; false if there is none.
-bool open(const PatchSender& sender, const Receiver& receiver, RowBlock::Draft& draft) {
-    const float factor = sender.isOfParts() ? PartKernels(sender, receiver).total
-                                            : patchFormFactor(sender, receiver);
-    const bool any = factor > 1e-9f;
-    draft.begin(any ? factor : 0);
-    if (any) draft.sharing = sharingOf(sender);
-    return any;
 }
 
 /// Where a sample stands among the cells of its sender: those of a quarter come one after the
@@ -116,6 +88,22 @@ struct CellOfSample {
 };
 
 } // namespace
+
+/// Works out what does not depend on the receiver.
+void PatchRowBuilder::load(const PatchSender& sender) {
+    if (sender.isOfParts())
+        parts_.load(sender.parts,
+                    sender.patch ? PartTable::Kernel::disk : PartTable::Kernel::point);
+    else
+        radius2_ = squaredRadius(sender);
+}
+
+/// \return the unoccluded form factor of entry r
+float PatchRowBuilder::open(const PatchSender& sender, const Receiver& receiver, std::size_t r) {
+    if (!sender.isOfParts()) return patchFormFactor(sender, radius2_, receiver);
+    kernels_[r] = parts_.kernels(receiver);
+    return kernels_[r].total;
+}
 
 /// Appends the samples of entry r, all as yet visible.
 void PatchRowBuilder::listSamples(const PatchSender& sender, const ReceiverBlock& receivers,
@@ -139,7 +127,7 @@ void PatchRowBuilder::listSamples(const PatchSender& sender, const ReceiverBlock
             add(sample, kernel(receiver, sender.samples[sample], sender.patch->normal));
         }
     } else {
-        const PartKernels kernels(sender, receiver);
+        const PartKernels& kernels = kernels_[r];
         const std::uint32_t count = sampleCount(factor, kernels.count);
         for (std::uint32_t k = 0; k < count; ++k) {
             // Any of the group's parts that faces the receiver represents all of them.
@@ -157,21 +145,22 @@ void PatchRowBuilder::listSamples(const PatchSender& sender, const ReceiverBlock
 void PatchRowBuilder::recallSamples(const PatchSender& sender, const ReceiverBlock& receivers,
                                     std::size_t r) {
     const std::size_t begin = samples_.size();
+    if (sender.isOfParts()) kernels_[r] = parts_.kernels(receivers.receivers[r]);
     listSamples(sender, receivers, r);
     for (std::size_t k = begin; k < samples_.size(); ++k)
         samples_[k].blocker = drafts_[r].blockerOf(samples_[k].index);
 }
 
-/// Begins entry r anew and lists its samples. \return whether there are any
+/// Lists the samples of entry r anew. \return whether there are any; if not, there is no entry
 bool PatchRowBuilder::list(const PatchSender& sender, const ReceiverBlock& receivers,
                            std::size_t r) {
+    if (!(receivers.wanted >> r & 1)) return false;
+    const float factor = open(sender, receivers.receivers[r], r);
+    if (!(factor > 1e-9f)) return false;
+    drafts_[r].formFactor = factor;
     const std::size_t begin = samples_.size();
-    const bool wanted = receivers.wanted >> r & 1;
-    if (wanted && open(sender, receivers.receivers[r], drafts_[r]))
-        listSamples(sender, receivers, r);
-    const bool any = samples_.size() > begin;
-    if (!any) drafts_[r].begin(0);
-    return any;
+    listSamples(sender, receivers, r);
+    return samples_.size() > begin;
 }
 
 /// Traces the samples that `choose` accepts, through the whole scene or against one object alone.
@@ -213,8 +202,7 @@ void PatchRowBuilder::forEachEntry(Visit visit) const {
 }
 
 /// Writes what the listed samples of one entry say into it.
-void PatchRowBuilder::collect(const PatchSender& sender, const ReceiverBlock& receivers,
-                              const EntrySamples& entry) {
+void PatchRowBuilder::collect(const PatchSender& sender, const EntrySamples& entry) {
     RowBlock::Draft& draft = drafts_[entry.receiver];
     draft.begin(draft.formFactor);
     draft.visibility = 0;
@@ -228,14 +216,12 @@ void PatchRowBuilder::collect(const PatchSender& sender, const ReceiverBlock& re
         }
     }
     draft.sharing = sharingOf(sender);
-    if (draft.visible != 0 && draft.sharing != RowBlock::Sharing::even)
-        share(sender, receivers.receivers[entry.receiver], entry);
+    if (draft.visible != 0 && draft.sharing != RowBlock::Sharing::even) share(sender, entry);
 }
 
 /// Notes how much is visible of each cell: a sample stands for the cell that it lies in, of four
 /// for that one's quarter, and a single one for all of the sender.
-void PatchRowBuilder::share(const PatchSender& sender, const Receiver& receiver,
-                            const EntrySamples& entry) {
+void PatchRowBuilder::share(const PatchSender& sender, const EntrySamples& entry) {
     RowBlock::Draft& draft = drafts_[entry.receiver];
     const int count = samplesFor(draft.formFactor);
     std::array<float, kPatchSamples> cells{}, quarters{};
@@ -251,7 +237,7 @@ void PatchRowBuilder::share(const PatchSender& sender, const Receiver& receiver,
     if (count == kPatchSamples) return putShares(cells, draft.shares.data());
     if (count == 1 && sender.patch) return;
     if (count == 1) { // which of the quarters it was tells nothing of how much each is
-        const PartKernels kernels(sender, receiver);
+        const PartKernels& kernels = kernels_[entry.receiver];
         for (std::uint32_t q = 0; q < 4; ++q)
             quarters[q] = kernels.sum(kernels.begin(q, 4), kernels.begin(q + 1, 4));
     }
@@ -261,11 +247,14 @@ void PatchRowBuilder::share(const PatchSender& sender, const Receiver& receiver,
 void PatchRowBuilder::build(const PatchSender& sender, const ReceiverBlock& receivers,
                             RowBlock& block) {
     samples_.clear();
-    for (std::size_t r = 0; r < receivers.receivers.size(); ++r) list(sender, receivers, r);
+    load(sender);
+    std::uint64_t listed = 0;
+    for (std::size_t r = 0; r < receivers.receivers.size(); ++r)
+        listed |= std::uint64_t(list(sender, receivers, r)) << r;
     trace(
         sender, receivers, [](const Sample&) { return true; }, nullptr);
-    forEachEntry([&](const EntrySamples& entry) { collect(sender, receivers, entry); });
-    block.assign(drafts(receivers));
+    forEachEntry([&](const EntrySamples& entry) { collect(sender, entry); });
+    block.assign(drafts(receivers), listed);
 }
 
 /// Lists the samples of all entries that may not be what they were.
@@ -276,10 +265,13 @@ std::uint64_t PatchRowBuilder::listDirty(const PatchSender& sender, const Receiv
     std::uint64_t emptied = 0;
     for (std::size_t r = 0; r < receivers.receivers.size(); ++r) {
         const bool before = drafts_[r].formFactor > 0;
-        if (anew >> r & 1)
-            emptied |= std::uint64_t(!list(sender, receivers, r) && before) << r;
-        else if (before && mayDiffer(drafts_[r], moved, receivers.receivers[r], *sender.box))
+        if (anew >> r & 1) {
+            if (list(sender, receivers, r)) continue;
+            drafts_[r].begin(0);
+            emptied |= std::uint64_t(before) << r;
+        } else if (before && mayDiffer(drafts_[r], moved, receivers.receivers[r], *sender.box)) {
             recallSamples(sender, receivers, r);
+        }
     }
     return emptied;
 }
@@ -320,11 +312,12 @@ int PatchRowBuilder::update(const PatchSender& sender, const ReceiverBlock& rece
                             std::uint64_t anew, std::span<const MovedObject> moved,
                             RowBlock& block) {
     block.decode(drafts(receivers));
+    load(sender);
     int changed = std::popcount(listDirty(sender, receivers, anew, moved));
     retrace(sender, receivers, anew, moved);
     forEachEntry([&](const EntrySamples& entry) {
         if (!(anew >> entry.receiver & 1) && !differs(entry)) return;
-        collect(sender, receivers, entry);
+        collect(sender, entry);
         ++changed;
     });
     if (changed > 0) block.assign(drafts(receivers));

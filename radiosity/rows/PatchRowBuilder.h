@@ -5,6 +5,7 @@
 #include "radiosity/rays/RayScene.h"
 #include "radiosity/rows/ClusterParts.h"
 #include "radiosity/rows/MovedObject.h"
+#include "radiosity/rows/PartKernels.h"
 #include "radiosity/rows/RayCount.h"
 #include "radiosity/rows/ReceiverBlock.h"
 #include "radiosity/rows/Row.h"
@@ -34,7 +35,8 @@ struct PatchSender {
 /// it owns scratch space. RowBuilder says what holds of an updated block.
 class PatchRowBuilder {
 public:
-    explicit PatchRowBuilder(const RayScene& rays) : rays_(rays), drafts_(RowBlock::kSize) {}
+    explicit PatchRowBuilder(const RayScene& rays)
+        : rays_(rays), drafts_(RowBlock::kSize), kernels_(RowBlock::kSize) {}
 
     /// Evaluates all entries of a block. The number of samples follows the form factor (1, 4 or
     /// 16); which ones is a fixed function of the pair's keys.
@@ -63,6 +65,8 @@ private:
     std::span<RowBlock::Draft> drafts(const ReceiverBlock& receivers) {
         return std::span(drafts_).first(receivers.receivers.size());
     }
+    void load(const PatchSender& sender);
+    float open(const PatchSender& sender, const Receiver& receiver, std::size_t r);
     bool list(const PatchSender& sender, const ReceiverBlock& receivers, std::size_t r);
     void listSamples(const PatchSender& sender, const ReceiverBlock& receivers, std::size_t r);
     void recallSamples(const PatchSender& sender, const ReceiverBlock& receivers, std::size_t r);
@@ -76,13 +80,14 @@ private:
     template <class Visit>
     void forEachEntry(Visit visit) const;
     bool differs(const EntrySamples& entry) const;
-    void collect(const PatchSender& sender, const ReceiverBlock& receivers,
-                 const EntrySamples& entry);
-
-    void share(const PatchSender& sender, const Receiver& receiver, const EntrySamples& entry);
+    void collect(const PatchSender& sender, const EntrySamples& entry);
+    void share(const PatchSender& sender, const EntrySamples& entry);
 
     const RayScene& rays_;
+    float radius2_ = 0; ///< of a planar sender: its farthest corner from its middle, squared [m^2]
+    PartTable parts_;   ///< of a sender that has any
     std::vector<RowBlock::Draft> drafts_;
+    std::vector<PartKernels> kernels_; ///< by receiver, of those whose samples are listed
     std::vector<Sample> samples_;
     RayCount rayCount_;
 };

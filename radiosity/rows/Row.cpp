@@ -47,11 +47,10 @@ std::uint64_t allButLast(std::uint64_t visible, std::span<const Blocker> blocker
     return visible;
 }
 
-bool isPresent(const RowBlock::Draft& draft) {
-    return draft.formFactor > 0;
-}
-bool isSeen(const RowBlock::Draft& draft) {
-    return isPresent(draft) && (draft.blockerCount == 0 || draft.visible != 0);
+/// Calls visit(i) for each bit that is set.
+template <class Visit>
+void forEachBit(std::uint64_t bits, Visit visit) {
+    for (; bits != 0; bits &= bits - 1) visit(std::size_t(std::countr_zero(bits)));
 }
 
 } // namespace
@@ -59,55 +58,46 @@ bool isSeen(const RowBlock::Draft& draft) {
 /// Lists the objects of a block, then puts its parts one after the other.
 class RowBlock::Writer {
 public:
-    explicit Writer(std::span<const Draft> drafts) : drafts_(drafts) {
-        for (std::size_t i = 0; i < drafts.size(); ++i) {
-            if (!isPresent(drafts[i])) continue;
-            const std::uint64_t bit = std::uint64_t(1) << i;
-            present_ |= bit;
-            sharing_ = std::max(sharing_, drafts[i].sharing);
-            if (drafts[i].blockerCount == 0) visible_ |= bit;
-            if (isSeen(drafts[i])) seen_ |= bit;
-            for (const Blocker& blocker : blockersOf(drafts[i])) {
-                if (place(blocker.object) == objects_.size()) objects_.push_back(blocker.object);
-                ++blockers_;
-                wideObjects_ |= blocker.object >> 16 != 0;
-            }
-        }
+    Writer(std::span<const Draft> drafts, std::uint64_t which) : drafts_(drafts) {
+        for (std::size_t i = 0; i < drafts.size(); ++i)
+            if ((which >> i & 1) && drafts[i].formFactor > 0) present_ |= std::uint64_t(1) << i;
+        forEachBit(present_, [this](std::size_t i) { list(i); });
     }
 
     std::unique_ptr<std::byte[]> write() {
         if (present_ == 0) return nullptr;
-        out_ = std::make_unique_for_overwrite<std::byte[]>(mostBytes());
         put(present_);
         put(visible_);
         put(std::uint16_t(0)); // the size, not yet known
-        put(std::uint16_t(objects_.size() | (wideObjects_ ? kWideObjects : 0u) |
+        put(std::uint16_t(objectCount_ | (wideObjects_ ? kWideObjects : 0u) |
                           (sharing_ == Sharing::quarters ? kQuarters : 0u) |
                           (sharing_ == Sharing::cells ? kCells : 0u)));
         if (present_ != visible_) put(seen_);
-        for (const Draft& draft : drafts_)
-            if (isPresent(draft)) put(draft.formFactor);
-        for (const Draft& draft : drafts_)
-            if (isPresent(draft) && draft.blockerCount > 0 && draft.visible != 0)
-                put(draft.visibility);
+        forEachBit(present_, [this](std::size_t i) { put(drafts_[i].formFactor); });
+        forEachBit(seen_ & ~visible_, [this](std::size_t i) { put(drafts_[i].visibility); });
         putShares();
-        for (const std::uint32_t object : objects_) putLow(object, wideObjects_ ? 4 : 2);
-        for (const Draft& draft : drafts_)
-            if (isPresent(draft) && draft.blockerCount > 0) putRecord(draft);
+        for (const std::uint32_t object : objects()) putLow(object, wideObjects_ ? 4 : 2);
+        forEachBit(present_ & ~visible_, [this](std::size_t i) { putRecord(drafts_[i]); });
 
-        assert(size_ < 65536); // 64 entries of 64 blockers, all different, take less
         const auto size = std::uint16_t(size_);
-        std::memcpy(out_.get() + kBytes, &size, sizeof size);
+        std::memcpy(out_.data() + kBytes, &size, sizeof size);
         auto bytes = std::make_unique_for_overwrite<std::byte[]>(size);
-        std::copy_n(out_.get(), size, bytes.get());
+        std::copy_n(out_.data(), size, bytes.get());
         return bytes;
     }
 
 private:
-    /// No block takes more: see the list of its parts.
-    std::size_t mostBytes() const {
-        constexpr std::size_t kParts = kSeen + 8 + 2 + 64 * (4 + 4 + kMostShares + 2 + 1 + 8);
-        return kParts + objects_.size() * 4 + blockers_ * (2 + 8) + 8;
+    /// Notes what of an entry concerns the block.
+    void list(std::size_t i) {
+        const Draft& draft = drafts_[i];
+        const std::uint64_t bit = std::uint64_t(1) << i;
+        sharing_ = std::max(sharing_, draft.sharing);
+        if (draft.blockerCount == 0) visible_ |= bit;
+        if (draft.blockerCount == 0 || draft.visible != 0) seen_ |= bit;
+        for (const Blocker& blocker : blockersOf(draft)) {
+            if (place(blocker.object) == objectCount_) objects_[objectCount_++] = blocker.object;
+            wideObjects_ |= blocker.object >> 16 != 0;
+        }
     }
     template <class T>
     void put(T value) {
@@ -116,29 +106,33 @@ private:
     /// The first bytes of a little-endian value.
     template <class T>
     void putLow(T value, std::size_t size) {
-        assert(size_ + sizeof value <= mostBytes());
-        std::memcpy(out_.get() + size_, &value, sizeof value); // what is too much is written over
+        assert(size_ + sizeof value <= out_.size());
+        std::memcpy(out_.data() + size_, &value, sizeof value); // what is too much is written over
         size_ += size;
     }
+    std::span<const std::uint32_t> objects() const {
+        return std::span(objects_).first(objectCount_);
+    }
     std::size_t place(std::uint32_t object) const {
-        return std::size_t(std::find(objects_.begin(), objects_.end(), object) - objects_.begin());
+        return std::size_t(std::ranges::find(objects(), object) - objects().begin());
     }
 
     void putShares() {
         if (sharing_ == Sharing::even) return;
-        const auto countOf = [&](const Draft& draft) {
-            return isSeen(draft) ? shareCount(sharing_, draft.formFactor) : 0;
-        };
         std::size_t all = 0;
-        for (const Draft& draft : drafts_) all += countOf(draft);
+        const auto countOf = [this](std::size_t i) {
+            return shareCount(sharing_, drafts_[i].formFactor);
+        };
+        forEachBit(seen_, [&](std::size_t i) { all += countOf(i); });
         put(std::uint16_t(all));
-        for (const Draft& draft : drafts_)
-            for (std::size_t i = 0; i < countOf(draft); ++i) put(draft.shares[i]);
+        forEachBit(seen_, [&](std::size_t i) {
+            for (std::size_t k = 0; k < countOf(i); ++k) put(drafts_[i].shares[k]);
+        });
     }
 
     void putRecord(const Draft& draft) {
         const std::span<const Blocker> blockers = blockersOf(draft);
-        const std::size_t codes = codeSize(objects_.size());
+        const std::size_t codes = codeSize(objectCount_);
         if (draft.visible == 0 && blockers.size() == 1) {
             putLow(place(blockers[0].object), codes);
             return;
@@ -162,12 +156,12 @@ private:
 
     std::span<const Draft> drafts_;
     std::uint64_t present_ = 0, visible_ = 0, seen_ = 0;
-    std::vector<std::uint32_t> objects_;
     bool wideObjects_ = false;
     Sharing sharing_ = Sharing::even;
-    std::size_t blockers_ = 0; ///< of all entries
-    std::unique_ptr<std::byte[]> out_;
-    std::size_t size_ = 0; ///< written so far
+    std::array<std::uint32_t, std::size_t(kSize) * kSize> objects_;
+    std::size_t objectCount_ = 0;
+    std::array<std::byte, 65536> out_; ///< 64 entries of 64 blockers, all different, take less
+    std::size_t size_ = 0;             ///< written so far
 };
 
 /// Goes through the entries of a block, in order.
@@ -264,10 +258,10 @@ private:
     std::array<Blocker, kSize> scratch_;
 };
 
-void RowBlock::assign(std::span<const Draft> drafts) {
+void RowBlock::assign(std::span<const Draft> drafts, std::uint64_t which) {
     static_assert(std::endian::native == std::endian::little);
     assert(drafts.size() <= kSize);
-    bytes_ = Writer(drafts).write();
+    bytes_ = Writer(drafts, which).write();
 }
 
 void RowBlock::decode(std::span<Draft> drafts) const {

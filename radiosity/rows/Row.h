@@ -110,7 +110,8 @@ public:
             return ObjectId::kNone;
         }
     };
-    void assign(std::span<const Draft> drafts);
+    /// \param which bits: those that count; others make no entry, whatever they say
+    void assign(std::span<const Draft> drafts, std::uint64_t which = ~std::uint64_t(0));
 
     /// Back into drafts, for which assign() gives the same block again. Which samples were taken is
     /// not known of simple entries: a wholly visible one has all bits set and no blocker, one that

@@ -290,6 +290,14 @@ TEST(Row, OfVisibleEntriesTakesNoMoreThanFiveBytesAnEntry) {
     EXPECT_LE(double(block.bytes()) / RowBlock::kSize, 5);
 }
 
+TEST(Row, HasOnlyTheEntriesThatCount) {
+    std::vector<Draft> drafts(3);
+    for (Draft& draft : drafts) draft.begin(0.25f);
+    RowBlock block;
+    block.assign(drafts, 0b101);
+    EXPECT_EQ(block.present(), 0b101u);
+}
+
 TEST(Row, AssignedAgainForgetsWhatWasThere) {
     std::vector<Draft> drafts(3);
     for (Draft& draft : drafts) draft.begin(0.25f);
