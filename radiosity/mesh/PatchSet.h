@@ -51,8 +51,8 @@ struct NodeBlend {
     std::array<float, 4> weights{}; ///< at least 0; those that are 0 come last
 };
 
-/// Receivers of a dense mesh around one of its vertices that is none, and their weights: together 1,
-/// or all 0 where there is none.
+/// Receivers of a dense mesh around one of its vertices that is none, and their weights: together
+/// 1, or all 0 where there is none.
 struct VertexBlend {
     std::array<std::uint32_t, 4> vertices{};
     std::array<float, 4> weights{}; ///< at least 0; those that are 0 come last
@@ -213,7 +213,7 @@ struct PatchSet {
     std::vector<VertexBlend> vertexBlends;          ///< one a vertex of blended blocks
     /// One a block of vertices: the first of its blends, or kNone: its vertices are receivers.
     std::vector<std::uint32_t> blockBlends;
-    std::vector<ObjectId> nodeBlockObject;          ///< one a block of nodes
+    std::vector<ObjectId> nodeBlockObject; ///< one a block of nodes
     std::vector<Element> elements;
     std::vector<Element> uncoveredElements;    ///< the same when nothing else is near
     std::vector<std::uint8_t> covered;         ///< 1: an element that other things cover all over
@@ -275,7 +275,8 @@ struct PatchSet {
     }
     /// Whether no vertex of a block receives light itself.
     bool isBlended(std::uint32_t vertexBlock) const {
-        return vertexBlock < blockBlends.size() && blockBlends[vertexBlock] != PatchCoordinate::kNone;
+        return vertexBlock < blockBlends.size() &&
+               blockBlends[vertexBlock] != PatchCoordinate::kNone;
     }
     /// \pre a vertex of a blended block
     const VertexBlend& vertexBlend(std::uint32_t vertex) const {

@@ -192,8 +192,7 @@ Sampled Sampler::vertices() {
     Sampled sum = sample(8, 1024, [&](std::uint32_t hash, Sampled& out) {
         const std::uint32_t first = kRun * below(set_.vertices.size() / kRun, hash);
         const auto there = [&](std::uint32_t v) {
-            return set_.vertexCoordinates[v].patch != Element::kNone &&
-                   !set_.isBlended(v / kBlock);
+            return set_.vertexCoordinates[v].patch != Element::kNone && !set_.isBlended(v / kBlock);
         };
         for (std::uint32_t v = first; v < first + kRun; ++v) {
             if (!there(v)) continue;

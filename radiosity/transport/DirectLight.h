@@ -62,7 +62,7 @@ public:
     /// Whether the rows give to a block what its vertices have.
     bool summed(std::uint32_t block) const { return blockTouched_[block] == 0; }
 
-    std::span<const Rgb> vertices() const { return vertices_; }      ///< [lux]
+    std::span<const Rgb> vertices() const { return vertices_; } ///< [lux]
     /// Form factors of an emitter at the vertices of a block, times what they see of it: as the row
     /// has them or, of a blended block, with visibility from the receivers around.
     std::array<float, PatchSet::kBlock> factors(std::uint32_t emitter, std::uint32_t block) const;

@@ -104,19 +104,19 @@ TEST(DenseMeshes, AreLitDirectlyAsEachVertexLies) {
     direct.directOnly = true;
     const Scene scene =
         sceneOf({object("ball", ballData(120, 0.3f)),
-                 placed("lamp", moved(0, 0, 2),
+                 placed("light", moved(0, 0, 2),
                         {std::make_shared<Light>("light", RectShape{0.5f, 0.5f}, Rgb(20.0f))})});
     LitScene lit(placeScene(scene), kSizes, direct);
     lit.solver().settle();
     const PatchSet& set = lit.patches();
-    const EmitterSender& lamp = lit.solver().direct().senders()[0];
+    const EmitterSender& emitter = lit.solver().direct().senders()[0];
     std::size_t blended = 0;
     for (std::uint32_t v = 0; v < set.vertices.size(); ++v) {
         const Receiver& receiver = set.vertices[v].receiver;
         if (isPadding(receiver) || !set.isBlended(v / PatchSet::kBlock)) continue;
         if (receiver.normal.z < 0.5f) continue; // the ball's own shadow begins at its equator
         ++blended;
-        const Rgb wanted = lamp.formFactor(receiver) * set.emitters[0].exitance;
+        const Rgb wanted = emitter.formFactor(receiver) * set.emitters[0].exitance;
         EXPECT_NEAR(lit.solver().direct().vertices()[v].g, wanted.g, 1e-3f * wanted.g) << v;
     }
     EXPECT_GT(blended, 1000u);
