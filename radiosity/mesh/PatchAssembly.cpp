@@ -347,11 +347,15 @@ void PatchAssembly::orderVertices(const std::vector<std::vector<std::uint32_t>>&
         range.first = std::uint32_t(ordered.size());
         take(i, last, true);
         range.count = std::uint32_t(ordered.size()) - range.first;
-        padBlock(ordered, Vertex{ordered.back().position, {}});
+        padBlock(ordered, {});
         out_.blockBlends.resize(ordered.size() / PatchSet::kBlock, kNone);
         const std::size_t blended = ordered.size();
         take(i, last, false);
-        if (ordered.size() > blended) range.count = std::uint32_t(ordered.size()) - range.first;
+        if (ordered.size() > blended) { // the object reaches over the padding in between
+            for (std::size_t v = range.end(); v < blended; ++v)
+                ordered[v].position = ordered[range.first].position;
+            range.count = std::uint32_t(ordered.size()) - range.first;
+        }
         padBlock(ordered, {});
         for (std::size_t v = blended; v < ordered.size(); v += PatchSet::kBlock) {
             out_.blockBlends.push_back(std::uint32_t(out_.vertexBlends.size()));
