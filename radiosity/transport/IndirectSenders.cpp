@@ -13,9 +13,6 @@ namespace {
 
 /// How many times its own size a cluster must be away to represent its patches.
 constexpr float kFar = 3.5f;
-/// Once it is as far away as it is large, less is enough for one of little area, such as tubes and
-/// rims: what it gives, of the hemisphere, times the square of its size in distances.
-constexpr float kSmallError = 0.003f;
 
 static_assert(Clusters::kParts == kPatchSamples && kSenderCells == kPatchSamples);
 
@@ -357,9 +354,7 @@ std::vector<std::uint32_t> IndirectSenders::matched(const IndirectSenders& other
 bool IndirectSenders::isFar(std::uint32_t index, const Bounds& receivers) const {
     const glm::vec3 size = boxes_[index].upper - boxes_[index].lower;
     const float diagonal2 = size.x * size.x + size.y * size.y + size.z * size.z;
-    const float gap2 = squaredGap(boxes_[index], receivers);
-    return gap2 >= kFar * kFar * diagonal2 ||
-           (gap2 >= diagonal2 && areas_[index] * diagonal2 <= kSmallError * gap2 * gap2);
+    return squaredGap(boxes_[index], receivers) >= kFar * kFar * diagonal2;
 }
 
 std::vector<std::uint32_t> IndirectSenders::linkedBlocks(std::uint32_t index,
