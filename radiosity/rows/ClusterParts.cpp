@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 namespace penumbra {
@@ -102,8 +101,7 @@ float partFormFactor(const Receiver& receiver, const SenderPart& part) {
     const glm::vec3 d = part.centre - receiver.position;
     const float d2 = glm::dot(d, d);
     const float cosines = facing(glm::dot(receiver.normal, d), -glm::dot(part.normal, d), d2);
-    if (!(cosines > 0)) return 0;
-    return part.area * cosines / (d2 * (std::numbers::pi_v<float> * d2 + part.area));
+    return cosines > 0 ? diskKernel(part.area, cosines, d2) : 0.0f;
 }
 
 } // namespace penumbra

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <numbers>
 
 namespace penumbra {
 
@@ -28,6 +29,11 @@ struct ClusterParts {
 /// After [Willmott1999]: a part sends as its vector area does, its kernel clamped where receiver or
 /// part face away. No outline is integrated: faces that are turned away would be taken off.
 ClusterParts partsOf(const PatchSet& set, const Patch& patch);
+
+/// Form factor of a disk of an area [m^2]. \param cosines see facing(), above 0
+inline float diskKernel(float area, float cosines, float d2) {
+    return area * cosines / (d2 * (std::numbers::pi_v<float> * d2 + area));
+}
 
 /// Unoccluded form factor from a receiver to a part, as of a disk of its area in front of it: never
 /// above 1, whatever the distance.

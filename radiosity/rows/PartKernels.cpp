@@ -3,7 +3,6 @@
 #include "radiosity/rows/SenderSamples.h"
 
 #include <cassert>
-#include <numbers>
 
 namespace penumbra {
 
@@ -20,7 +19,6 @@ void PartTable::load(std::span<const SenderPart> parts, Kernel kernel) {
 }
 
 PartKernels PartTable::kernels(const Receiver& receiver) const {
-    constexpr float kPi = std::numbers::pi_v<float>;
     const glm::vec3 p = receiver.position, n = receiver.normal;
     Lanes distance2, cosines;
     int counting = 0;
@@ -40,10 +38,9 @@ PartKernels PartTable::kernels(const Receiver& receiver) const {
             out.part[k] = cosines[k] > 0 ? factor(area_[k], cosines[k], distance2[k]) : 0.0f;
     };
     if (kernel_ == Kernel::disk)
-        evaluate(
-            [](float area, float cos, float d2) { return area * cos / (d2 * (kPi * d2 + area)); });
+        evaluate([](float area, float cos, float d2) { return diskKernel(area, cos, d2); });
     else
-        evaluate([](float area, float cos, float d2) { return area * (cos / (kPi * d2 * d2)); });
+        evaluate([](float area, float cos, float d2) { return area * pointKernel(cos, d2); });
     for (std::uint32_t k = 0; k < count_; ++k) out.total += out.part[k];
     return out;
 }

@@ -26,8 +26,7 @@ bool segmentMeets(glm::vec3 from, glm::vec3 to, const Bounds& box) {
 float kernel(const Receiver& receiver, glm::vec3 at, glm::vec3 normal) {
     const glm::vec3 d = at - receiver.position;
     const float d2 = glm::dot(d, d);
-    return facing(glm::dot(receiver.normal, d), -glm::dot(normal, d), d2) /
-           (std::numbers::pi_v<float> * d2 * d2);
+    return pointKernel(facing(glm::dot(receiver.normal, d), -glm::dot(normal, d), d2), d2);
 }
 
 /// Shares of some parts as RowBlock has them: of all but the last one.

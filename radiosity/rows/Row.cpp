@@ -3,6 +3,8 @@
 // visibility, so that an entry can be changed by retesting single samples.
 #include "radiosity/rows/Row.h"
 
+#include "base/Bits.h"
+
 #include <algorithm>
 #include <cassert>
 #include <utility>
@@ -47,12 +49,6 @@ std::uint64_t allButLast(std::uint64_t visible, std::span<const Blocker> blocker
     return visible;
 }
 
-/// Calls visit(i) for each bit that is set.
-template <class Visit>
-void forEachBit(std::uint64_t bits, Visit visit) {
-    for (; bits != 0; bits &= bits - 1) visit(std::size_t(std::countr_zero(bits)));
-}
-
 } // namespace
 
 /// Lists the objects of a block, then puts its parts one after the other.
@@ -61,7 +57,7 @@ public:
     Writer(std::span<const Draft> drafts, std::uint64_t which) : drafts_(drafts) {
         for (std::size_t i = 0; i < drafts.size(); ++i)
             if ((which >> i & 1) && drafts[i].formFactor > 0) present_ |= std::uint64_t(1) << i;
-        forEachBit(present_, [this](std::size_t i) { list(i); });
+        for (const int i : bitsOf(present_)) list(i);
     }
 
     std::unique_ptr<std::byte[]> write() {
@@ -73,11 +69,11 @@ public:
                           (sharing_ == Sharing::quarters ? kQuarters : 0u) |
                           (sharing_ == Sharing::cells ? kCells : 0u)));
         if (present_ != visible_) put(seen_);
-        forEachBit(present_, [this](std::size_t i) { put(drafts_[i].formFactor); });
-        forEachBit(seen_ & ~visible_, [this](std::size_t i) { put(drafts_[i].visibility); });
+        for (const int i : bitsOf(present_)) put(draft(i).formFactor);
+        for (const int i : bitsOf(seen_ & ~visible_)) put(draft(i).visibility);
         putShares();
         for (const std::uint32_t object : objects()) putLow(object, wideObjects_ ? 4 : 2);
-        forEachBit(present_ & ~visible_, [this](std::size_t i) { putRecord(drafts_[i]); });
+        for (const int i : bitsOf(present_ & ~visible_)) putRecord(draft(i));
 
         const auto size = std::uint16_t(size_);
         std::memcpy(out_.data() + kBytes, &size, sizeof size);
@@ -87,9 +83,10 @@ public:
     }
 
 private:
+    const Draft& draft(int i) const { return drafts_[std::size_t(i)]; }
     /// Notes what of an entry concerns the block.
-    void list(std::size_t i) {
-        const Draft& draft = drafts_[i];
+    void list(int i) {
+        const Draft& draft = this->draft(i);
         const std::uint64_t bit = std::uint64_t(1) << i;
         sharing_ = std::max(sharing_, draft.sharing);
         if (draft.blockerCount == 0) visible_ |= bit;
@@ -120,14 +117,11 @@ private:
     void putShares() {
         if (sharing_ == Sharing::even) return;
         std::size_t all = 0;
-        const auto countOf = [this](std::size_t i) {
-            return shareCount(sharing_, drafts_[i].formFactor);
-        };
-        forEachBit(seen_, [&](std::size_t i) { all += countOf(i); });
+        const auto countOf = [this](int i) { return shareCount(sharing_, draft(i).formFactor); };
+        for (const int i : bitsOf(seen_)) all += countOf(i);
         put(std::uint16_t(all));
-        forEachBit(seen_, [&](std::size_t i) {
-            for (std::size_t k = 0; k < countOf(i); ++k) put(drafts_[i].shares[k]);
-        });
+        for (const int i : bitsOf(seen_))
+            for (std::size_t k = 0; k < countOf(i); ++k) put(draft(i).shares[k]);
     }
 
     void putRecord(const Draft& draft) {

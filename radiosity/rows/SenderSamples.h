@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 namespace penumbra {
@@ -46,6 +47,10 @@ inline float facing(float here, float there, float d2) {
     constexpr float kInPlane = 1e-5f; // cosine
     const bool counts = (here > 0) & (there > 0) & (there * there > kInPlane * kInPlane * d2);
     return counts ? here * there : 0.0f;
+}
+/// Form factor of a small piece of a sender, per area [1/m^2]. \param cosines see facing()
+inline float pointKernel(float cosines, float d2) {
+    return cosines / (std::numbers::pi_v<float> * d2 * d2);
 }
 
 } // namespace penumbra

@@ -36,7 +36,7 @@ struct SolverOptions {
     bool directOnly = false;
     PolicyKind policy = PolicyKind::importance;
     bool detail = true; ///< shadows of indirect light finer than patches, see DetailGather
-    /// 0: no limit if `residual` is given, else what keeps a scene of very many patches to minutes.
+    /// 0: no limit if `residual` is given, else one by which each row is served some 50 times.
     std::uint64_t mostShots = 0;
     /// What the process may take [bytes]; 0: half of the machine's memory. Rows of patches are kept
     /// in what the rest leaves of it (RowRoom.h), others are traced again when they are needed.
