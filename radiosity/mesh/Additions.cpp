@@ -119,8 +119,15 @@ void addVertices(PatchSet& to, PatchSet& from, const Renumbering& now) {
     for (NodeBlend& blend : from.blends)
         for (std::uint32_t& patch : blend.patches) patch = now.patch(patch);
     append(to.blends, from.blends);
-    for (std::uint32_t b = 0; b < from.vertexBlockObject.size(); ++b)
-        to.vertexBlockObject[now.vertex(0) / kBlock + b] = now.object(from.vertexBlockObject[b]);
+    for (std::uint32_t b = 0; b < from.vertexBlockObject.size(); ++b) {
+        const std::uint32_t block = now.vertex(0) / kBlock + b;
+        to.vertexBlockObject[block] = now.object(from.vertexBlockObject[b]);
+        if (from.isBlended(b))
+            to.blockBlends[block] = from.blockBlends[b] + std::uint32_t(to.vertexBlends.size());
+    }
+    for (VertexBlend& blend : from.vertexBlends)
+        for (std::uint32_t& v : blend.vertices) v = now.vertex(v);
+    append(to.vertexBlends, from.vertexBlends);
 }
 
 void addNodes(PatchSet& to, PatchSet& from, const Renumbering& now) {
@@ -203,6 +210,7 @@ void makeRoom(PatchSet& set) {
     set.vertexCoordinates.resize(room.vertices.end());
     set.parts.vertexNode.resize(room.vertices.end(), kNone);
     set.vertexBlockObject.resize(room.vertices.end() / kBlock, room.object);
+    set.blockBlends.resize(room.vertices.end() / kBlock, PatchCoordinate::kNone);
     set.firstPrivate = room.vertices.end();
 
     room.nodes = {std::uint32_t(set.nodes.size()), kBlock * blocks(set.nodes.size())};

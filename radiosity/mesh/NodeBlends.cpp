@@ -57,13 +57,18 @@ void listNear(PatchSet& set) {
     }
 }
 
-/// How far a node is from a vertex, and the patch that has it.
+/// How far a node or a receiver is from a vertex, and which it is.
 using Near = std::pair<float, std::uint32_t>;
 
-NodeBlend blendOf(std::span<Near> near, float size) {
+struct Blend {
+    std::array<std::uint32_t, 4> things{};
+    std::array<float, 4> weights{};
+};
+
+Blend blendOf(std::span<Near> near, float size) {
     std::sort(near.begin(), near.end());
-    NodeBlend blend;
-    const std::size_t count = std::min(near.size(), blend.patches.size());
+    Blend blend;
+    const std::size_t count = std::min(near.size(), blend.things.size());
     const float last = near[count - 1].first;
     const float reach =
         std::max(near.size() > count ? near[count].first : 1.5f * last, 1.01f * last);
@@ -71,7 +76,7 @@ NodeBlend blendOf(std::span<Near> near, float size) {
     for (std::size_t k = 0; k < count; ++k) {
         const float d = std::max(near[k].first, 1e-3f * size);
         const float weight = std::max(reach - d, 0.0f) / (reach * d);
-        blend.patches[k] = near[k].second;
+        blend.things[k] = near[k].second;
         blend.weights[k] = weight * weight;
         sum += blend.weights[k];
     }
@@ -104,7 +109,67 @@ void blendNodes(PatchSet& set) {
         for (const std::uint32_t p : others) add(p);
         if (near.size() < 2) continue;
         at.blend = std::uint32_t(set.blends.size());
-        set.blends.push_back(blendOf(near, set.patchSize));
+        const Blend blend = blendOf(near, set.patchSize);
+        set.blends.push_back({blend.things, blend.weights});
+    }
+}
+
+std::vector<std::uint32_t> chooseReceivers(std::vector<DenseVertex> known,
+                                           std::span<const DenseVertex> among, float elementSize) {
+    constexpr float kAlike = 0.7f; // cosine between normals: one may stand for the other
+    std::vector<std::uint32_t> chosen;
+    for (const DenseVertex& vertex : among) {
+        const bool has = std::any_of(known.begin(), known.end(), [&](const DenseVertex& other) {
+            return glm::distance(vertex.position, other.position) < elementSize &&
+                   glm::dot(vertex.normal, other.normal) > kAlike;
+        });
+        if (has) continue;
+        known.push_back(vertex);
+        chosen.push_back(vertex.index);
+    }
+    return chosen;
+}
+
+namespace {
+
+/// Receivers of each cluster.
+std::vector<std::vector<std::uint32_t>> receiversOfClusters(const PatchSet& set) {
+    std::vector<std::vector<std::uint32_t>> receivers(set.patches.size());
+    for (std::uint32_t v = 0; v < set.vertices.size(); ++v) {
+        const std::uint32_t patch = set.vertexCoordinates[v].patch;
+        if (patch == PatchCoordinate::kNone || !set.patches[patch].cluster) continue;
+        if (!set.isBlended(v / PatchSet::kBlock)) receivers[patch].push_back(v);
+    }
+    return receivers;
+}
+
+} // namespace
+
+void blendVertices(PatchSet& set) {
+    if (set.vertexBlends.empty()) return;
+    const std::vector<std::vector<std::uint32_t>> receivers = receiversOfClusters(set);
+    std::vector<Near> near;
+    for (std::uint32_t v = 0; v < set.vertices.size(); ++v) {
+        const std::uint32_t own = set.vertexCoordinates[v].patch;
+        if (!set.isBlended(v / PatchSet::kBlock) || own == PatchCoordinate::kNone) continue;
+        const Vertex& vertex = set.vertices[v];
+        near.clear();
+        const auto add = [&](std::uint32_t patch) {
+            for (const std::uint32_t r : receivers[patch]) {
+                const Vertex& other = set.vertices[r];
+                const float cosine = glm::dot(other.receiver.normal, vertex.receiver.normal);
+                if (cosine >= kLeastCosine)
+                    near.emplace_back(glm::distance(other.position, vertex.position) +
+                                          2 * set.elementSize * (1 - cosine),
+                                      r);
+            }
+        };
+        add(own);
+        for (const std::uint32_t p : set.clustersNear(set.patches[own])) add(p);
+        if (near.empty()) continue;
+        const Blend blend = blendOf(near, set.elementSize);
+        set.vertexBlends[set.blockBlends[v / PatchSet::kBlock] + v % PatchSet::kBlock] = {
+            blend.things, blend.weights};
     }
 }
 

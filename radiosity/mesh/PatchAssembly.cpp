@@ -193,6 +193,7 @@ void PatchAssembly::finish() {
     out_.uncoveredElements = out_.elements;
     out_.firstPrivate = std::uint32_t(out_.vertices.size());
     blendNodes(out_);
+    blendVertices(out_);
     findTextureMeans(out_);
     placeObjects();
 }
@@ -294,29 +295,77 @@ void PatchAssembly::orderElements(const std::vector<Group>& groups,
     arrange(out_.textures.uvs);
 }
 
-/// Puts the vertices into blocks: object by object, cell by cell.
+/// Which vertices are receivers (1): all but those of clusters, where some are enough.
+std::vector<std::uint8_t>
+PatchAssembly::chooseReceivers(const std::vector<std::vector<std::uint32_t>>& elements,
+                               const std::vector<Group>& order) const {
+    std::vector<std::uint8_t> receives(out_.vertices.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        for (std::size_t k = 0; k < elements[i].size() && !cells_[order[i][0]].clustered; ++k)
+            for (std::uint32_t v : out_.elements[elements[i][k]].vertices) receives[v] = 1;
+    std::vector<std::uint32_t> seenIn(out_.vertices.size(), kNone);
+    std::vector<DenseVertex> known, others;
+    for (std::uint32_t i = 0; i < order.size(); ++i) {
+        if (!cells_[order[i][0]].clustered) continue;
+        known.clear(), others.clear();
+        for (const std::uint32_t e : elements[i])
+            for (const std::uint32_t v : out_.elements[e].vertices) {
+                if (std::exchange(seenIn[v], i) == i) continue;
+                const Vertex& vertex = out_.vertices[v];
+                (receives[v] ? known : others)
+                    .push_back({v, vertex.position, vertex.receiver.normal});
+            }
+        for (const std::uint32_t v :
+             penumbra::chooseReceivers(std::move(known), others, out_.elementSize))
+            receives[v] = 1;
+        known = {};
+    }
+    return receives;
+}
+
+/// Puts the vertices into blocks: object by object, cell by cell; in each object first those that
+/// are receivers.
 void PatchAssembly::orderVertices(const std::vector<std::vector<std::uint32_t>>& elements,
                                   const std::vector<Group>& order) {
+    const std::vector<std::uint8_t> receives = chooseReceivers(elements, order);
     std::vector<std::uint32_t> index(out_.vertices.size(), kNone);
     std::vector<Vertex> ordered;
-    ordered.reserve(out_.vertices.size() + PatchSet::kBlock * out_.objects.size());
-    for (std::size_t i = 0; i < order.size();) {
-        const ObjectId object = cells_[order[i][0]].object;
-        Range& range = out_.objects[object.value].vertices;
-        range.first = std::uint32_t(ordered.size());
-        for (; i < order.size() && cells_[order[i][0]].object == object; ++i)
-            for (std::uint32_t e : elements[i])
-                for (std::uint32_t& v : out_.elements[e].vertices) {
-                    if (index[v] == kNone) {
+    ordered.reserve(out_.vertices.size() + 2 * PatchSet::kBlock * out_.objects.size());
+    const auto take = [&](std::size_t first, std::size_t last, bool receivers) {
+        for (std::size_t i = first; i < last; ++i)
+            for (const std::uint32_t e : elements[i])
+                for (const std::uint32_t v : out_.elements[e].vertices)
+                    if (index[v] == kNone && bool(receives[v]) == receivers) {
                         index[v] = std::uint32_t(ordered.size());
                         ordered.push_back(out_.vertices[v]);
                     }
-                    v = index[v];
-                }
+    };
+    for (std::size_t i = 0, last = 0; i < order.size(); i = last) {
+        const ObjectId object = cells_[order[i][0]].object;
+        while (last < order.size() && cells_[order[last][0]].object == object) ++last;
+        Range& range = out_.objects[object.value].vertices;
+        range.first = std::uint32_t(ordered.size());
+        take(i, last, true);
         range.count = std::uint32_t(ordered.size()) - range.first;
         padBlock(ordered, {});
+        out_.blockBlends.resize(ordered.size() / PatchSet::kBlock, kNone);
+        const std::size_t blended = ordered.size();
+        take(i, last, false);
+        if (ordered.size() > blended) { // the object reaches over the padding in between
+            for (std::size_t v = range.end(); v < blended; ++v)
+                ordered[v].position = ordered[range.first].position;
+            range.count = std::uint32_t(ordered.size()) - range.first;
+        }
+        padBlock(ordered, {});
+        for (std::size_t v = blended; v < ordered.size(); v += PatchSet::kBlock) {
+            out_.blockBlends.push_back(std::uint32_t(out_.vertexBlends.size()));
+            out_.vertexBlends.resize(out_.vertexBlends.size() + PatchSet::kBlock);
+        }
         out_.vertexBlockObject.resize(ordered.size() / PatchSet::kBlock, object);
     }
+    for (const std::vector<std::uint32_t>& group : elements)
+        for (const std::uint32_t e : group)
+            for (std::uint32_t& v : out_.elements[e].vertices) v = index[v];
     out_.vertices = std::move(ordered);
 }
 

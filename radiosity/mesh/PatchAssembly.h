@@ -59,6 +59,9 @@ private:
     std::vector<std::vector<std::uint32_t>> elementsOf(const std::vector<Group>& groups) const;
     void orderElements(const std::vector<Group>& groups,
                        std::vector<std::vector<std::uint32_t>>& elements);
+    std::vector<std::uint8_t>
+    chooseReceivers(const std::vector<std::vector<std::uint32_t>>& elements,
+                    const std::vector<Group>& order) const;
     void orderVertices(const std::vector<std::vector<std::uint32_t>>& elements,
                        const std::vector<Group>& order);
     void placeObjects();

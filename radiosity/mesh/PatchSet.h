@@ -51,6 +51,13 @@ struct NodeBlend {
     std::array<float, 4> weights{}; ///< at least 0; those that are 0 come last
 };
 
+/// Receivers of a dense mesh around one of its vertices that is none, and their weights: together
+/// 1, or all 0 where there is none.
+struct VertexBlend {
+    std::array<std::uint32_t, 4> vertices{};
+    std::array<float, 4> weights{}; ///< at least 0; those that are 0 come last
+};
+
 /// A fine cell: a quadrilateral, or a triangle when the last two corners are the same.
 struct Element {
     std::array<std::uint32_t, 4> vertices; ///< counter-clockwise seen from its front
@@ -191,6 +198,8 @@ struct PatchRoom {
 ///
 /// Vertices and nodes come in blocks of kBlock consecutive ones that belong to one object and lie
 /// near each other; what is left of an object's last block is padding that receives nothing.
+/// Where a mesh is dense, light is received at some of its vertices; the others, in blended blocks
+/// behind those of their object, take it from receivers around them.
 /// Vertices behind those of all objects are private corners that Coverage hands out. A set without
 /// nodes is one for direct light alone.
 struct PatchSet {
@@ -201,7 +210,10 @@ struct PatchSet {
     std::vector<NodeBlend> blends;                  ///< of vertices of clusters
     std::vector<std::uint32_t> nearClusters;        ///< patches; each is near to those near to it
     std::vector<ObjectId> vertexBlockObject;        ///< one a block of vertices
-    std::vector<ObjectId> nodeBlockObject;          ///< one a block of nodes
+    std::vector<VertexBlend> vertexBlends;          ///< one a vertex of blended blocks
+    /// One a block of vertices: the first of its blends, or kNone: its vertices are receivers.
+    std::vector<std::uint32_t> blockBlends;
+    std::vector<ObjectId> nodeBlockObject; ///< one a block of nodes
     std::vector<Element> elements;
     std::vector<Element> uncoveredElements;    ///< the same when nothing else is near
     std::vector<std::uint8_t> covered;         ///< 1: an element that other things cover all over
@@ -260,6 +272,30 @@ struct PatchSet {
             for (const std::uint32_t v :
                  uncoveredElements[patchElements[patch.firstElement + i]].vertices)
                 visit(vertices[v].position);
+    }
+    /// Whether no vertex of a block receives light itself.
+    bool isBlended(std::uint32_t vertexBlock) const {
+        return vertexBlock < blockBlends.size() &&
+               blockBlends[vertexBlock] != PatchCoordinate::kNone;
+    }
+    /// \pre a vertex of a blended block
+    const VertexBlend& vertexBlend(std::uint32_t vertex) const {
+        return vertexBlends[blockBlends[vertex / kBlock] + vertex % kBlock];
+    }
+    /// Calls visit(receiver, weight) for those that a vertex takes its light from, itself if it is
+    /// one. What other things cover counts for nothing; weights add up to 1.
+    template <class Visit>
+    void forEachReceiver(std::uint32_t vertex, const Visit& visit) const {
+        if (!isBlended(vertex / kBlock)) return visit(vertex, 1.0f);
+        const VertexBlend& blend = vertexBlend(vertex);
+        const auto counts = [&](std::size_t k) {
+            return vertexCoordinates[blend.vertices[k]].patch != PatchCoordinate::kNone;
+        };
+        float sum = 0;
+        for (std::size_t k = 0; k < 4; ++k)
+            if (counts(k)) sum += blend.weights[k];
+        for (std::size_t k = 0; k < 4 && sum > 0; ++k)
+            if (blend.weights[k] > 0 && counts(k)) visit(blend.vertices[k], blend.weights[k] / sum);
     }
     /// The clusters that one touches, some of whose vertices blend with it.
     std::span<const std::uint32_t> clustersNear(const Patch& patch) const {

@@ -94,7 +94,7 @@ Sampled Sampler::emitterBlocks() {
         if (!set_.objects[set_.vertexBlockObject[b].value].present) return;
         std::uint64_t wanted = 0;
         for (std::uint32_t i = 0; i < kBlock; ++i) {
-            receivers[i] = set_.vertices[b * kBlock + i].receiver;
+            receivers[i] = set_.isBlended(b) ? Receiver{} : set_.vertices[b * kBlock + i].receiver;
             const bool hidden = solver_.direct().wallBefore(e, b * kBlock + i).valid();
             wanted |= std::uint64_t(!isPadding(receivers[i]) && !hidden) << i;
         }
@@ -192,7 +192,7 @@ Sampled Sampler::vertices() {
     Sampled sum = sample(8, 1024, [&](std::uint32_t hash, Sampled& out) {
         const std::uint32_t first = kRun * below(set_.vertices.size() / kRun, hash);
         const auto there = [&](std::uint32_t v) {
-            return set_.vertexCoordinates[v].patch != Element::kNone;
+            return set_.vertexCoordinates[v].patch != Element::kNone && !set_.isBlended(v / kBlock);
         };
         for (std::uint32_t v = first; v < first + kRun; ++v) {
             if (!there(v)) continue;

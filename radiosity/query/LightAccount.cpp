@@ -36,30 +36,43 @@ struct Factors {
     std::map<std::uint32_t, double> losses; ///< by object
 };
 
+/// Adds what is on record of a receiver. \param factor unoccluded, times weight
+void addReceiver(const PatchSet& patches, const DirectLight& light, std::size_t emitter,
+                 std::uint32_t v, double factor, Factors& sum) {
+    const RowBlock::Entry entry =
+        light.rows()[emitter][v / PatchSet::kBlock].entry(int(v % PatchSet::kBlock));
+    if (!entry.present) {
+        const ObjectId wall = light.wallBefore(std::uint32_t(emitter), v);
+        if (!patches.objects[patches.emitters[emitter].object.value].present || !wall.valid())
+            return;
+        sum.unoccluded += factor;
+        sum.losses[wall.value] += factor;
+        return;
+    }
+    sum.unoccluded += factor;
+    sum.arrives += factor * double(entry.visibility);
+    const std::vector<double> shares =
+        sharesOf(entry, light.senders()[emitter], patches.vertices[v].receiver);
+    for (std::size_t b = 0; b < shares.size(); ++b)
+        sum.losses[entry.blockers[b].object] += factor * shares[b];
+}
+
 Factors factorsOf(const PatchSet& patches, const DirectLight& light, std::size_t emitter,
                   const DrawnHit& at) {
     Factors sum;
+    const auto formFactor = [&](std::uint32_t v) {
+        return double(light.senders()[emitter].formFactor(patches.vertices[v].receiver));
+    };
     for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t v = at.vertices[k];
-        const RowBlock& block = light.rows()[emitter][v / PatchSet::kBlock];
-        const RowBlock::Entry entry = block.entry(int(v % PatchSet::kBlock));
-        const Receiver& receiver = patches.vertices[v].receiver;
-        if (!entry.present) {
-            const ObjectId wall = light.wallBefore(std::uint32_t(emitter), v);
-            if (!patches.objects[patches.emitters[emitter].object.value].present || !wall.valid())
-                continue;
-            const double factor =
-                double(at.weights[k]) * double(light.senders()[emitter].formFactor(receiver));
-            sum.unoccluded += factor;
-            sum.losses[wall.value] += factor;
-            continue;
-        }
-        const double factor = double(at.weights[k]) * double(entry.formFactor);
-        sum.unoccluded += factor;
-        sum.arrives += factor * double(entry.visibility);
-        const std::vector<double> shares = sharesOf(entry, light.senders()[emitter], receiver);
-        for (std::size_t b = 0; b < shares.size(); ++b)
-            sum.losses[entry.blockers[b].object] += factor * shares[b];
+        const double factor = double(at.weights[k]) * formFactor(at.vertices[k]);
+        double known = 0; // by receivers of which any of the emitter is above the horizon
+        patches.forEachReceiver(at.vertices[k], [&](std::uint32_t v, float weight) {
+            if (formFactor(v) > 0) known += double(weight);
+        });
+        patches.forEachReceiver(at.vertices[k], [&](std::uint32_t v, float weight) {
+            if (formFactor(v) > 0)
+                addReceiver(patches, light, emitter, v, double(weight) / known * factor, sum);
+        });
     }
     return sum;
 }

@@ -145,6 +145,32 @@ public:
         forEachSeen([&](int receiver, float, float factor) { visit(receiver, factor); });
     }
 
+    /// The same with the form factor: visit(receiver, form factor, form factor times visibility).
+    template <class Visit>
+    void forEachSeen(Visit visit) const {
+        if (!bytes_) return;
+        const std::uint64_t present = at<std::uint64_t>(0), visible = at<std::uint64_t>(kVisible);
+        std::size_t factor = factors();
+        if (present == visible) {
+            for (std::uint64_t left = present; left != 0; left &= left - 1, factor += 4)
+                visit(std::countr_zero(left), at<float>(factor), at<float>(factor));
+            return;
+        }
+        const std::uint64_t seen = at<std::uint64_t>(kSeen);
+        std::size_t share = visibilities();
+        for (std::uint64_t left = present; left != 0; left &= left - 1, factor += 4) {
+            const int receiver = std::countr_zero(left);
+            if (!(seen >> receiver & 1)) continue;
+            const float formFactor = at<float>(factor);
+            float value = formFactor;
+            if (!(visible >> receiver & 1)) {
+                value *= at<float>(share);
+                share += 4;
+            }
+            visit(receiver, formFactor, value);
+        }
+    }
+
     /// Calls visit(object) once for every object that blocks any sample in this block.
     template <class Visit>
     void forEachBlocker(Visit visit) const {
@@ -188,32 +214,6 @@ public:
 private:
     class Writer;
     class Reader;
-
-    /// Calls visit(receiver, form factor, form factor times visibility).
-    template <class Visit>
-    void forEachSeen(Visit visit) const {
-        if (!bytes_) return;
-        const std::uint64_t present = at<std::uint64_t>(0), visible = at<std::uint64_t>(kVisible);
-        std::size_t factor = factors();
-        if (present == visible) {
-            for (std::uint64_t left = present; left != 0; left &= left - 1, factor += 4)
-                visit(std::countr_zero(left), at<float>(factor), at<float>(factor));
-            return;
-        }
-        const std::uint64_t seen = at<std::uint64_t>(kSeen);
-        std::size_t share = visibilities();
-        for (std::uint64_t left = present; left != 0; left &= left - 1, factor += 4) {
-            const int receiver = std::countr_zero(left);
-            if (!(seen >> receiver & 1)) continue;
-            const float formFactor = at<float>(factor);
-            float value = formFactor;
-            if (!(visible >> receiver & 1)) {
-                value *= at<float>(share);
-                share += 4;
-            }
-            visit(receiver, formFactor, value);
-        }
-    }
 
     static constexpr std::size_t kVisible = 8, kBytes = 16, kObjects = 18, kSeen = 20;
     static constexpr std::uint16_t kWideObjects = 0x8000;               ///< object ids of 4 bytes

@@ -35,21 +35,27 @@ VertexClusters::VertexClusters(const PatchSet& patches, std::size_t most) : patc
 /// How large clusters are, and what they reflect. Each corner has its share of an element.
 void VertexClusters::measure() {
     for (ReceiverCluster& cluster : clusters_.clusters) cluster.area = cluster.reflectance = 0;
+    const auto blockOf = [&](std::uint32_t vertex) {
+        std::uint32_t first = vertex;
+        patches_.forEachReceiver(vertex, [&](std::uint32_t v, float) { first = v; });
+        return first / kBlock;
+    };
     area_.assign(patches_.firstPrivate, 0);
     reflectance_.assign(patches_.firstPrivate, 0);
     for (std::uint32_t e = 0; e < patches_.uncoveredElements.size(); ++e) {
         const Element& element = patches_.uncoveredElements[e];
         if (element.patch == Element::kNone) continue;
-        const std::uint32_t block = element.vertices[0] / kBlock; // its corners are mostly in one
+        const std::uint32_t block = blockOf(element.vertices[0]); // its corners are mostly in one
         if (block >= clusters_.clusterOf.size()) continue;
         ReceiverCluster& cluster = clusters_.clusters[clusters_.clusterOf[block]];
         const float area = elementArea(patches_, element);
         const float reflectance = luminance(elementReflectance(patches_, e));
         const std::size_t corners = element.isTriangle() ? 3 : 4;
-        for (std::size_t k = 0; k < corners; ++k) {
-            area_[element.vertices[k]] += area / float(corners);
-            reflectance_[element.vertices[k]] = reflectance;
-        }
+        for (std::size_t k = 0; k < corners; ++k)
+            patches_.forEachReceiver(element.vertices[k], [&](std::uint32_t v, float weight) {
+                area_[v] += weight * area / float(corners);
+                reflectance_[v] = reflectance;
+            });
         cluster.area += area;
         cluster.reflectance += area * reflectance;
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <unordered_map>
 #include <utility>
 
 namespace penumbra {
@@ -41,14 +42,14 @@ Rgb toRgb(glm::dvec3 v) {
 
 } // namespace
 
-/// Sweeps under way. Each takes three rounds, of elements, nodes and vertices; of the last one's
-/// vertices only those are gathered that are asked for.
+/// Sweeps under way. Each takes four rounds, of blended vertices, elements, nodes and vertices; of
+/// the last one's vertices only those are gathered that are asked for.
 struct DetailGather::Sweep {
     std::span<const Rgb> direct;
     std::vector<Rgb> indirect;
     std::vector<glm::dvec3> nodeIndirect;
     Sent sent;
-    int round = -1; ///< -1: vertices are interpolated; 3 i + k: round k of sweep i
+    int round = -1; ///< -1: vertices are interpolated; 4 i + k: round k of sweep i
     std::size_t next = 0;
 };
 
@@ -128,14 +129,16 @@ void DetailGather::sweep(std::size_t effort) {
         std::size_t count;
         std::size_t cost; ///< of sixteen of them, about [rays]
     };
-    const std::array<Round, 4> rounds{{
+    constexpr std::size_t kGroups = PatchSet::kBlock / DetailHits::kGroup; // of a block
+    const std::array<Round, 5> rounds{{
         {&DetailGather::interpolateVertices, hits_.groupCount(), 16},
+        {&DetailGather::blendVertices, hits_.groupCount() / kGroups, 16},
         {&DetailGather::sendElements, patches_.elements.size(), 2},
         {&DetailGather::gatherNodes, patches_.nodes.size(), 16},
         {&DetailGather::gatherVertices, hits_.groupCount(), 128},
     }};
     Sweep& s = *sweep_;
-    const Round& round = rounds[std::size_t(s.round < 0 ? 0 : 1 + s.round % 3)];
+    const Round& round = rounds[std::size_t(s.round < 0 ? 0 : 1 + s.round % 4)];
     const std::size_t count =
         std::min(round.count - s.next, std::max<std::size_t>(16, 16 * effort / round.cost));
     parallelFor(count, std::max<std::size_t>(16, 4096 / round.cost),
@@ -145,7 +148,7 @@ void DetailGather::sweep(std::size_t effort) {
     s.next += count;
     if (s.next < round.count) return;
     s.next = 0;
-    if (++s.round < 3 * kSweeps - 1) return;
+    if (++s.round < 4 * kSweeps - 1) return;
     std::swap(sent_, s.sent);
     sweeping_ = pending_ = false;
     swept_ = true;
@@ -164,6 +167,40 @@ void DetailGather::interpolateVertices(Sweep& sweep, std::size_t first, std::siz
         }
         for (const auto& gatherer : hits_.gatherers(group))
             if (gatherer.weighs()) sweep.indirect[gatherer.vertex] *= 1 - gatherer.shut;
+    }
+}
+
+/// Has the vertices of a blended block take what rays found at the receivers around them.
+/// \param indirect     interpolated as yet [lux]
+/// \param correctionOf by how much that is not what was interpolated at a receiver [lux]
+template <class CorrectionOf>
+void DetailGather::blend(std::uint32_t block, std::span<Rgb> indirect,
+                         const CorrectionOf& correctionOf) const {
+    for (std::uint32_t v = block * PatchSet::kBlock; v < (block + 1) * PatchSet::kBlock; ++v) {
+        if (patches_.vertexCoordinates[v].patch == Element::kNone) continue;
+        Rgb correction;
+        patches_.forEachReceiver(v, [&](std::uint32_t receiver, float weight) {
+            const DetailHits::Gatherer* const gatherer = hits_.gatherer(receiver);
+            if (gatherer && gatherer->weighs()) correction += weight * correctionOf(*gatherer);
+        });
+        const Rgb light = indirect[v] + correction;
+        indirect[v] = {std::max(light.r, 0.0f), std::max(light.g, 0.0f), std::max(light.b, 0.0f)};
+    }
+}
+
+void DetailGather::blendVertices(Sweep& sweep, std::size_t first, std::size_t last) const {
+    const auto interpolated = [&](std::uint32_t v) {
+        return toRgb(interpolateNodes<glm::dvec3>(patches_, patches_.vertexCoordinates[v],
+                                                  sweep.nodeIndirect));
+    };
+    for (auto block = std::uint32_t(first); block < last; ++block) {
+        if (!patches_.isBlended(block)) continue;
+        for (std::uint32_t v = block * PatchSet::kBlock; v < (block + 1) * PatchSet::kBlock; ++v)
+            if (patches_.vertexCoordinates[v].patch != Element::kNone)
+                sweep.indirect[v] = interpolated(v);
+        blend(block, sweep.indirect, [&](const DetailHits::Gatherer& gatherer) {
+            return sweep.indirect[gatherer.vertex] - interpolated(gatherer.vertex);
+        });
     }
 }
 
@@ -263,6 +300,18 @@ Rgb DetailGather::received(const Sent& sent, std::size_t group,
 void DetailGather::correct(std::uint32_t block, std::span<const glm::dvec3> nodeIndirect,
                            std::span<Rgb> indirect) const {
     if (sent_.nodes.empty()) return;
+    if (patches_.isBlended(block)) {
+        std::unordered_map<std::uint32_t, Rgb> corrections;
+        return blend(block, indirect, [&](const DetailHits::Gatherer& gatherer) {
+            const auto [known, fresh] = corrections.try_emplace(gatherer.vertex);
+            if (fresh)
+                known->second =
+                    received(sent_, gatherer.vertex / DetailHits::kGroup, gatherer, nodeIndirect) -
+                    toRgb(interpolateNodes<glm::dvec3>(
+                        patches_, patches_.vertexCoordinates[gatherer.vertex], nodeIndirect));
+            return known->second;
+        });
+    }
     constexpr std::size_t kGroups = PatchSet::kBlock / DetailHits::kGroup;
     for (std::size_t group = block * kGroups; group < (block + 1) * kGroups; ++group)
         for (const auto& gatherer : hits_.gatherers(group)) // one that was given back may be there

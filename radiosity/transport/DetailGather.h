@@ -107,6 +107,10 @@ private:
     void sendElements(Sweep& sweep, std::size_t first, std::size_t last) const;
     void gatherNodes(Sweep& sweep, std::size_t first, std::size_t last) const;
     void gatherVertices(Sweep& sweep, std::size_t first, std::size_t last) const;
+    void blendVertices(Sweep& sweep, std::size_t first, std::size_t last) const;
+    template <class CorrectionOf>
+    void blend(std::uint32_t block, std::span<Rgb> indirect,
+               const CorrectionOf& correctionOf) const;
 
     const PatchSet& patches_;
     DetailHits hits_;

@@ -130,6 +130,7 @@ bool DetailHits::work(std::size_t effort) {
 
 GroupOutcome DetailHits::trace(std::uint32_t group) {
     GroupOutcome outcome;
+    if (patches_.isBlended(group * kGroup / PatchSet::kBlock)) return outcome;
     const DirtyGroups::Dirty& dirty = dirty_[group];
     const DetailRays::Moved moved = nodes_.movedOf(dirty);
     if (!dirty.judge && !anyAffected(group, moved)) return outcome;

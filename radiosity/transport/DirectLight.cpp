@@ -19,6 +19,10 @@ namespace {
 
 constexpr std::uint32_t kBlock = PatchSet::kBlock;
 
+void noteOnce(std::vector<std::uint32_t>& items, std::uint32_t item) {
+    if (std::find(items.rbegin(), items.rend(), item) == items.rend()) items.push_back(item);
+}
+
 EmitterSender sender(const Emitter& emitter, int samples) {
     const int base = std::min(samples, RowBlock::kSize);
     return EmitterSender(emitter, base, std::min(4 * base, RowBlock::kSize));
@@ -34,6 +38,8 @@ DirectLight::DirectLight(const PatchSet& set, const RayScene& rays, int samples)
       cells_(set.nodes.empty() ? 0 : set.patches.size()), patchLit_(set.patches.size()) {
     placeEmitters();
     blockPatches_.resize(set.firstPrivate / kBlock);
+    blockBlends_.resize(blockPatches_.size());
+    noteBlends({0, set.firstPrivate});
     noteBlocks({0, std::uint32_t(set.elements.size())});
     std::vector<BlockMask> all;
     for (std::uint32_t b = 0; b < set.vertices.size() / kBlock; ++b)
@@ -60,11 +66,23 @@ void DirectLight::noteBlocks(Range elements) {
     for (std::uint32_t e = elements.first; e < elements.end(); ++e) {
         const Element& element = set_.uncoveredElements[e];
         if (element.patch == Element::kNone) continue;
-        for (std::uint32_t v : element.vertices) {
-            std::vector<std::uint32_t>& patches = blockPatches_[v / kBlock];
-            if (std::find(patches.rbegin(), patches.rend(), element.patch) == patches.rend())
-                patches.push_back(element.patch);
+        for (const std::uint32_t v : element.vertices) {
+            noteOnce(blockPatches_[v / kBlock], element.patch);
+            if (!set_.isBlended(v / kBlock)) continue;
+            const VertexBlend& blend = set_.vertexBlend(v);
+            for (std::size_t k = 0; k < 4 && blend.weights[k] > 0; ++k)
+                noteOnce(blockPatches_[blend.vertices[k] / kBlock], element.patch);
         }
+    }
+}
+
+/// Notes which blocks take light from which.
+void DirectLight::noteBlends(Range vertices) {
+    for (std::uint32_t v = vertices.first; v < vertices.end(); ++v) {
+        if (!set_.isBlended(v / kBlock)) continue;
+        const VertexBlend& blend = set_.vertexBlend(v);
+        for (std::size_t k = 0; k < 4 && blend.weights[k] > 0; ++k)
+            noteOnce(blockBlends_[blend.vertices[k] / kBlock], v / kBlock);
     }
 }
 
@@ -76,7 +94,10 @@ void DirectLight::add(std::span<const ObjectId> objects) {
     for (std::size_t row = before; row < table_.size(); ++row)
         table_[row].resize(table_.blocks().size());
     updates_.grow();
-    for (const ObjectId object : objects) noteBlocks(set_.objects[object.value].elements);
+    for (const ObjectId object : objects) {
+        noteBlends(set_.objects[object.value].vertices);
+        noteBlocks(set_.objects[object.value].elements);
+    }
     described_ = false;
 }
 
@@ -98,7 +119,7 @@ void DirectLight::placeReceivers(std::vector<BlockMask>& masks) {
     for (const auto& [block, bits] : masks) {
         Bounds box;
         for (std::size_t v = block * kBlock; v < (block + 1) * kBlock; ++v) {
-            receivers_[v] = set_.vertices[v].receiver;
+            receivers_[v] = set_.isBlended(block) ? Receiver{} : set_.vertices[v].receiver;
             if (!isPadding(receivers_[v])) box.add(receivers_[v].position);
         }
         table_.blocks().set(block, box);
@@ -215,6 +236,7 @@ void DirectLight::apply(const SceneChange& change) {
     for (std::uint32_t p : change.patches)
         set_.forEachPart(p, [&](std::uint32_t part) { touchPatch(part); });
     for (std::uint32_t p : change.senders) touchPatch(p);
+    for (std::uint32_t p : change.patches) touchBlended(p);
     for (std::uint32_t e : change.emitters) // no form factor changes: only sums
         for (std::uint32_t b = 0; b < table_[e].size(); ++b)
             if (table_[e][b].entryCount() > 0) touchBlock(b);
@@ -228,6 +250,17 @@ void DirectLight::invalidate(const Bounds& region) {
 void DirectLight::touchBlock(std::uint32_t block) {
     if (std::exchange(blockTouched_[block], 1)) return;
     touchedBlocks_.push_back(block);
+    if (block >= blockBlends_.size()) return;
+    for (const std::uint32_t blended : blockBlends_[block]) touchBlock(blended);
+}
+
+/// Of a cluster that other things cover otherwise than before: which of its receivers count.
+void DirectLight::touchBlended(std::uint32_t patch) {
+    const Patch& p = set_.patches[patch];
+    for (std::uint32_t i = 0; p.cluster && i < p.elementCount; ++i)
+        for (const std::uint32_t v :
+             set_.uncoveredElements[set_.patchElements[p.firstElement + i]].vertices)
+            touchBlock(v / kBlock);
 }
 
 void DirectLight::touchPatch(std::uint32_t patch) {
@@ -350,6 +383,78 @@ std::vector<std::uint32_t> DirectLight::takeSummedBlocks() {
     return std::exchange(summedBlocks_, {});
 }
 
+std::vector<std::uint32_t> DirectLight::dirtyBlocks(std::uint32_t emitter, double enough) const {
+    std::vector<std::uint32_t> blocks = updates_.dirty().urgent(emitter, enough);
+    for (std::size_t i = 0, count = blocks.size(); i < count; ++i)
+        if (blocks[i] < blockBlends_.size())
+            blocks.insert(blocks.end(), blockBlends_[blocks[i]].begin(),
+                          blockBlends_[blocks[i]].end());
+    std::sort(blocks.begin(), blocks.end());
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    return blocks;
+}
+
+namespace {
+
+/// How much receivers see of an emitter of what is above their horizon.
+class SeenShares {
+public:
+    SeenShares(const Row& row, const EmitterSender& sender, std::span<const Receiver> receivers)
+        : row_(row), sender_(sender), receivers_(receivers) {}
+
+    /// Negative: nothing of it is above the horizon.
+    float at(std::uint32_t vertex) {
+        const float known = ofBlock(vertex / kBlock)[vertex % kBlock];
+        if (known >= 0) return known;
+        return sender_.formFactor(receivers_[vertex]) > 0 ? 0.0f : -1.0f; // a wall hides it
+    }
+
+private:
+    using Shares = std::array<float, kBlock>;
+    const Shares& ofBlock(std::uint32_t block) {
+        for (const auto& [index, shares] : blocks_)
+            if (index == block) return shares;
+        Shares& shares = blocks_.emplace_back(block, Shares()).second;
+        shares.fill(-1);
+        for (const std::uint32_t r : bitsOf(row_[block].present())) shares[r] = 0;
+        row_[block].forEachSeen([&](int r, float formFactor, float seen) {
+            shares[std::size_t(r)] = seen / formFactor;
+        });
+        return shares;
+    }
+
+    const Row& row_;
+    const EmitterSender& sender_;
+    std::span<const Receiver> receivers_;
+    std::vector<std::pair<std::uint32_t, Shares>> blocks_;
+};
+
+} // namespace
+
+std::array<float, kBlock> DirectLight::factors(std::uint32_t emitter, std::uint32_t block) const {
+    std::array<float, kBlock> factors{};
+    const Row& row = table_[emitter];
+    if (block >= row.size()) return factors;
+    if (!set_.isBlended(block)) {
+        row[block].forEach([&](int r, float factor) { factors[std::size_t(r)] = factor; });
+        return factors;
+    }
+    SeenShares shares(row, emitters_[emitter], receivers_);
+    for (std::uint32_t r = 0; r < kBlock; ++r) {
+        const std::uint32_t v = block * kBlock + r;
+        float seen = 0, known = 0;
+        set_.forEachReceiver(v, [&](std::uint32_t receiver, float weight) {
+            const float share = shares.at(receiver);
+            if (share < 0) return;
+            known += weight;
+            seen += weight * share;
+        });
+        if (seen > 0)
+            factors[r] = seen / known * emitters_[emitter].formFactor(set_.vertices[v].receiver);
+    }
+    return factors;
+}
+
 void DirectLight::sumBlock(std::uint32_t block) {
     Rgb* const light = vertices_.data() + block * kBlock;
     float* const seen = vertexSeen_.data() + block * kBlock;
@@ -357,10 +462,16 @@ void DirectLight::sumBlock(std::uint32_t block) {
     std::fill_n(seen, kBlock, 0.0f);
     for (const std::uint32_t e : order_) {
         const Rgb exitance = set_.emitters[e].exitance;
-        table_[e][block].forEach([&](int r, float factor) {
+        const auto add = [&](int r, float factor) {
             light[r] += factor * exitance;
             seen[r] += factor;
-        });
+        };
+        if (!set_.isBlended(block)) {
+            table_[e][block].forEach(add);
+            continue;
+        }
+        const std::array<float, kBlock> blended = factors(e, block);
+        for (int r = 0; r < int(kBlock); ++r) add(r, blended[std::size_t(r)]);
     }
 }
 

@@ -62,7 +62,10 @@ public:
     /// Whether the rows give to a block what its vertices have.
     bool summed(std::uint32_t block) const { return blockTouched_[block] == 0; }
 
-    std::span<const Rgb> vertices() const { return vertices_; }      ///< [lux]
+    std::span<const Rgb> vertices() const { return vertices_; } ///< [lux]
+    /// Form factors of an emitter at the vertices of a block, times what they see of it: as the row
+    /// has them or, of a blended block, with visibility from the receivers around.
+    std::array<float, PatchSet::kBlock> factors(std::uint32_t emitter, std::uint32_t block) const;
     std::span<const glm::dvec3> patches() const { return patches_; } ///< means [lux]
     /// Around each sample of a patch (see samplePatch()), if that has several elements [lux]: of
     /// the nearest element that is lit, all shifted to the patch's mean. \pre the set has nodes
@@ -73,9 +76,7 @@ public:
     bool dirtyKnown() const { return updates_.found(); }
     /// Blocks, in order, of which an emitter's row is not known to be what it should be. Work that
     /// may be deferred does not count, see work().
-    std::vector<std::uint32_t> dirtyBlocks(std::uint32_t emitter, double enough) const {
-        return updates_.dirty().urgent(emitter, enough);
-    }
+    std::vector<std::uint32_t> dirtyBlocks(std::uint32_t emitter, double enough) const;
     std::span<const std::uint8_t> patchLit() const {
         return patchLit_;
     } ///< sees any emitter at all
@@ -99,9 +100,11 @@ private:
     std::span<const Receiver> receiversOf(std::size_t block) const;
     void placeEmitters();
     void noteBlocks(Range elements);
+    void noteBlends(Range vertices);
     void placeReceivers(std::vector<BlockMask>& masks);
     void touchBlock(std::uint32_t block);
     void touchPatch(std::uint32_t patch);
+    void touchBlended(std::uint32_t patch);
     template <class Visit>
     void forEachPatch(std::uint32_t block, Visit visit) const;
     void describeReceivers();
@@ -122,6 +125,8 @@ private:
     std::vector<std::uint32_t> order_; ///< of the emitters in sums
     std::vector<Receiver> receivers_;
     std::vector<std::vector<std::uint32_t>> blockPatches_; ///< lit by the vertices of each block
+    /// Of each block of receivers the blended ones whose vertices take light from these.
+    std::vector<std::vector<std::uint32_t>> blockBlends_;
     RowTable table_;
     RowUpdates updates_;
 

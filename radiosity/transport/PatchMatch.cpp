@@ -108,7 +108,8 @@ void matchBlocks(const Receivers& before, const std::vector<std::uint32_t>& were
 
 Receivers verticesOf(const PatchSet& set) {
     Receivers receivers{set.vertexBlockObject, {}};
-    for (const Vertex& vertex : set.vertices) receivers.keys.push_back(keyOf(vertex.receiver, 0));
+    for (std::uint32_t v = 0; v < set.vertices.size(); ++v)
+        receivers.keys.push_back(keyOf(set.vertices[v].receiver, set.isBlended(v / kBlock)));
     return receivers;
 }
 

@@ -58,6 +58,70 @@ TEST(DenseMeshes, HaveVerticesThatTakeAMeanOfTheNodesAroundThem) {
     EXPECT_GT(blended, 3000u);
 }
 
+/// Vertices of the ball that receive light themselves, and those that take it from them.
+struct Received {
+    std::size_t receivers = 0, blended = 0;
+};
+
+Received receivedOn(const PatchSet& set) {
+    Received received;
+    const auto ball = std::ranges::find(set.objects, "/ball", &ObjectPart::path);
+    for (std::uint32_t v = ball->vertices.first; v < ball->vertices.end(); ++v)
+        if (!isPadding(set.vertices[v].receiver))
+            ++(set.isBlended(v / PatchSet::kBlock) ? received.blended : received.receivers);
+    return received;
+}
+
+TEST(DenseMeshes, ReceiveLightAtAsManyVerticesHoweverManyTheyHave) {
+    const auto on = [](int rings) {
+        return receivedOn(meshed(roomWith(ballData(rings, 0.5f)), kSizes).patches);
+    };
+    const Received coarse = on(40), fine = on(160);
+    EXPECT_LT(double(fine.receivers), 1.3 * double(coarse.receivers));
+    EXPECT_GT(fine.blended, 20 * fine.receivers);
+}
+
+TEST(DenseMeshes, TakeLightFromReceiversAroundOnTheSameSide) {
+    const PatchSet set = meshed(roomWith(ballData(80, 0.5f)), kSizes).patches;
+    for (std::uint32_t v = 0; v < set.vertices.size(); ++v) {
+        const Vertex& vertex = set.vertices[v];
+        if (isPadding(vertex.receiver) || !set.isBlended(v / PatchSet::kBlock)) continue;
+        float sum = 0;
+        set.forEachReceiver(v, [&](std::uint32_t r, float weight) {
+            sum += weight;
+            EXPECT_FALSE(set.isBlended(r / PatchSet::kBlock));
+            EXPECT_LT(glm::distance(set.vertices[r].position, vertex.position), 0.3f);
+            EXPECT_GT(glm::dot(set.vertices[r].receiver.normal, vertex.receiver.normal), 0.5f);
+        });
+        EXPECT_NEAR(sum, 1, 1e-5f) << v;
+    }
+}
+
+/// Where nothing is in the way, light that is blended is that of the vertex itself: its normal and
+/// place count, and not those of the receivers around.
+TEST(DenseMeshes, AreLitDirectlyAsEachVertexLies) {
+    SolverOptions direct;
+    direct.directOnly = true;
+    const Scene scene =
+        sceneOf({object("ball", ballData(120, 0.3f)),
+                 placed("light", moved(0, 0, 2),
+                        {std::make_shared<Light>("light", RectShape{0.5f, 0.5f}, Rgb(20.0f))})});
+    LitScene lit(placeScene(scene), kSizes, direct);
+    lit.solver().settle();
+    const PatchSet& set = lit.patches();
+    const EmitterSender& emitter = lit.solver().direct().senders()[0];
+    std::size_t blended = 0;
+    for (std::uint32_t v = 0; v < set.vertices.size(); ++v) {
+        const Receiver& receiver = set.vertices[v].receiver;
+        if (isPadding(receiver) || !set.isBlended(v / PatchSet::kBlock)) continue;
+        if (receiver.normal.z < 0.5f) continue; // the ball's own shadow begins at its equator
+        ++blended;
+        const Rgb wanted = emitter.formFactor(receiver) * set.emitters[0].exitance;
+        EXPECT_NEAR(lit.solver().direct().vertices()[v].g, wanted.g, 1e-3f * wanted.g) << v;
+    }
+    EXPECT_GT(blended, 1000u);
+}
+
 TEST(DenseMeshes, InAFurnaceAreAsBrightAsItsWalls) {
     const Solution solution(roomWith(ballData(40, 0.5f, glowing()), glowing()), kSizes,
                             {.residual = 1e-6});

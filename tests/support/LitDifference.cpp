@@ -190,6 +190,19 @@ void compareDetail(Comparison& with, const DetailHits& a, const DetailHits& b, c
         }
 }
 
+/// What is drawn of one object's direct light [lux], at blended vertices too.
+void compareDrawnDirect(Comparison& with, const Lighting& a, const Lighting& b,
+                        const ObjectPart& pa, const ObjectPart& pb) {
+    for (std::uint32_t i = 0; i < pa.elements.count; ++i)
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Rgb one = a.direct[with.a.elements[pa.elements.first + i].vertices[k]];
+            const Rgb other = b.direct[with.b.elements[pb.elements.first + i].vertices[k]];
+            with.expect(maxChannel(absolute(one - other)) <= 1e-5f * (1 + maxChannel(one)), pa.path,
+                        " element ", i, " corner ", k, " is lit directly by ", one.g, " against ",
+                        other.g);
+        }
+}
+
 /// What is drawn of one object's indirect light [lux].
 void compareDrawn(Comparison& with, const Lighting& a, const Lighting& b, const ObjectPart& pa,
                   const ObjectPart& pb, double allowed) {
@@ -237,6 +250,7 @@ std::string difference(const LitScene& one, const LitScene& other) {
             !pa.present)
             continue;
         const std::vector<Pair> nodes = nodePairs(with, pa, pb);
+        compareDrawnDirect(with, drawnA, drawnB, pa, pb);
         if (one.solver().nodeHits())
             compareNodes(with, one.solver(), other.solver(), pa.path, nodes, elements);
         if (one.solver().detail())

@@ -282,11 +282,8 @@ void LightPublisher::writeLights(std::uint32_t block, LightBlock& light) const {
     light.lights = std::uint32_t(lights_.size());
     for (std::size_t l = 0; l < lights_.size(); ++l) {
         for (std::uint32_t emitter : lights_[l].emitters) {
-            const Row& row = scene_.solver().emitterRows()[emitter];
-            if (block >= row.size()) continue;
-            row[block].forEach([&](int receiver, float factor) {
-                light.factor[l][std::size_t(receiver)] += factor;
-            });
+            const auto factors = scene_.solver().direct().factors(emitter, block);
+            for (std::size_t k = 0; k < kBlock; ++k) light.factor[l][k] += factors[k];
         }
         if (!lights_[l].emitters.empty())
             light.exitance[l] = scene_.patches().emitters[lights_[l].emitters.front()].exitance;
