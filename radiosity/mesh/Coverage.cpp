@@ -22,6 +22,7 @@ void makeUnique(std::vector<std::uint32_t>& items) {
 Coverage::Coverage(PatchSet& set, const RayScene& rays)
     : set_(set), rays_(rays), resolver_(rays, set.rayMeshes, set.skin, set.vertices),
       shared_(set.uncoveredElements), fans_(fansOf(shared_, set.vertices.size())) {
+    set_.displaced.resize(set_.firstPrivate);
     for (std::uint32_t o = 0; o < set_.objects.size(); ++o) orderElements({o});
     std::vector<std::uint32_t> all;
     for (std::uint32_t e = 0; e < shared_.size(); ++e)
@@ -181,6 +182,7 @@ void Coverage::settleCorner(std::uint32_t element, std::uint32_t corner, bool pa
     if (wanted.receiver.position != from.receiver.position) {
         const auto own = own_.find(key);
         now = own != own_.end() ? own->second : takeVertex(set_.elementObject[element]);
+        if (own == own_.end()) ++set_.displaced[shared];
         own_[key] = now;
         Vertex& vertex = set_.vertices[now];
         if (vertex.receiver.position != wanted.receiver.position ||
@@ -192,6 +194,7 @@ void Coverage::settleCorner(std::uint32_t element, std::uint32_t corner, bool pa
     } else if (before != shared) {
         unused_[set_.elementObject[element].value].push_back(before);
         own_.erase(key);
+        --set_.displaced[shared];
         set_.vertices[before].receiver.normal = glm::vec3(0);
         set_.vertexCoordinates[before] = {};
         change.vertices.push_back(before);

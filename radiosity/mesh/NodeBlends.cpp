@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <compare>
 #include <utility>
 #include <vector>
@@ -11,6 +12,15 @@ namespace penumbra {
 namespace {
 
 constexpr float kLeastCosine = 0.5f; ///< between normals: what lies beyond a crease does not count
+
+/// Whether what is seen at a place of a surface is about what is seen at another: the one is no
+/// groove of which the other is the ridge. \param height over each other's tangent plane, at most
+/// [m]
+bool isAlongside(const DenseVertex& a, const DenseVertex& b, float cosine, float height) {
+    const glm::vec3 d = b.position - a.position;
+    return glm::dot(a.normal, b.normal) > cosine && std::abs(glm::dot(a.normal, d)) < height &&
+           std::abs(glm::dot(b.normal, d)) < height;
+}
 
 /// A corner of a cluster's elements, and the cluster.
 struct Corner {
@@ -116,12 +126,12 @@ void blendNodes(PatchSet& set) {
 
 std::vector<std::uint32_t> chooseReceivers(std::vector<DenseVertex> known,
                                            std::span<const DenseVertex> among, float elementSize) {
-    constexpr float kAlike = 0.7f; // cosine between normals: one may stand for the other
+    constexpr float kAlike = 0.94f, kFlat = 0.1f; // cosine between normals; height in elements
     std::vector<std::uint32_t> chosen;
     for (const DenseVertex& vertex : among) {
         const bool has = std::any_of(known.begin(), known.end(), [&](const DenseVertex& other) {
             return glm::distance(vertex.position, other.position) < elementSize &&
-                   glm::dot(vertex.normal, other.normal) > kAlike;
+                   isAlongside(vertex, other, kAlike, kFlat * elementSize);
         });
         if (has) continue;
         known.push_back(vertex);
@@ -146,6 +156,7 @@ std::vector<std::vector<std::uint32_t>> receiversOfClusters(const PatchSet& set)
 } // namespace
 
 void blendVertices(PatchSet& set) {
+    constexpr float kBeside = 0.9f, kHigh = 0.25f; // as above, but for what is farther away
     if (set.vertexBlends.empty()) return;
     const std::vector<std::vector<std::uint32_t>> receivers = receiversOfClusters(set);
     std::vector<Near> near;
@@ -158,7 +169,9 @@ void blendVertices(PatchSet& set) {
             for (const std::uint32_t r : receivers[patch]) {
                 const Vertex& other = set.vertices[r];
                 const float cosine = glm::dot(other.receiver.normal, vertex.receiver.normal);
-                if (cosine >= kLeastCosine)
+                if (isAlongside({v, vertex.position, vertex.receiver.normal},
+                                {r, other.position, other.receiver.normal}, kBeside,
+                                kHigh * set.elementSize))
                     near.emplace_back(glm::distance(other.position, vertex.position) +
                                           2 * set.elementSize * (1 - cosine),
                                       r);

@@ -215,9 +215,11 @@ struct PatchSet {
     std::vector<std::uint32_t> blockBlends;
     std::vector<ObjectId> nodeBlockObject; ///< one a block of nodes
     std::vector<Element> elements;
-    std::vector<Element> uncoveredElements;    ///< the same when nothing else is near
-    std::vector<std::uint8_t> covered;         ///< 1: an element that other things cover all over
-    std::uint32_t firstPrivate = 0;            ///< the first vertex that Coverage hands out
+    std::vector<Element> uncoveredElements; ///< the same when nothing else is near
+    std::vector<std::uint8_t> covered;      ///< 1: an element that other things cover all over
+    std::uint32_t firstPrivate = 0;         ///< the first vertex that Coverage hands out
+    /// Of each vertex before it: at how many corners of elements a private one stands for it.
+    std::vector<std::uint16_t> displaced;
     std::vector<std::uint32_t> privateElement; ///< whose corner each of those is
     std::vector<Patch> patches;
     std::vector<glm::vec3> corners;           ///< outlines of the patches
@@ -283,19 +285,24 @@ struct PatchSet {
         return vertexBlends[blockBlends[vertex / kBlock] + vertex % kBlock];
     }
     /// Calls visit(receiver, weight) for those that a vertex takes its light from, itself if it is
-    /// one. What other things cover counts for nothing; weights add up to 1.
+    /// one. Those that other things cover, or touch so that no element is drawn with them, count
+    /// only where there are no others; weights add up to 1.
     template <class Visit>
     void forEachReceiver(std::uint32_t vertex, const Visit& visit) const {
         if (!isBlended(vertex / kBlock)) return visit(vertex, 1.0f);
         const VertexBlend& blend = vertexBlend(vertex);
-        const auto counts = [&](std::size_t k) {
-            return vertexCoordinates[blend.vertices[k]].patch != PatchCoordinate::kNone;
-        };
+        std::array<float, 4> weights{};
         float sum = 0;
         for (std::size_t k = 0; k < 4; ++k)
-            if (counts(k)) sum += blend.weights[k];
-        for (std::size_t k = 0; k < 4 && sum > 0; ++k)
-            if (blend.weights[k] > 0 && counts(k)) visit(blend.vertices[k], blend.weights[k] / sum);
+            if (isDrawnAsIs(blend.vertices[k])) sum += weights[k] = blend.weights[k];
+        if (!(sum > 0)) weights = blend.weights, sum = 1;
+        for (std::size_t k = 0; k < 4; ++k)
+            if (weights[k] > 0) visit(blend.vertices[k], weights[k] / sum);
+    }
+    /// Whether nothing covers a shared vertex or moves a corner of its elements away from it.
+    bool isDrawnAsIs(std::uint32_t vertex) const {
+        return vertexCoordinates[vertex].patch != PatchCoordinate::kNone &&
+               (vertex >= displaced.size() || displaced[vertex] == 0);
     }
     /// The clusters that one touches, some of whose vertices blend with it.
     std::span<const std::uint32_t> clustersNear(const Patch& patch) const {
