@@ -1,6 +1,7 @@
 #include "radiosity/mesh/BuildPatches.h"
 
 #include "base/Error.h"
+#include "base/Parallel.h"
 #include "radiosity/mesh/Contact.h"
 #include "radiosity/mesh/LightShapes.h"
 #include "radiosity/mesh/PatchAssembly.h"
@@ -400,14 +401,37 @@ void setSizes(std::vector<Surface>& surfaces, const MeshingOptions& options, Pat
     out.farthest = magnitude(out.bounds);
 }
 
-void addSurface(const Surface& surface, PatchAssembly& assembly, LeftOut& leftOut,
-                BuiltPatches& built) {
-    PatchSet& out = built.patches;
+/// A surface cut up, and whether OpenSubdiv took its cage.
+struct CutSurface {
+    Tessellation tessellation;
     bool understood = true;
-    const float coarser = coarseness(surface, out.patchSize);
-    const Tessellation tessellation =
-        tessellate(surface.mesh, coarser * out.patchSize, coarser * out.elementSize, understood);
-    if (!understood)
+};
+
+/// Calls visit(surface, how it is cut) for each, in order.
+template <class Visit>
+void cutSurfaces(std::span<const Surface> surfaces, const PatchSet& set, const Visit& visit) {
+    constexpr std::size_t kFaces = 1 << 17; // cut on all cores before they are looked at
+    for (std::size_t first = 0, last = 0; first < surfaces.size(); first = last) {
+        for (std::size_t faces = 0; last < surfaces.size() && faces < kFaces; ++last)
+            faces += surfaces[last].mesh.faces.size();
+        std::vector<CutSurface> cut(last - first);
+        parallelFor(cut.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const Surface& surface = surfaces[first + i];
+                const float coarser = coarseness(surface, set.patchSize);
+                cut[i].tessellation = tessellate(surface.mesh, coarser * set.patchSize,
+                                                 coarser * set.elementSize, cut[i].understood);
+            }
+        });
+        for (std::size_t i = 0; i < cut.size(); ++i) visit(surfaces[first + i], cut[i]);
+    }
+}
+
+void addSurface(const Surface& surface, const CutSurface& cut, PatchAssembly& assembly,
+                LeftOut& leftOut, BuiltPatches& built) {
+    PatchSet& out = built.patches;
+    const Tessellation& tessellation = cut.tessellation;
+    if (!cut.understood)
         built.warnings.push_back(
             surface.path + ": OpenSubdiv refuses this cage; its polygons are used as they are");
     leftOut.add(surface, surface.mesh.skipped + tessellation.leftOut);
@@ -459,7 +483,9 @@ BuiltPatches buildObjects(const PlacedScene& scene, const MeshingOptions& sizes,
     LeftOut leftOut;
     PatchAssembly assembly(out);
     for (const Surface& surface : surfaces) addWalls(surface, out);
-    for (const Surface& surface : surfaces) addSurface(surface, assembly, leftOut, built);
+    cutSurfaces(surfaces, out, [&](const Surface& surface, const CutSurface& cut) {
+        addSurface(surface, cut, assembly, leftOut, built);
+    });
     assembly.finish();
     noteMaterialSources(surfaces, assembly, built);
     leftOut.say(built.warnings);

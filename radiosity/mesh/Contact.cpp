@@ -28,38 +28,47 @@ constexpr int kGrid = 5;
 
 ContactResolver::Result ContactResolver::examine(const Element& element) const {
     Result result;
-    const Frame frame = frameOf(element);
-    const float cover = coverDistance(frame.size, hoverAt(skin_, frame.middle));
-    std::array<glm::vec3, 4> corner;
+    const Places at = placesOf(element);
+    const auto& corner = at.corner;
     std::array<bool, 4> cornerFree{};
-    for (std::size_t i = 0; i < frame.count; ++i) {
-        corner[i] = cornerOf(element, i);
-        cornerFree[i] = isFree(corner[i], frame.normal, cover);
-    }
-    glm::vec3 anchor = over(frame.middle, frame.normal);
-    result.free = isFree(anchor, frame.normal, cover);
-    for (std::size_t i = 0; !result.free && i < frame.count; ++i)
+    for (std::size_t i = 0; i < at.count; ++i)
+        cornerFree[i] = isFree(corner[i], at.normal, at.cover);
+    glm::vec3 anchor = at.middle;
+    result.free = isFree(anchor, at.normal, at.cover);
+    for (std::size_t i = 0; !result.free && i < at.count; ++i)
         if (cornerFree[i]) anchor = corner[i], result.free = true;
     for (int i = 0; !result.free && i < kGrid * kGrid;
          ++i) { // a slit between things that lie on it
         const int column = i % kGrid, row = i / kGrid;
         const glm::vec3 p =
             over(pointOf(element, (float(column) + 0.5f) / kGrid, (float(row) + 0.5f) / kGrid),
-                 frame.normal);
-        if (isFree(p, frame.normal, cover)) anchor = p, result.free = true;
+                 at.normal);
+        if (isFree(p, at.normal, at.cover)) anchor = p, result.free = true;
     }
     if (!result.free) return result;
-    for (std::size_t i = 0; i < frame.count; ++i) {
+    for (std::size_t i = 0; i < at.count; ++i) {
         if (cornerFree[i] && (corner[i] == anchor || !rays_.occluded(anchor, corner[i]))) continue;
         result.moved[i] = true;
-        result.position[i] = endOfWay(anchor, corner[i], frame.normal, cover);
+        result.position[i] = endOfWay(anchor, corner[i], at.normal, at.cover);
     }
     return result;
 }
 
-glm::vec3 ContactResolver::cornerOf(const Element& element, std::size_t i) const {
+ContactResolver::Places ContactResolver::placesOf(const Element& element) const {
     const Frame frame = frameOf(element);
+    Places at{frame.count, over(frame.middle, frame.normal), frame.normal, {}, 0};
+    at.cover = coverDistance(frame.size, hoverAt(skin_, frame.middle));
+    for (std::size_t i = 0; i < frame.count; ++i) at.corner[i] = cornerOf(frame, element, i);
+    return at;
+}
+
+glm::vec3 ContactResolver::cornerOf(const Frame& frame, const Element& element,
+                                    std::size_t i) const {
     return over(glm::mix(vertex(element, i).position, frame.middle, kPullIn), frame.normal);
+}
+
+glm::vec3 ContactResolver::cornerOf(const Element& element, std::size_t i) const {
+    return cornerOf(frameOf(element), element, i);
 }
 
 glm::vec3 ContactResolver::over(glm::vec3 point, glm::vec3 normal) const {
@@ -131,6 +140,13 @@ float coverDistance(float elementSize, float hover) {
 
 namespace {
 
+/// Not quite along the normal, so as not to run along edges that stand on the surface.
+constexpr std::array<glm::vec3, 5> kAside{{{0.0123f, 0.0234f, -0.0171f},
+                                           {-0.0317f, 0.0139f, 0.0223f},
+                                           {0.0271f, -0.0353f, 0.0119f},
+                                           {0.0149f, 0.0411f, 0.0367f},
+                                           {-0.0437f, -0.0187f, -0.0293f}}};
+
 /// Whether a hit lies so well within its triangle that rounding can't have missed another there.
 bool isSure(const RayHit& hit) {
     constexpr float kSure = 1e-3f;
@@ -159,15 +175,14 @@ std::optional<bool> leavesSolid(std::span<const RayMesh> meshes, std::span<const
 
 } // namespace
 
+glm::vec3 leaving(glm::vec3 normal) {
+    return normal + kAside[0];
+}
+
 Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point, glm::vec3 normal,
           float cover) {
-    // Not quite along the normal, so as not to run along edges that stand on the surface. What is
-    // closed around a point is so in any direction: the first counts that passes by no edge.
-    constexpr std::array<glm::vec3, 5> kAside{{{0.0123f, 0.0234f, -0.0171f},
-                                               {-0.0317f, 0.0139f, 0.0223f},
-                                               {0.0271f, -0.0353f, 0.0119f},
-                                               {0.0149f, 0.0411f, 0.0367f},
-                                               {-0.0437f, -0.0187f, -0.0293f}}};
+    // What is closed around a point is so in any direction: the first counts that passes by no
+    // edge.
     Lie lie = Lie::free;
     std::vector<RayHit> hits;
     for (const glm::vec3& aside : kAside) {

@@ -27,6 +27,9 @@ enum class Lie {
 Lie lieOf(const RayScene& rays, std::span<const RayMesh> meshes, glm::vec3 point, glm::vec3 normal,
           float cover);
 
+/// The way from a point over a surface on which lieOf() looks first, about as long as the normal.
+glm::vec3 leaving(glm::vec3 normal);
+
 /// Something this close above a surface with elements of this size counts as lying on it [m].
 /// \param hover how far receivers hover there, see hoverAt() [m]
 float coverDistance(float elementSize, float hover);
@@ -52,6 +55,15 @@ public:
     };
     Result examine(const Element& element) const;
 
+    /// Where an element is looked at: its middle and its corners, hovering [m, world].
+    struct Places {
+        std::size_t count = 4; ///< of corners
+        glm::vec3 middle{0}, normal{0};
+        std::array<glm::vec3, 4> corner{};
+        float cover = 0; ///< see coverDistance()
+    };
+    Places placesOf(const Element& element) const;
+
     /// Where corner i of an element receives light if it is not shared: a hair inside of the
     /// element [m, world].
     glm::vec3 cornerOf(const Element& element, std::size_t i) const;
@@ -63,6 +75,7 @@ private:
         float size = 0; ///< from the middle to the farthest corner
     };
     Frame frameOf(const Element& element) const;
+    glm::vec3 cornerOf(const Frame& frame, const Element& element, std::size_t i) const;
     glm::vec3 pointOf(const Element& element, float s, float t) const;
     glm::vec3 over(glm::vec3 point, glm::vec3 normal) const;
     const Vertex& vertex(const Element& element, std::size_t i) const {

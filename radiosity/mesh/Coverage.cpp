@@ -1,6 +1,7 @@
 #include "radiosity/mesh/Coverage.h"
 
 #include "base/Parallel.h"
+#include "radiosity/mesh/OpenElements.h"
 #include "radiosity/rays/Margins.h"
 #include "radiosity/rays/Shaft.h"
 
@@ -127,19 +128,24 @@ void Coverage::refresh(std::vector<std::uint32_t> elements, Change& change) {
 }
 
 void Coverage::examine(const std::vector<std::uint32_t>& elements) {
-    std::vector<Result> fresh(elements.size());
-    parallelFor(elements.size(), 256, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            fresh[i] = set_.objects[set_.elementObject[elements[i]].value].present
-                           ? resolver_.examine(shared_[elements[i]])
-                           : kFree;
+    std::vector<std::uint32_t> present, near;
+    for (const std::uint32_t e : elements) {
+        set_.covered[e] = 0;
+        results_.erase(e);
+        if (set_.objects[set_.elementObject[e].value].present) present.push_back(e);
+    }
+    const std::vector<std::uint8_t> open =
+        findOpen(rays_, set_.rayMeshes, resolver_, shared_, fans_, present);
+    for (std::size_t i = 0; i < present.size(); ++i)
+        if (open[i] == 0) near.push_back(present[i]);
+    std::vector<Result> fresh(near.size());
+    parallelFor(near.size(), 64, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) fresh[i] = resolver_.examine(shared_[near[i]]);
     });
-    for (std::size_t i = 0; i < elements.size(); ++i) {
-        set_.covered[elements[i]] = !fresh[i].free;
-        if (fresh[i] == kFree)
-            results_.erase(elements[i]);
-        else
-            results_[elements[i]] = fresh[i];
+    for (std::size_t i = 0; i < near.size(); ++i) {
+        if (fresh[i] == kFree) continue;
+        set_.covered[near[i]] = !fresh[i].free;
+        results_[near[i]] = fresh[i];
     }
 }
 

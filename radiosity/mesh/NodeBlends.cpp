@@ -1,5 +1,8 @@
 #include "radiosity/mesh/NodeBlends.h"
 
+#include "base/Parallel.h"
+#include "radiosity/clusters/DenseReceivers.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,15 +15,6 @@ namespace penumbra {
 namespace {
 
 constexpr float kLeastCosine = 0.5f; ///< between normals: what lies beyond a crease does not count
-
-/// Whether what is seen at a place of a surface is about what is seen at another: the one is no
-/// groove of which the other is the ridge. \param height over each other's tangent plane, at most
-/// [m]
-bool isAlongside(const DenseVertex& a, const DenseVertex& b, float cosine, float height) {
-    const glm::vec3 d = b.position - a.position;
-    return glm::dot(a.normal, b.normal) > cosine && std::abs(glm::dot(a.normal, d)) < height &&
-           std::abs(glm::dot(b.normal, d)) < height;
-}
 
 /// A corner of a cluster's elements, and the cluster.
 struct Corner {
@@ -75,8 +69,10 @@ struct Blend {
     std::array<float, 4> weights{};
 };
 
-Blend blendOf(std::span<Near> near, float size) {
-    std::sort(near.begin(), near.end());
+Blend blendOf(std::vector<Near>& near, float size) {
+    constexpr std::size_t kKnown = 5; // those that count, and the one where weights are 0
+    const auto known = near.begin() + std::ptrdiff_t(std::min(near.size(), kKnown));
+    std::partial_sort(near.begin(), known, near.end());
     Blend blend;
     const std::size_t count = std::min(near.size(), blend.things.size());
     const float last = near[count - 1].first;
@@ -124,22 +120,6 @@ void blendNodes(PatchSet& set) {
     }
 }
 
-std::vector<std::uint32_t> chooseReceivers(std::vector<DenseVertex> known,
-                                           std::span<const DenseVertex> among, float elementSize) {
-    constexpr float kAlike = 0.94f, kFlat = 0.1f; // cosine between normals; height in elements
-    std::vector<std::uint32_t> chosen;
-    for (const DenseVertex& vertex : among) {
-        const bool has = std::any_of(known.begin(), known.end(), [&](const DenseVertex& other) {
-            return glm::distance(vertex.position, other.position) < elementSize &&
-                   isAlongside(vertex, other, kAlike, kFlat * elementSize);
-        });
-        if (has) continue;
-        known.push_back(vertex);
-        chosen.push_back(vertex.index);
-    }
-    return chosen;
-}
-
 namespace {
 
 /// Receivers of each cluster.
@@ -155,35 +135,39 @@ std::vector<std::vector<std::uint32_t>> receiversOfClusters(const PatchSet& set)
 
 } // namespace
 
-void blendVertices(PatchSet& set) {
-    constexpr float kBeside = 0.9f, kHigh = 0.25f; // as above, but for what is farther away
+void blendVertices(PatchSet& set, std::span<const std::uint8_t> flat) {
+    constexpr float kBeside = 0.9f, kSlope = 0.25f; // as receivers are chosen, or more
     if (set.vertexBlends.empty()) return;
     const std::vector<std::vector<std::uint32_t>> receivers = receiversOfClusters(set);
-    std::vector<Near> near;
-    for (std::uint32_t v = 0; v < set.vertices.size(); ++v) {
-        const std::uint32_t own = set.vertexCoordinates[v].patch;
-        if (!set.isBlended(v / PatchSet::kBlock) || own == PatchCoordinate::kNone) continue;
-        const Vertex& vertex = set.vertices[v];
-        near.clear();
-        const auto add = [&](std::uint32_t patch) {
-            for (const std::uint32_t r : receivers[patch]) {
-                const Vertex& other = set.vertices[r];
-                const float cosine = glm::dot(other.receiver.normal, vertex.receiver.normal);
-                if (isAlongside({v, vertex.position, vertex.receiver.normal},
-                                {r, other.position, other.receiver.normal}, kBeside,
-                                kHigh * set.elementSize))
-                    near.emplace_back(glm::distance(other.position, vertex.position) +
-                                          2 * set.elementSize * (1 - cosine),
-                                      r);
-            }
-        };
-        add(own);
-        for (const std::uint32_t p : set.clustersNear(set.patches[own])) add(p);
-        if (near.empty()) continue;
-        const Blend blend = blendOf(near, set.elementSize);
-        set.vertexBlends[set.blockBlends[v / PatchSet::kBlock] + v % PatchSet::kBlock] = {
-            blend.things, blend.weights};
-    }
+    parallelFor(set.vertices.size(), 1024, [&](std::size_t first, std::size_t last) {
+        std::vector<Near> near;
+        for (std::size_t v = first; v < last; ++v) {
+            const std::uint32_t own = set.vertexCoordinates[v].patch;
+            const std::uint32_t block = std::uint32_t(v) / PatchSet::kBlock;
+            if (!set.isBlended(block) || own == PatchCoordinate::kNone) continue;
+            const Vertex& vertex = set.vertices[v];
+            const float farthest = (flat[v] != 0 ? 1.5f : 0.5f) * set.elementSize;
+            near.clear();
+            const auto add = [&](std::uint32_t patch) {
+                for (const std::uint32_t r : receivers[patch]) {
+                    const Vertex& other = set.vertices[r];
+                    const float away = glm::distance(other.position, vertex.position);
+                    if (away > farthest || flat[r] < flat[v]) continue;
+                    if (!isAlongside({vertex.position, vertex.receiver.normal},
+                                     {other.position, other.receiver.normal}, kBeside, kSlope))
+                        continue;
+                    const float cosine = glm::dot(other.receiver.normal, vertex.receiver.normal);
+                    near.emplace_back(away + 2 * set.elementSize * (1 - cosine), r);
+                }
+            };
+            add(own);
+            for (const std::uint32_t p : set.clustersNear(set.patches[own])) add(p);
+            if (near.empty()) continue;
+            const Blend blend = blendOf(near, set.elementSize);
+            set.vertexBlends[set.blockBlends[block] + v % PatchSet::kBlock] = {blend.things,
+                                                                               blend.weights};
+        }
+    });
 }
 
 } // namespace penumbra

@@ -19,19 +19,10 @@ namespace penumbra {
 /// \pre objects are in frames of their own
 void blendNodes(PatchSet& set);
 
-/// A vertex of a cluster of faces that may do without receiving light itself.
-struct DenseVertex {
-    std::uint32_t index = 0;
-    glm::vec3 position{}, normal{};
-};
-/// Chooses receivers among the vertices of a cluster: as many as are an element apart or look
-/// another way. \param known  receivers that it has already
-/// \param among  in order, an earlier one is chosen rather
-/// \return indices of those that are chosen
-std::vector<std::uint32_t> chooseReceivers(std::vector<DenseVertex> known,
-                                           std::span<const DenseVertex> among, float elementSize);
 /// Fills in the blends of blended blocks: receivers of a vertex's own cluster and of those that
-/// touch it, with weights as above. \pre blendNodes() was called
-void blendVertices(PatchSet& set);
+/// touch it, with weights as above. \param flat one a vertex, see DenseVertex: those take from each
+/// other only
+/// \pre blendNodes() was called
+void blendVertices(PatchSet& set, std::span<const std::uint8_t> flat);
 
 } // namespace penumbra

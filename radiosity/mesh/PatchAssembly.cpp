@@ -1,10 +1,12 @@
 #include "radiosity/mesh/PatchAssembly.h"
 
+#include "base/Parallel.h"
+#include "radiosity/clusters/DenseReceivers.h"
+#include "radiosity/clusters/FaceGroups.h"
 #include "radiosity/mesh/Contact.h"
 #include "radiosity/mesh/LightShapes.h"
 #include "radiosity/mesh/NodeBlends.h"
 #include "radiosity/mesh/PatchGeometry.h"
-#include "radiosity/surface/FaceGroups.h"
 
 #include <algorithm>
 #include <map>
@@ -193,7 +195,8 @@ void PatchAssembly::finish() {
     out_.uncoveredElements = out_.elements;
     out_.firstPrivate = std::uint32_t(out_.vertices.size());
     blendNodes(out_);
-    blendVertices(out_);
+    flat_.resize(out_.vertices.size());
+    blendVertices(out_, flat_);
     findTextureMeans(out_);
     placeObjects();
 }
@@ -205,19 +208,26 @@ std::vector<PatchAssembly::Group> PatchAssembly::groupCells() {
     for (std::uint32_t c = 0; c < cells_.size(); ++c)
         if (!cells_[c].smooth && !cells_[c].outline.empty())
             sides[{cells_[c].object, cells_[c].back}].push_back(c);
+    std::vector<std::vector<std::uint32_t>> ofSide;
+    for (auto& [side, cells] : sides) ofSide.push_back(std::move(cells));
+    std::vector<std::vector<Group>> found(ofSide.size());
+    parallelFor(ofSide.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            std::vector<FacePiece> faces;
+            for (const std::uint32_t c : ofSide[i])
+                faces.push_back({cells_[c].outline, cells_[c].material});
+            found[i] = groupFaces(faces, out_.patchSize, out_.elementSize);
+        }
+    });
     std::vector<Group> groups;
-    for (const auto& [side, cells] : sides) {
-        std::vector<FacePiece> faces;
-        for (const std::uint32_t c : cells)
-            faces.push_back({cells_[c].outline, cells_[c].material});
-        for (Group& group : groupFaces(faces, out_.patchSize, out_.elementSize)) {
+    for (std::size_t i = 0; i < found.size(); ++i)
+        for (Group& group : found[i]) {
             for (std::uint32_t& c : group) {
-                c = cells[c];
+                c = ofSide[i][c];
                 cells_[c].clustered = true;
             }
             groups.push_back(std::move(group));
         }
-    }
     for (std::uint32_t c = 0; c < cells_.size(); ++c)
         if (!cells_[c].clustered && !cells_[c].outline.empty()) groups.push_back({c});
     return groups;
@@ -295,39 +305,48 @@ void PatchAssembly::orderElements(const std::vector<Group>& groups,
     arrange(out_.textures.uvs);
 }
 
-/// Which vertices are receivers (1): all but those of clusters, where some are enough.
-std::vector<std::uint8_t>
-PatchAssembly::chooseReceivers(const std::vector<std::vector<std::uint32_t>>& elements,
-                               const std::vector<Group>& order) const {
-    std::vector<std::uint8_t> receives(out_.vertices.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-        for (std::size_t k = 0; k < elements[i].size() && !cells_[order[i][0]].clustered; ++k)
-            for (std::uint32_t v : out_.elements[elements[i][k]].vertices) receives[v] = 1;
-    std::vector<std::uint32_t> seenIn(out_.vertices.size(), kNone);
-    std::vector<DenseVertex> known, others;
-    for (std::uint32_t i = 0; i < order.size(); ++i) {
-        if (!cells_[order[i][0]].clustered) continue;
-        known.clear(), others.clear();
-        for (const std::uint32_t e : elements[i])
-            for (const std::uint32_t v : out_.elements[e].vertices) {
-                if (std::exchange(seenIn[v], i) == i) continue;
-                const Vertex& vertex = out_.vertices[v];
-                (receives[v] ? known : others)
-                    .push_back({v, vertex.position, vertex.receiver.normal});
+/// Notes what vertices are. \param groups of one object
+void PatchAssembly::chooseReceivers(std::span<const Group> groups,
+                                    std::span<const std::vector<std::uint32_t>> elements,
+                                    std::vector<VertexKind>& kinds) const {
+    using Role = DenseVertex::Role;
+    const auto isClustered = [&](const Group& group) { return cells_[group[0]].clustered; };
+    if (std::ranges::none_of(groups, isClustered)) return;
+    DenseMesh mesh;
+    std::vector<std::uint32_t> vertices;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        const bool clustered = isClustered(groups[i]);
+        if (clustered) mesh.firstFace.push_back(std::uint32_t(mesh.faces.size()));
+        for (const std::uint32_t e : elements[i]) {
+            std::array<std::uint32_t, 4> face = out_.elements[e].vertices;
+            for (std::uint32_t& v : face) {
+                if (kinds[v].index == kNone) { // it will be this group's, see placeVertices()
+                    kinds[v].index = std::uint32_t(vertices.size());
+                    const Vertex& vertex = out_.vertices[v];
+                    mesh.vertices.push_back({vertex.position, vertex.receiver.normal,
+                                             clustered ? Role::open : Role::alone});
+                    vertices.push_back(v);
+                }
+                v = kinds[v].index;
+                Role& role = mesh.vertices[v].role;
+                if (!clustered && role == Role::open) role = Role::receives;
             }
-        for (const std::uint32_t v :
-             penumbra::chooseReceivers(std::move(known), others, out_.elementSize))
-            receives[v] = 1;
-        known = {};
+            if (clustered) mesh.faces.push_back(face);
+        }
     }
-    return receives;
+    mesh.firstFace.push_back(std::uint32_t(mesh.faces.size()));
+    penumbra::chooseReceivers(mesh, out_.elementSize);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        kinds[vertices[i]].receives = mesh.vertices[i].role != Role::open;
+        kinds[vertices[i]].flat = mesh.vertices[i].flat;
+    }
 }
 
 /// Puts the vertices into blocks: object by object, cell by cell; in each object first those that
 /// are receivers.
 void PatchAssembly::orderVertices(const std::vector<std::vector<std::uint32_t>>& elements,
                                   const std::vector<Group>& order) {
-    const std::vector<std::uint8_t> receives = chooseReceivers(elements, order);
+    std::vector<VertexKind> kinds(out_.vertices.size());
     std::vector<std::uint32_t> index(out_.vertices.size(), kNone);
     std::vector<Vertex> ordered;
     ordered.reserve(out_.vertices.size() + 2 * PatchSet::kBlock * out_.objects.size());
@@ -335,9 +354,11 @@ void PatchAssembly::orderVertices(const std::vector<std::vector<std::uint32_t>>&
         for (std::size_t i = first; i < last; ++i)
             for (const std::uint32_t e : elements[i])
                 for (const std::uint32_t v : out_.elements[e].vertices)
-                    if (index[v] == kNone && bool(receives[v]) == receivers) {
+                    if (index[v] == kNone && kinds[v].receives == receivers) {
                         index[v] = std::uint32_t(ordered.size());
                         ordered.push_back(out_.vertices[v]);
+                        flat_.resize(ordered.size());
+                        flat_.back() = kinds[v].flat;
                     }
     };
     for (std::size_t i = 0, last = 0; i < order.size(); i = last) {
@@ -345,6 +366,8 @@ void PatchAssembly::orderVertices(const std::vector<std::vector<std::uint32_t>>&
         while (last < order.size() && cells_[order[last][0]].object == object) ++last;
         Range& range = out_.objects[object.value].vertices;
         range.first = std::uint32_t(ordered.size());
+        chooseReceivers(std::span(order).subspan(i, last - i),
+                        std::span(elements).subspan(i, last - i), kinds);
         take(i, last, true);
         range.count = std::uint32_t(ordered.size()) - range.first;
         padBlock(ordered, {});

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
 namespace penumbra {
@@ -46,6 +47,11 @@ private:
         bool smooth = false;    ///< of a subdivision surface
         bool clustered = false; ///< in a group that is a cluster
     };
+    /// See DenseVertex.
+    struct VertexKind {
+        std::uint32_t index = Element::kNone; ///< in its object's DenseMesh
+        bool receives = true, flat = false;
+    };
     /// Cells that become a patch together.
     using Group = std::vector<std::uint32_t>;
     void addSheet(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object,
@@ -59,9 +65,9 @@ private:
     std::vector<std::vector<std::uint32_t>> elementsOf(const std::vector<Group>& groups) const;
     void orderElements(const std::vector<Group>& groups,
                        std::vector<std::vector<std::uint32_t>>& elements);
-    std::vector<std::uint8_t>
-    chooseReceivers(const std::vector<std::vector<std::uint32_t>>& elements,
-                    const std::vector<Group>& order) const;
+    void chooseReceivers(std::span<const Group> groups,
+                         std::span<const std::vector<std::uint32_t>> elements,
+                         std::vector<VertexKind>& kinds) const;
     void orderVertices(const std::vector<std::vector<std::uint32_t>>& elements,
                        const std::vector<Group>& order);
     void placeObjects();
@@ -75,6 +81,7 @@ private:
     PatchSet& out_;
     std::vector<SheetCell> cells_;
     std::vector<std::uint32_t> elementCell_;
+    std::vector<std::uint8_t> flat_; ///< see DenseVertex; in blocks
     std::map<std::pair<const Material*, bool>, std::uint32_t> materials_;
     std::vector<MaterialSource> materialSources_;
 };

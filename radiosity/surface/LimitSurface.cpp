@@ -194,6 +194,14 @@ std::uint32_t highestValence(const SurfaceMesh& mesh) {
 /// Keeps OpenSubdiv's complaints off standard error: the caller says it in one line of its own.
 void ignoreFarMessage(Far::ErrorType, const char*) {}
 void ignoreFarWarning(const char*) {}
+void silenceFar() {
+    static const bool once = [] { // surfaces are made on several threads
+        Far::SetErrorCallback(ignoreFarMessage);
+        Far::SetWarningCallback(ignoreFarWarning);
+        return true;
+    }();
+    (void)once;
+}
 
 } // namespace
 
@@ -354,8 +362,7 @@ LimitSurface::LimitSurface(const SurfaceMesh& mesh) : mesh_(mesh) {
         understood_ = false;
         return;
     }
-    Far::SetErrorCallback(ignoreFarMessage);
-    Far::SetWarningCallback(ignoreFarWarning);
+    silenceFar();
     if (Far::TopologyRefiner* refiner = makeRefiner(mesh))
         refined_ = std::make_unique<Refined>(refiner);
     else

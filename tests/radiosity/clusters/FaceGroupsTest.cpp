@@ -1,5 +1,5 @@
 // Which faces send light together.
-#include "radiosity/surface/FaceGroups.h"
+#include "radiosity/clusters/FaceGroups.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Which faces share an edge.
 #pragma once
 
-#include "radiosity/surface/AddressedFaces.h"
+#include "radiosity/clusters/AddressedFaces.h"
 
 #include <array>
 #include <cstdint>

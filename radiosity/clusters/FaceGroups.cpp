@@ -1,6 +1,6 @@
-#include "radiosity/surface/FaceGroups.h"
+#include "radiosity/clusters/FaceGroups.h"
 
-#include "radiosity/surface/FaceClusters.h"
+#include "radiosity/clusters/FaceClusters.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // Face clusters: the same however a mesh is written down, within their limits, and local.
-#include "radiosity/surface/FaceClusters.h"
-#include "tests/radiosity/surface/ClusterMeshes.h"
+#include "radiosity/clusters/FaceClusters.h"
+#include "tests/radiosity/clusters/ClusterMeshes.h"
 
 #include <gtest/gtest.h>
 

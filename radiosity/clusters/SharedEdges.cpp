@@ -1,4 +1,4 @@
-#include "radiosity/surface/SharedEdges.h"
+#include "radiosity/clusters/SharedEdges.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // Near boxes: the same as by looking at all of them.
-#include "radiosity/surface/NearPairs.h"
+#include "radiosity/clusters/NearPairs.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // The faces of a mesh as clusters that send light together.
 #pragma once
 
-#include "radiosity/surface/AddressedFaces.h"
+#include "radiosity/clusters/AddressedFaces.h"
 
 #include <glm/glm.hpp>
 

@@ -1,7 +1,7 @@
 // Greedy merging of parts of a surface, the cheapest pair first.
 #pragma once
 
-#include "radiosity/surface/MicroClusters.h"
+#include "radiosity/clusters/MicroClusters.h"
 #include "radiosity/surface/UnionFind.h"
 
 #include <array>

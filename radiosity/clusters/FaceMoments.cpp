@@ -1,4 +1,4 @@
-#include "radiosity/surface/FaceMoments.h"
+#include "radiosity/clusters/FaceMoments.h"
 
 namespace penumbra {
 

@@ -1,7 +1,7 @@
-#include "radiosity/surface/AddressedFaces.h"
+#include "radiosity/clusters/AddressedFaces.h"
 
-#include "radiosity/surface/FaceMoments.h"
-#include "radiosity/surface/Slabs.h"
+#include "radiosity/clusters/FaceMoments.h"
+#include "radiosity/clusters/Slabs.h"
 #include "radiosity/surface/WeldedPoints.h"
 
 #include <algorithm>

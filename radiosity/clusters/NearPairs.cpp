@@ -1,4 +1,4 @@
-#include "radiosity/surface/NearPairs.h"
+#include "radiosity/clusters/NearPairs.h"
 
 #include "base/BoundsTree.h"
 

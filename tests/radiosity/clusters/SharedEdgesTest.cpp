@@ -1,6 +1,6 @@
 // Faces at edges, in a mesh where they can be counted.
-#include "radiosity/surface/SharedEdges.h"
-#include "tests/radiosity/surface/ClusterMeshes.h"
+#include "radiosity/clusters/SharedEdges.h"
+#include "tests/radiosity/clusters/ClusterMeshes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "radiosity/surface/ClusterMerger.h"
+#include "radiosity/clusters/ClusterMerger.h"
 
 #include <algorithm>
 #include <bit>

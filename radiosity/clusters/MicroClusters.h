@@ -1,9 +1,9 @@
 // The first, linear step of clustering: faces that share a cell and a bin of normals.
 #pragma once
 
-#include "radiosity/surface/AddressedFaces.h"
-#include "radiosity/surface/FaceMoments.h"
-#include "radiosity/surface/Slabs.h"
+#include "radiosity/clusters/AddressedFaces.h"
+#include "radiosity/clusters/FaceMoments.h"
+#include "radiosity/clusters/Slabs.h"
 
 #include <array>
 #include <cstdint>

@@ -1,8 +1,8 @@
-#include "radiosity/surface/FaceClusters.h"
+#include "radiosity/clusters/FaceClusters.h"
 
-#include "radiosity/surface/ClusterMerger.h"
-#include "radiosity/surface/MicroClusters.h"
-#include "radiosity/surface/NearPairs.h"
+#include "radiosity/clusters/ClusterMerger.h"
+#include "radiosity/clusters/MicroClusters.h"
+#include "radiosity/clusters/NearPairs.h"
 
 #include <cassert>
 #include <cmath>

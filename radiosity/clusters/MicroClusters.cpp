@@ -1,6 +1,6 @@
-#include "radiosity/surface/MicroClusters.h"
+#include "radiosity/clusters/MicroClusters.h"
 
-#include "radiosity/surface/SharedEdges.h"
+#include "radiosity/clusters/SharedEdges.h"
 #include "radiosity/surface/UnionFind.h"
 
 #include <algorithm>

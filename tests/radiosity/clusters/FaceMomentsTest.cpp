@@ -1,7 +1,7 @@
 // Integrals over faces, against those that can be written down.
-#include "radiosity/surface/FaceMoments.h"
-#include "radiosity/surface/Slabs.h"
-#include "tests/radiosity/surface/ClusterMeshes.h"
+#include "radiosity/clusters/FaceMoments.h"
+#include "radiosity/clusters/Slabs.h"
+#include "tests/radiosity/clusters/ClusterMeshes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Meshes to be clustered, and whether two clusterings are the same.
 #pragma once
 
-#include "radiosity/surface/FaceClusters.h"
+#include "radiosity/clusters/FaceClusters.h"
 
 #include <algorithm>
 #include <bit>
