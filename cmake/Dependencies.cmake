@@ -6,6 +6,7 @@ find_package(Boost REQUIRED) # Interprocess: headers only
 find_package(embree 3 REQUIRED CONFIG)
 find_package(OpenEXR REQUIRED CONFIG)
 find_package(PNG REQUIRED)
+find_package(JPEG REQUIRED)
 find_package(assimp 5 REQUIRED CONFIG)
 find_package(CLI11 REQUIRED CONFIG)
 find_package(fmt REQUIRED CONFIG)

@@ -46,7 +46,7 @@ USES = {
 HOME = {
     "tbb/": "base", "oneapi/": "base", "boost/": "radiosity/process", "embree": "radiosity/rays",
     "opensubdiv/": "radiosity/surface",
-    "OpenEXR/": "io/image", "OpenImageIO/": "io/image", "Imf": "io/image", "Imath": "io/image", "png.h": "io/image",
+    "OpenEXR/": "io/image", "OpenImageIO/": "io/image", "Imf": "io/image", "Imath": "io/image", "png.h": "io/image", "jpeglib.h": "io/image",
     "epoxy/": "viewer", "EGL/": "viewer", "GL/": "viewer", "GLFW/": "viewer",
     "imgui": "viewer/panels", "backends/imgui": "viewer/panels",
     "lz4": "io/usd/crate", "assimp/": "io/model", "CLI/": "tools", "nlohmann/": ("io/model", "tools"),

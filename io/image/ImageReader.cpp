@@ -2,12 +2,14 @@
 
 #include "base/Error.h"
 #include "base/Srgb.h"
+#include "io/image/CommonPictures.h"
 #include "io/image/PictureDecoder.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -72,8 +74,8 @@ std::vector<std::byte> plainPng(std::span<const std::byte> bytes, const std::str
     return plain;
 }
 
-/// Its libraries are many, and take half a second and half a gigabyte of addresses: only those who
-/// have textures load them, from beside the program.
+/// OpenImageIO's libraries are many, and take half a second and half a gigabyte of addresses: only
+/// those who have pictures that are not common load them, from beside the program.
 DecodePicture& decoder() {
     static DecodePicture* const loaded = [] {
         std::error_code failed;
@@ -99,7 +101,11 @@ std::shared_ptr<const TextureImage> readImage(std::span<const std::byte> bytes,
         bytes = plain = plainPng(bytes, name);
     }
     DecodedPicture picture;
-    decoder()(bytes, name, format, picture);
+    const bool common = format == "png" || format == "jpeg";
+    if (auto decoded = common ? decodeCommon(bytes) : std::nullopt)
+        picture = std::move(*decoded);
+    else
+        decoder()(bytes, name, format, picture);
     if (!picture.fault.empty()) throw Error(name + ": " + picture.fault);
     const bool fine = !picture.bytes.empty();
     const bool srgb = coding == PictureCoding::srgb ||

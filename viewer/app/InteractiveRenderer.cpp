@@ -27,6 +27,9 @@ namespace penumbra {
 
 namespace {
 
+/// Texels that are uploaded after a picture: some ten milliseconds where they are compressed.
+constexpr std::size_t kTexelsAPicture = 1 << 18;
+
 /// The lights as the preview shader wants them, in the frame of the camera.
 void setPreviewLighting(const ShaderProgram& program, const UnlitLighting& lighting,
                         const View& view) {
@@ -65,7 +68,7 @@ struct InteractiveRenderer::Impl {
     ShaderProgram previewProgram{kPreviewVertexShader, previewFragmentShader()};
     GeometryCache litCache;
     UnlitCache previewCache;
-    TextureCache textures{TextureCache::Quality::compressed};
+    TextureCache textures{{.compressed = options.compressed, .gradual = options.gradual}};
     std::optional<HdrTarget> target;
     LuminanceMeter meter;
     TonePass tonePass;
@@ -203,7 +206,14 @@ void InteractiveRenderer::drawScene(const DrawList& list, const View& view,
                        impl.litCache.uploads() - uploads,
                        impl.litCache.lightUploads() - lightUploads,
                        impl.litCache.lightBytes() - lightBytes,
-                       mapsDrawn};
+                       mapsDrawn,
+                       impl.textures.refine(kTexelsAPicture)};
+}
+
+void InteractiveRenderer::finishTextures() {
+    while (impl_->textures.refine(kTexelsAPicture)) {
+    }
+    impl_->statistics.blurred = false;
 }
 
 void InteractiveRenderer::setOverlay(OverlayPicture overlay) {

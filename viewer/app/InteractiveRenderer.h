@@ -18,7 +18,10 @@
 namespace penumbra {
 
 struct InteractiveOptions {
-    int samples = 4; ///< a pixel
+    int samples = 4;        ///< a pixel
+    bool compressed = true; ///< textures, where OpenGL can: not worth it where the processor draws
+    /// Textures are sharp after some pictures only, so that none takes long.
+    bool gradual = false;
     HdrTarget::Precision precision = HdrTarget::Precision::half;
 };
 
@@ -51,6 +54,9 @@ public:
     /// \param maps         previewed lights that the shader brings up to date; null: none
     void drawScene(const DrawList& list, const View& view, const UnlitLighting& unlit, int width,
                    int height, MapPreview* maps = nullptr);
+
+    /// Makes all textures that were drawn as sharp as they get.
+    void finishTextures();
 
     /// What show() lays over the lit surfaces of the pictures that drawScene() draws from now on.
     void setOverlay(OverlayPicture overlay);

@@ -104,6 +104,7 @@ private:
     std::optional<GuiLayer> gui_; // after what it draws over
     std::string title_;
     double highestPriority_ = 0; ///< in the dirty set, since it is shown
+    bool shown_ = false; ///< the scene, before it is lit: its light costs some time to ask for
     bool quit_ = false;
     int stale_ = kAfterglow; ///< pictures to be drawn whether anything changes or not
 };
@@ -117,7 +118,9 @@ Viewer::Viewer(const ViewerOptions& options)
                .title = name_ + " (loading) - Penumbra",
                .vsync = options.vsync}),
       software_(drawnInSoftware(window_)),
-      renderer_({.samples = options.samples > 0 ? options.samples : (software_ ? 1 : 4)}) {
+      renderer_({.samples = options.samples > 0 ? options.samples : (software_ ? 1 : 4),
+                 .compressed = !software_,
+                 .gradual = true}) {
     gui_.emplace(window_);
     state_.sceneName = name_;
     state_.scenePath = scene_;
@@ -202,6 +205,7 @@ void Viewer::openScene(ReadyScene ready) {
     watcher_ = FileWatcher(ready.loaded.files);
     fromFile_ = ready.settings;
     walk_.emplace(std::move(ready));
+    shown_ = false;
     previewOf_ = 0;
     CameraRig& rig = walk_->rig();
     if (before)
@@ -394,7 +398,7 @@ void Viewer::advance(double seconds) {
     if (session_)
         if (const auto why = session_->take(*walk_)) state_.notify(*why + "; tried again", 10);
     const glm::ivec2 size = glm::max(window_.pixels(), glm::ivec2(1));
-    if (light_->update(*walk_, walk_->rig().view(size.x, size.y))) stale_ = kAfterglow;
+    if (shown_ && light_->update(*walk_, walk_->rig().view(size.x, size.y))) stale_ = kAfterglow;
     for (std::string& message : light_->takeMessages()) state_.notify(std::move(message), 15);
     state_.light = light_->state();
     if (std::exchange(previewOf_, walk_->revision()) != walk_->revision()) {
@@ -433,6 +437,7 @@ void Viewer::draw(double seconds) {
     const glm::ivec2 size = window_.pixels();
     const View view = walk_ ? walk_->rig().view(size.x, size.y) : View{};
     const Frustum frustum(view.worldToClip());
+    const bool saving = std::exchange(state_.wantsSave, false);
     OverlayView overlay;
     if (light_) {
         const bool ranked = state_.policy == PolicyKind::importance;
@@ -440,17 +445,23 @@ void Viewer::draw(double seconds) {
     }
     state_.legend = std::move(overlay.legend);
     renderer_.setOverlay(std::move(overlay.picture));
-    renderer_.drawScene(light_ ? light_->listVisible(frustum) : listVisible(nothing_, frustum),
-                        view, preview_, size.x, size.y, light_ ? light_->maps() : nullptr);
+    const DrawList visible = light_ ? light_->listVisible(frustum) : listVisible(nothing_, frustum);
+    renderer_.drawScene(visible, view, preview_, size.x, size.y, light_ ? light_->maps() : nullptr);
+    if (saving && renderer_.statistics().blurred) {
+        renderer_.finishTextures();
+        renderer_.drawScene(visible, view, preview_, size.x, size.y,
+                            light_ ? light_->maps() : nullptr);
+    }
     if (const auto luminances = renderer_.luminances(!state_.exposure.measured() && walk_))
         state_.exposure.measure(*luminances);
     state_.exposure.advance(seconds, light_ && light_->fading());
     state_.drawn = renderer_.statistics();
-    if (std::exchange(state_.wantsSave, false)) save(view);
+    if (saving) save(view);
     renderer_.show(0, state_.exposure.middleGrey(), state_.tone);
     drawPanelsOver();
     window_.show();
-    stale_ = std::max(0, stale_ - 1);
+    stale_ = std::max(renderer_.statistics().blurred ? 1 : 0, stale_ - 1);
+    shown_ = shown_ || walk_;
 }
 
 void Viewer::run() {

@@ -14,6 +14,7 @@ struct InteractiveStatistics {
     std::size_t lightUploads = 0; ///< of which the light alone was copied
     std::size_t lightBytes = 0;   ///< of that light: changed blocks only
     std::size_t shadowMaps = 0;   ///< drawn for previewed lights
+    bool blurred = false;         ///< textures will be sharper in the next picture
 };
 
 } // namespace penumbra

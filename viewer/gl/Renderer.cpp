@@ -37,7 +37,7 @@ struct Renderer::Impl {
     ShaderProgram lightProgram{kLitVertexShader, lightFragmentShader()};
     ShaderProgram surfaceProgram{kLitVertexShader, surfaceFragmentShader()};
     GeometryCache cache;
-    TextureCache textures{TextureCache::Quality::exact};
+    TextureCache textures{{}};
     std::optional<FrameTargets> targets;
     RenderStatistics statistics;
 };

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -45,17 +47,19 @@ GLint formatOf(const TextureImage& image, bool compressed) {
     return can ? GL_COMPRESSED_RGB_S3TC_DXT1_EXT : GL_RGB8;
 }
 
-void uploadLevel(const TextureImage& image, int level, GLint mip, GLint format) {
-    const GLsizei width = image.width(level), height = image.height(level);
-    if (level == 0 && !image.pixels8().empty()) {
-        glTexImage2D(GL_TEXTURE_2D, mip, format, width, height, 0, GL_RGB, GL_UNSIGNED_BYTE,
-                     image.pixels8().data());
-        return;
-    }
+/// Fills rows of a mip level that OpenGL has room for.
+void uploadRows(const TextureImage& image, int level, GLint mip, int first, int count) {
+    const GLsizei width = image.width(level);
     const bool bytes = !image.pixels8().empty();
+    const auto upload = [&](const void* data) {
+        glTexSubImage2D(GL_TEXTURE_2D, mip, 0, first, width, count, GL_RGB,
+                        bytes ? GL_UNSIGNED_BYTE : GL_FLOAT, data);
+    };
+    if (level == 0 && bytes)
+        return upload(image.pixels8().data() + 3 * std::size_t(first) * std::size_t(width));
     std::vector<std::uint8_t> fine;
     std::vector<float> wide;
-    for (int y = 0; y < height; ++y)
+    for (int y = first; y < first + count; ++y)
         for (int x = 0; x < width; ++x) {
             const Rgb texel = image.texel(level, x, y);
             for (const float v : {texel.r, texel.g, texel.b}) {
@@ -65,9 +69,7 @@ void uploadLevel(const TextureImage& image, int level, GLint mip, GLint format) 
                     wide.push_back(std::min(v, 65504.0f)); // the largest 16-bit float
             }
         }
-    const void* const data = bytes ? static_cast<const void*>(fine.data()) : wide.data();
-    glTexImage2D(GL_TEXTURE_2D, mip, format, width, height, 0, GL_RGB,
-                 bytes ? GL_UNSIGNED_BYTE : GL_FLOAT, data);
+    upload(bytes ? static_cast<const void*>(fine.data()) : wide.data());
 }
 
 std::size_t bytesOfLevel(GLint mip) {
@@ -83,8 +85,7 @@ std::size_t bytesOfLevel(GLint mip) {
     return 3 * std::size_t(bits / 8) * std::size_t(width) * std::size_t(height);
 }
 
-void setSampling(const Texture& texture, int levels) {
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, levels - 1);
+void setSampling(const Texture& texture) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrapMode(texture.wrapS));
@@ -140,31 +141,84 @@ unsigned TextureCache::nameOf(const Texture& texture) {
         entries_.try_emplace({texture.image.get(), texture.wrapS, texture.wrapT});
     if (fresh || entry->second.alive.expired()) {
         bytes_ -= entry->second.bytes;
-        entry->second = upload(texture);
+        entry->second = begin(texture);
         bytes_ += entry->second.bytes;
     }
     return entry->second.texture.name();
 }
 
-TextureCache::Entry TextureCache::upload(const Texture& texture) const {
+/// A texture with its small levels, or with all of them.
+TextureCache::Entry TextureCache::begin(const Texture& texture) const {
+    constexpr std::size_t kSmall = 64 * 64; // texels
     const TextureImage& image = *texture.image;
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-    Entry entry{texture.image, makeTexture(), 0};
+    Entry entry{.alive = texture.image, .texture = makeTexture()};
+    while (std::max(image.width(entry.largest), image.height(entry.largest)) > most)
+        ++entry.largest;
+    entry.finest = image.levels();
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, entry.texture.name());
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    const GLint format = formatOf(image, quality_ == Quality::compressed);
-    GLint mip = 0;
-    for (int level = 0; level < image.levels(); ++level) {
-        if (std::max(image.width(level), image.height(level)) > most) continue;
-        uploadLevel(image, level, mip, format);
-        entry.bytes += bytesOfLevel(mip++);
-    }
-    setSampling(texture, mip);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    setSampling(texture);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, image.levels() - 1 - entry.largest);
+    while (entry.finest > entry.largest && (!options_.gradual || entry.finest == image.levels() ||
+                                            image.texels(entry.finest - 1) <= kSmall))
+        addRows(entry, image, std::numeric_limits<std::size_t>::max());
     glBindTexture(GL_TEXTURE_2D, 0);
     return entry;
+}
+
+/// Adds to the level that is missing, in bands: a large one would hold up a picture.
+/// \pre the texture is bound \return how many texels
+std::size_t TextureCache::addRows(Entry& entry, const TextureImage& image,
+                                  std::size_t texels) const {
+    constexpr std::size_t kBand = 4; // rows of a compressed block
+    const int level = entry.finest - 1, mip = level - entry.largest;
+    const auto width = std::size_t(image.width(level)), height = std::size_t(image.height(level));
+    if (entry.rows == 0) {
+        const bool bytes = !image.pixels8().empty();
+        glTexImage2D(GL_TEXTURE_2D, mip, formatOf(image, options_.compressed), GLsizei(width),
+                     GLsizei(height), 0, GL_RGB, bytes ? GL_UNSIGNED_BYTE : GL_FLOAT, nullptr);
+        entry.bytes += bytesOfLevel(mip);
+    }
+    const std::size_t bands = std::max<std::size_t>(1, texels / (kBand * width));
+    const std::size_t left = height - std::size_t(entry.rows);
+    const std::size_t count = bands > left / kBand ? left : kBand * bands;
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    uploadRows(image, level, mip, entry.rows, int(count));
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    entry.rows += int(count);
+    if (std::size_t(entry.rows) == height) {
+        entry.finest = level;
+        entry.rows = 0;
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, mip);
+    }
+    return count * width;
+}
+
+bool TextureCache::refine(std::size_t texels) {
+    glActiveTexture(GL_TEXTURE0);
+    std::size_t done = 0;
+    bool missing = true;
+    while (missing && done < texels) {
+        Entry* blurriest = nullptr;
+        std::shared_ptr<const TextureImage> image;
+        for (auto& [key, entry] : entries_) {
+            auto alive = entry.alive.lock();
+            if (!alive || entry.finest == entry.largest) continue;
+            if (image && alive->texels(entry.finest) >= image->texels(blurriest->finest)) continue;
+            blurriest = &entry;
+            image = std::move(alive);
+        }
+        missing = blurriest != nullptr;
+        if (!missing) break;
+        bytes_ -= blurriest->bytes;
+        glBindTexture(GL_TEXTURE_2D, blurriest->texture.name());
+        done += addRows(*blurriest, *image, texels - done);
+        bytes_ += blurriest->bytes;
+    }
+    glBindTexture(GL_TEXTURE_2D, 0);
+    return missing;
 }
 
 } // namespace penumbra

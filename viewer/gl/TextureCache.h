@@ -17,10 +17,17 @@ namespace penumbra {
 /// What is gone from the scene is dropped.
 class TextureCache {
 public:
-    enum class Quality { exact, compressed };
-    explicit TextureCache(Quality quality) : quality_(quality) {}
+    struct Options {
+        bool compressed = false;
+        /// Pictures begin with their small levels; refine() brings the others.
+        bool gradual = false;
+    };
+    explicit TextureCache(Options options) : options_(options) {}
 
     void dropDead();
+    /// Uploads about so many texels that are missing yet, of the blurriest pictures first.
+    /// \return whether any are still missing
+    bool refine(std::size_t texels);
     /// Gives a program in use the colours of a material and its textures.
     void setMaterial(const ShaderProgram& program, Rgb reflectance, Rgb emission,
                      const MaterialTextures& textures);
@@ -33,11 +40,15 @@ private:
         std::weak_ptr<const TextureImage> alive; ///< an address alone might be that of a later one
         GlObject texture;
         std::size_t bytes = 0;
+        int largest = 0; ///< level that OpenGL has as its level 0
+        int finest = 0;  ///< level that is there as a whole
+        int rows = 0;    ///< that are there of the next finer one
     };
     unsigned nameOf(const Texture& texture);
-    Entry upload(const Texture& texture) const;
+    Entry begin(const Texture& texture) const;
+    std::size_t addRows(Entry& entry, const TextureImage& image, std::size_t texels) const;
 
-    Quality quality_;
+    Options options_;
     std::map<std::tuple<const TextureImage*, TextureWrap, TextureWrap>, Entry> entries_;
     std::size_t bytes_ = 0;
 };

@@ -15,8 +15,10 @@ ReadyScene readyScene(const std::string& file, const LoadOptions& options) {
     ready.placed = placeScene(*ready.loaded.scene);
     if (ready.placed.meshes.empty() && ready.placed.lights.empty())
         throw SceneFileError({file}, "nothing to see: no visible mesh that can be read");
+    auto rays =
+        std::async(std::launch::async, [&] { return std::make_unique<SceneRays>(ready.placed); });
     ready.settings = lightSettings(file, ready.loaded, options.time, {});
-    ready.rays = std::make_unique<SceneRays>(ready.placed);
+    ready.rays = rays.get();
     return ready;
 }
 

@@ -4,6 +4,7 @@
 #include "io/usd/scene/UsdContents.h"
 #include "io/usd/scene/UsdSceneBuilder.h"
 #include "io/usd/scene/UsdTracks.h"
+#include "io/usd/shade/UsdMaterial.h"
 #include "io/usd/stage/UsdStage.h"
 #include "scenegraph/Objects.h"
 #include "scenegraph/Transform.h"
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -117,6 +119,29 @@ LightRequest askedByDefaultPrim(const UsdStage& stage, double unit, Diagnostics&
 
 } // namespace
 
+namespace {
+
+/// The UsdUVTextures of materials that something is bound to.
+std::vector<const UsdPrim*> texturesInUse(const UsdStage& stage) {
+    Diagnostics ignored;
+    std::unordered_set<std::string> bound;
+    for (const UsdPrim& prim : stage.prims())
+        if (const std::string path = usdMaterialBinding(prim, ignored).path; !path.empty())
+            bound.insert(path);
+    std::vector<const UsdPrim*> found;
+    for (const UsdPrim& prim : stage.prims()) {
+        if (prim.typeName != "Shader" || prim.abstract) continue;
+        if (UsdAttributes(prim, {}).text("info:id", "") != "UsdUVTexture") continue;
+        const UsdPrim* above = &prim;
+        while (above->parent != 0 && !bound.contains(above->path))
+            above = &stage.prims()[above->parent];
+        if (bound.contains(above->path)) found.push_back(&prim);
+    }
+    return found;
+}
+
+} // namespace
+
 LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& options) {
     UsdComposeLimits limits;
     limits.layer.fileBytes = options.maxFileBytes;
@@ -140,6 +165,7 @@ LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& o
     const UsdTime time =
         options.time ? options.time : layerNumber(stage->rootLayer(), "startTimeCode");
     const auto textures = std::make_shared<UsdTextures>(files);
+    textures->readAhead(time, texturesInUse(*stage));
     const auto tracks = std::make_shared<UsdTracks>(stage, textures);
     if (const UsdValue* name = find(stage->rootLayer().metadata, "defaultPrim"))
         if (name->text()) loaded.addresses.defaultPrim = *name->text();

@@ -1,6 +1,7 @@
 #include "io/usd/shade/UsdTextures.h"
 
 #include "base/Error.h"
+#include "base/Parallel.h"
 #include "io/image/ImageReader.h"
 #include "io/usd/shade/UsdConnections.h"
 
@@ -12,6 +13,8 @@
 namespace penumbra {
 
 namespace {
+
+constexpr const char* kFile = "inputs:file";
 
 std::string textAt(const UsdStage& stage, const UsdPrim& prim, const std::string& name,
                    const std::string& fallback, UsdTime time) {
@@ -106,6 +109,50 @@ const UsdTexture& UsdTextures::at(const UsdStage& stage, const UsdPrim& shader, 
     return known;
 }
 
+void UsdTextures::readAhead(UsdTime time, std::span<const UsdPrim* const> shaders) {
+    struct Picture {
+        std::pair<std::string, int> key;
+        std::string file;
+        PictureCoding coding{};
+        UsdAssetBytes bytes;
+        std::shared_ptr<const TextureImage> image;
+    };
+    constexpr std::size_t kAtOnce = 16; // files that are in memory
+    std::vector<Picture> pictures;
+    const auto read = [&] {
+        parallelFor(pictures.size(), 1, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) try {
+                    Picture& picture = pictures[i];
+                    picture.image = readImage(picture.bytes.bytes, picture.file, picture.coding);
+                } catch (const Error&) { // said where it is asked for
+                }
+        });
+        for (Picture& picture : pictures)
+            if (picture.image) images_[picture.key] = std::move(picture.image);
+        pictures.clear();
+    };
+    Diagnostics ignored;
+    for (const UsdPrim* prim : shaders) {
+        const UsdAttributes shader(*prim, time);
+        const std::string file = shader.text(kFile, "");
+        if (file.empty() || file.find("<UDIM>") != std::string::npos) continue;
+        Picture picture;
+        picture.file = file;
+        picture.coding = codingOf(shader, ignored);
+        try {
+            picture.key = {files_->resolve(shader.location(kFile).file, file), int(picture.coding)};
+            const auto same = [&](const Picture& other) { return other.key == picture.key; };
+            if (images_.contains(picture.key) || std::ranges::any_of(pictures, same)) continue;
+            picture.bytes = files_->bytes(picture.key.first);
+        } catch (const Error&) {
+            continue;
+        }
+        pictures.push_back(std::move(picture));
+        if (pictures.size() == kAtOnce) read();
+    }
+    read();
+}
+
 UsdTexture UsdTextures::make(const UsdStage& stage, const UsdAttributes& shader,
                              Diagnostics& diagnostics) {
     Texture texture;
@@ -124,9 +171,8 @@ UsdTexture UsdTextures::make(const UsdStage& stage, const UsdAttributes& shader,
 /// Null, with a warning, if it can't be read.
 std::shared_ptr<const TextureImage> UsdTextures::image(const UsdAttributes& shader,
                                                        Diagnostics& diagnostics) {
-    constexpr const char* kInput = "inputs:file";
-    const std::string file = shader.text(kInput, "");
-    const SourceLocation where = shader.location(kInput);
+    const std::string file = shader.text(kFile, "");
+    const SourceLocation where = shader.location(kFile);
     if (file.empty() || file.find("<UDIM>") != std::string::npos) {
         diagnostics.warn(where, file.empty()
                                     ? "a texture without a file left out"

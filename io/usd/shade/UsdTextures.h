@@ -10,6 +10,7 @@
 
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -28,6 +29,8 @@ struct UsdTexture {
 class UsdTextures {
 public:
     explicit UsdTextures(const UsdAssets& files) : files_(&files) {}
+    /// Reads the pictures of some shaders on all cores. What can't be read is left to at().
+    void readAhead(UsdTime time, std::span<const UsdPrim* const> shaders);
     /// From now on nothing more is read; the files may go.
     void close() { files_ = nullptr; }
 
