@@ -58,7 +58,7 @@ public:
     OpenElements(const RayScene& rays, const ContactResolver& resolver,
                  const std::vector<Element>& all, std::span<const std::uint32_t> which)
         : rays_(rays), resolver_(resolver), all_(all), which_(which), near_(which.size()),
-          held_(which.size()) {}
+          held_(which.size()), cover_(which.size()) {}
 
     /// Looks for what covers corners and middles, and for what stands between them.
     void look() {
@@ -72,6 +72,7 @@ public:
                 segments.add(std::uint32_t(i), at.middle, at.middle + up);
                 for (std::size_t k = 0; k < at.count; ++k)
                     segments.add(std::uint32_t(i), at.corner[k], at.corner[k] + up);
+                cover_[i] = at.cover;
                 held_[i] = rays_.solidsEnd(at.middle, leaving(at.normal)) > 0;
             }
             segments.trace();
@@ -91,9 +92,9 @@ public:
         parallelFor(pairs.size(), 1024, [&](std::size_t first, std::size_t last) {
             Segments segments(rays_, parted);
             for (std::size_t i = first; i < last; ++i)
-                segments.add(std::uint32_t(i), cornerOf(pairs[i].a),
-                             beyond(cornerOf(pairs[i].a), cornerOf(pairs[i].b),
-                                    resolver_.placesOf(all_[which_[pairs[i].b / 4]]).cover));
+                segments.add(
+                    std::uint32_t(i), cornerOf(pairs[i].a),
+                    beyond(cornerOf(pairs[i].a), cornerOf(pairs[i].b), cover_[pairs[i].b / 4]));
             segments.trace();
         });
         UnionFind sets(which_.size());
@@ -172,6 +173,7 @@ private:
     std::span<const std::uint32_t> which_;
     std::vector<std::uint8_t> near_; ///< 1: something is, or it is buried
     std::vector<std::uint8_t> held_; ///< 1: in the box of something solid
+    std::vector<float> cover_;       ///< see coverDistance()
 };
 
 } // namespace

@@ -12,6 +12,12 @@ std::uint64_t edgeKey(std::uint32_t a, std::uint32_t b) {
     return std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
 }
 
+float edgeLength(const SurfaceMesh& mesh, std::span<const std::uint32_t> corners,
+                 std::size_t edge) {
+    return glm::distance(mesh.points[corners[edge]],
+                         mesh.points[corners[(edge + 1) % corners.size()]]);
+}
+
 int scaled(int rate, double factor) {
     return std::max(1, int(double(rate) * factor));
 }
@@ -53,13 +59,26 @@ void coarsen(std::vector<int>& rates, std::span<const int> least, double most) {
 
 EdgeRates::EdgeRates(const SurfaceMesh& mesh, const LimitSurface& surface, float patchSize,
                      float elementSize)
-    : subdivided_(mesh.subdivided() && surface.understood()), patchSize_(patchSize),
-      elementSize_(elementSize) {
+    : mesh_(mesh), subdivided_(mesh.subdivided() && surface.understood()), patchSize_(patchSize),
+      elementSize_(elementSize), atCut_(mesh.points.size()) {
     first_.push_back(0);
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-        if (const auto face = surface.face(f)) addFace(*face, mesh.cornersOf(mesh.faces[f]));
+        const auto corners = mesh.cornersOf(mesh.faces[f]);
+        if (subdivided_ || !addSmall(corners))
+            if (const auto face = surface.face(f)) addFace(*face, corners);
         first_.push_back(rates_.size());
     }
+}
+
+/// Adds a polygon of which no edge is to be cut. \return whether it is one
+bool EdgeRates::addSmall(std::span<const std::uint32_t> corners) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const EdgeRate rate = cut(edgeLength(mesh_, corners, i), 0).rate;
+        if (rate.patches > 1 || rate.elements > 1) return false;
+    }
+    corners_.insert(corners_.end(), corners.begin(), corners.end());
+    rates_.insert(rates_.end(), corners.size(), EdgeRate());
+    return true;
 }
 
 std::span<const EdgeRate> EdgeRates::ofFace(std::uint32_t face) const {
@@ -71,7 +90,19 @@ std::span<const std::uint32_t> EdgeRates::cornersOf(std::uint32_t face) const {
 }
 
 int EdgeRates::along(std::uint32_t a, std::uint32_t b) const {
-    return elements_.at(edgeKey(a, b));
+    const auto cut = elements_.find(edgeKey(a, b));
+    return cut == elements_.end() ? 1 : cut->second;
+}
+
+bool EdgeRates::isWhole(std::uint32_t face) const {
+    const auto corners = cornersOf(face);
+    const auto isOne = [](const EdgeRate& rate) { return rate.patches == 1 && rate.elements == 1; };
+    if (!std::ranges::all_of(ofFace(face), isOne)) return false;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const std::uint32_t a = corners[i], b = corners[(i + 1) % corners.size()];
+        if (atCut_[a] != 0 && atCut_[b] != 0 && along(a, b) > 1) return false;
+    }
+    return true;
 }
 
 /// By length, and so that the normal turns by no more than kMostBend within an element.
@@ -87,19 +118,25 @@ EdgeRates::Wanted EdgeRates::cut(float length, float bend) const {
     return {{patches, patches * std::min(elements, kMost / patches)}, parts(bend, kMostBend)};
 }
 
+EdgeRates::Wanted EdgeRates::wantedOf(const FaceSurface& face,
+                                      std::span<const std::uint32_t> corners, std::size_t edge) {
+    if (!subdivided_) return cut(edgeLength(mesh_, corners, edge), 0);
+    const auto [found, fresh] =
+        wanted_.try_emplace(edgeKey(corners[edge], corners[(edge + 1) % corners.size()]));
+    if (fresh) found->second = cut(face.edgeLength(int(edge)), face.edgeBend(int(edge)));
+    return found->second;
+}
+
 EdgeRates::FaceRates EdgeRates::wantedBy(const FaceSurface& face,
                                          std::span<const std::uint32_t> corners) {
     FaceRates rates;
     const std::size_t count = corners.size();
     for (std::size_t i = 0; i < count; ++i) {
-        const auto [found, fresh] =
-            wanted_.try_emplace(edgeKey(corners[i], corners[(i + 1) % count]));
-        if (fresh)
-            found->second = cut(face.edgeLength(int(i)), subdivided_ ? face.edgeBend(int(i)) : 0);
+        const Wanted wanted = wantedOf(face, corners, i);
         rates.corners.push_back(corners[i]);
-        rates.patches.push_back(found->second.rate.patches);
-        rates.elements.push_back(found->second.rate.elements);
-        rates.bent.push_back(found->second.bent);
+        rates.patches.push_back(wanted.rate.patches);
+        rates.elements.push_back(wanted.rate.elements);
+        rates.bent.push_back(wanted.bent);
     }
     return rates;
 }
@@ -139,8 +176,11 @@ void EdgeRates::addFace(const FaceSurface& face, std::span<const std::uint32_t> 
         const int each = std::max(1, rates.elements[i] / rates.patches[i]);
         corners_.push_back(rates.corners[i]);
         rates_.push_back({rates.patches[i], each * rates.patches[i]});
-        int& most = elements_[edgeKey(rates.corners[i], rates.corners[(i + 1) % count])];
+        if (rates_.back().elements == 1) continue;
+        const std::uint32_t a = rates.corners[i], b = rates.corners[(i + 1) % count];
+        int& most = elements_[edgeKey(a, b)];
         most = std::max(most, rates_.back().elements);
+        atCut_[a] = atCut_[b] = 1;
     }
 }
 

@@ -49,6 +49,8 @@ public:
     std::span<const std::uint32_t> cornersOf(std::uint32_t face) const;
     /// Elements along the edge between two corners, at least what any of its faces wants.
     int along(std::uint32_t a, std::uint32_t b) const;
+    /// Whether no edge of a face is cut.
+    bool isWhole(std::uint32_t face) const;
 
 private:
     /// What an edge asks for by itself. `bent`: elements that its bend asks for.
@@ -62,17 +64,23 @@ private:
         std::vector<int> patches, elements, bent;
     };
     Wanted cut(float length, float bend) const;
+    Wanted wantedOf(const FaceSurface& face, std::span<const std::uint32_t> corners,
+                    std::size_t edge);
     FaceRates wantedBy(const FaceSurface& face, std::span<const std::uint32_t> corners);
     bool makeStrip(FaceRates& rates) const;
+    bool addSmall(std::span<const std::uint32_t> corners);
     void addFace(const FaceSurface& face, std::span<const std::uint32_t> corners);
 
+    const SurfaceMesh& mesh_;
     bool subdivided_;
     float patchSize_, elementSize_;
-    std::unordered_map<std::uint64_t, Wanted> wanted_; ///< of each edge, whichever face asks first
-    std::unordered_map<std::uint64_t, int> elements_;  ///< of each edge
-    std::vector<EdgeRate> rates_;                      ///< of all faces, one after the other
-    std::vector<std::uint32_t> corners_;               ///< where each of those edges begins
-    std::vector<std::size_t> first_;                   ///< of a face in rates_; and their end
+    /// Of each edge of a subdivision surface, whichever face asks first.
+    std::unordered_map<std::uint64_t, Wanted> wanted_;
+    std::unordered_map<std::uint64_t, int> elements_; ///< of each edge that is cut
+    std::vector<std::uint8_t> atCut_;                 ///< 1: a point at the end of such an edge
+    std::vector<EdgeRate> rates_;                     ///< of all faces, one after the other
+    std::vector<std::uint32_t> corners_;              ///< where each of those edges begins
+    std::vector<std::size_t> first_;                  ///< of a face in rates_; and their end
 };
 
 } // namespace penumbra

@@ -25,13 +25,36 @@ struct Component {
     std::vector<std::uint32_t> lid; ///< closes its only opening, wound like its faces; may be empty
 };
 
-using Edges = std::unordered_map<std::uint64_t, int>; ///< directed: +1 one way, -1 the other
+/// How often faces go along an edge, lower point to higher one, more than the other way.
+using EdgeCount = std::pair<std::uint64_t, int>;
+
+/// Edges that the faces of a component do not go along as often one way as the other.
+std::vector<EdgeCount> openEdges(const SurfaceMesh& mesh, std::span<const std::uint32_t> weld,
+                                 const Component& component) {
+    std::vector<EdgeCount> edges;
+    for (const std::uint32_t f : component.faces) {
+        const auto corners = mesh.cornersOf(mesh.faces[f]);
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const std::uint32_t a = weld[corners[i]], b = weld[corners[(i + 1) % corners.size()]];
+            edges.emplace_back(std::uint64_t(std::min(a, b)) << 32 | std::max(a, b),
+                               a < b ? 1 : -1);
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    std::vector<EdgeCount> open;
+    for (std::size_t first = 0, last = 0; first < edges.size(); first = last) {
+        int count = 0;
+        for (; last < edges.size() && edges[last].first == edges[first].first; ++last)
+            count += edges[last].second;
+        if (count != 0) open.emplace_back(edges[first].first, count);
+    }
+    return open;
+}
 
 /// The boundary of a surface, turned round, if it is a single loop; else nothing.
-std::vector<std::uint32_t> boundaryLoop(const Edges& edges) {
+std::vector<std::uint32_t> boundaryLoop(std::span<const EdgeCount> open) {
     std::unordered_map<std::uint32_t, std::uint32_t> next;
-    for (const auto& [edge, count] : edges) {
-        if (count == 0) continue;
+    for (const auto& [edge, count] : open) {
         const auto low = std::uint32_t(edge >> 32), high = std::uint32_t(edge);
         const bool upwards = count > 0; // the lid walks the edge the other way
         if (std::abs(count) != 1 ||
@@ -126,28 +149,29 @@ std::vector<Component> connectedComponents(const SurfaceMesh& mesh,
 
     std::unordered_map<std::uint32_t, std::uint32_t> index;
     std::vector<Component> components;
-    std::vector<Edges> edges;
+    std::vector<std::uint64_t> open; // sums over edges: 0 where each is gone along both ways
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
         const auto corners = mesh.cornersOf(mesh.faces[f]);
         const std::uint32_t root = joined.find(weld[corners[0]]);
         const auto [found, fresh] = index.try_emplace(root, std::uint32_t(components.size()));
-        if (fresh) components.emplace_back(), edges.emplace_back();
+        if (fresh) components.emplace_back(), open.emplace_back();
         Component& component = components[found->second];
         component.faces.push_back(f);
         const glm::dvec3 apex = mesh.points[corners[0]];
         for (std::size_t i = 0; i < corners.size(); ++i) {
             const std::uint32_t a = weld[corners[i]], b = weld[corners[(i + 1) % corners.size()]];
             component.bounds.add(mesh.points[a]);
-            edges[found->second][std::uint64_t(std::min(a, b)) << 32 | std::max(a, b)] +=
-                a < b ? 1 : -1;
+            const std::uint64_t edge =
+                mixHash(std::uint64_t(std::min(a, b)) << 32 | std::max(a, b), 0);
+            open[found->second] += a < b ? edge : -edge;
             component.volume +=
                 glm::dot(apex, glm::cross(glm::dvec3(mesh.points[a]), glm::dvec3(mesh.points[b])));
         }
     }
     for (std::size_t i = 0; i < components.size(); ++i) {
-        components[i].closed = std::all_of(edges[i].begin(), edges[i].end(),
-                                           [](auto& edge) { return edge.second == 0; });
-        if (!components[i].closed) close(mesh, object, boundaryLoop(edges[i]), components[i]);
+        components[i].closed = open[i] == 0;
+        if (!components[i].closed)
+            close(mesh, object, boundaryLoop(openEdges(mesh, weld, components[i])), components[i]);
     }
     return components;
 }

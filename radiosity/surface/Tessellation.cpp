@@ -4,18 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <cstdint>
+#include <unordered_map>
 
 namespace penumbra {
 
 namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffu;
 
 class Tessellator {
 public:
     Tessellator(const SurfaceMesh& mesh, const LimitSurface& surface, float patchSize,
                 float elementSize)
         : mesh_(mesh), surface_(surface), rates_(mesh, surface, patchSize, elementSize),
-          patchSize_(patchSize) {}
+          patchSize_(patchSize), atPoint_(mesh.points.size(), kNone) {}
 
     Tessellation run() {
         out_.smooth = mesh_.subdivided() && surface_.understood();
@@ -41,8 +44,9 @@ private:
                      const std::array<int, 4>& source,
                      std::span<const std::uint32_t> vertices) const;
     std::uint32_t addVertex(const SurfacePoint& point, glm::vec2 uv);
-    std::uint32_t boundaryVertex(std::uint64_t key, std::uint32_t along, const SurfacePoint& point,
-                                 glm::vec2 uv);
+    std::uint32_t& firstAtEdge(std::uint32_t a, std::uint32_t b, std::uint32_t k,
+                               std::uint32_t rate);
+    std::uint32_t boundaryVertex(std::uint32_t& first, const SurfacePoint& point, glm::vec2 uv);
     std::vector<glm::vec2> uvsOfCorners(std::uint32_t index) const;
     std::vector<std::uint32_t> addVertices(std::uint32_t index, const FaceSurface& face,
                                            const std::vector<glm::vec2>& coords);
@@ -52,7 +56,11 @@ private:
     const EdgeRates rates_;
     float patchSize_;
     Tessellation out_;
-    std::map<std::pair<std::uint64_t, std::uint32_t>, std::vector<std::uint32_t>> shared_;
+
+    // Vertices at the same place of a corner or an edge, in lists: the first one of each place, and
+    // the next one at each vertex's place.
+    std::vector<std::uint32_t> atPoint_, atEdges_, nextThere_;
+    std::unordered_map<std::uint64_t, std::size_t> edges_; // first of atEdges_
 
     std::vector<glm::vec2> uvs_;      // of the corners of the face at hand
     std::vector<glm::vec2> vertexUv_; // of all vertices; both are empty without textures
@@ -74,6 +82,14 @@ std::array<int, 4> withoutTwins(const std::array<int, 4>& facet,
         if (vertices[std::size_t(facet[k])] != vertices[next]) left[n++] = facet[k];
     }
     return left;
+}
+
+/// Of a triangle or quadrilateral that is not cut.
+DomainPattern wholePattern(const FaceSurface& face) {
+    DomainPattern pattern;
+    for (int i = 0; i < face.size(); ++i) pattern.coords.push_back(face.vertexCoord(i));
+    pattern.facets.push_back({0, 1, 2, face.size() == 4 ? 3 : -1});
+    return pattern;
 }
 
 /// The boundary as both faces of each edge cut it, the inside as this face wants it.
@@ -150,20 +166,31 @@ std::uint32_t Tessellator::addVertex(const SurfacePoint& point, glm::vec2 uv) {
 
 /// A vertex on a corner or an edge: the one already there if its normal and its place in the
 /// texture agree.
-std::uint32_t Tessellator::boundaryVertex(std::uint64_t key, std::uint32_t along,
-                                          const SurfacePoint& point, glm::vec2 uv) {
+std::uint32_t Tessellator::boundaryVertex(std::uint32_t& first, const SurfacePoint& point,
+                                          glm::vec2 uv) {
     const auto sameUv = [&](std::uint32_t candidate) { // to rounding
         return uvs_.empty() ||
                glm::distance(vertexUv_[candidate], uv) <= 1e-5f * std::max(1.0f, glm::length(uv));
     };
-    std::vector<std::uint32_t>& candidates = shared_[{key, along}];
-    for (std::uint32_t candidate : candidates)
-        if (glm::dot(out_.vertices[candidate].normal, point.normal) > 0.9995f && sameUv(candidate))
-            return candidate;
     SurfacePoint added = point;
-    if (!candidates.empty()) added.position = out_.vertices[candidates[0]].position;
-    candidates.push_back(addVertex(added, uv));
-    return candidates.back();
+    if (first != kNone) added.position = out_.vertices[first].position;
+    std::uint32_t* last = &first;
+    for (; *last != kNone; last = &nextThere_[*last])
+        if (glm::dot(out_.vertices[*last].normal, point.normal) > 0.9995f && sameUv(*last))
+            return *last;
+    const std::uint32_t vertex = addVertex(added, uv);
+    *last = vertex; // a list has not moved: this vertex has no place in nextThere_ yet
+    nextThere_.resize(out_.vertices.size(), kNone);
+    return vertex;
+}
+
+/// The first vertex at point k of an edge that is cut into so many parts, from its lower end on.
+std::uint32_t& Tessellator::firstAtEdge(std::uint32_t a, std::uint32_t b, std::uint32_t k,
+                                        std::uint32_t rate) {
+    const auto [edge, fresh] =
+        edges_.try_emplace(std::uint64_t(std::min(a, b)) << 32 | std::max(a, b), atEdges_.size());
+    if (fresh) atEdges_.resize(atEdges_.size() + rate, kNone);
+    return atEdges_[edge->second + (a < b ? k : rate - k)];
 }
 
 /// Bfr lists boundary points first, along the edges from vertex 0 on.
@@ -177,13 +204,10 @@ std::vector<std::uint32_t> Tessellator::addVertices(std::uint32_t index, const F
     std::size_t next = 0;
     for (std::size_t e = 0; e < corners.size(); ++e) {
         const std::uint32_t a = corners[e], b = corners[(e + 1) % corners.size()];
-        const std::uint64_t edgeKey = std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
         const auto rate = std::uint32_t(rates_.along(a, b));
         for (std::uint32_t k = 0; k < rate; ++k, ++next) {
-            const bool isCorner = k == 0;
-            const std::uint64_t key = isCorner ? std::uint64_t(a) << 32 | a : edgeKey;
-            const std::uint32_t along = isCorner ? 0 : (a < b ? k : rate - k);
-            vertices[next] = boundaryVertex(key, along, face.at(coords[next]), uvOf(coords[next]));
+            std::uint32_t& first = k == 0 ? atPoint_[a] : firstAtEdge(a, b, k, rate);
+            vertices[next] = boundaryVertex(first, face.at(coords[next]), uvOf(coords[next]));
         }
     }
     for (; next < coords.size(); ++next)
@@ -193,7 +217,8 @@ std::vector<std::uint32_t> Tessellator::addVertices(std::uint32_t index, const F
 
 void Tessellator::addFace(std::uint32_t index, const FaceSurface& face) {
     addCells(index, face);
-    const DomainPattern pattern = face.pattern(facetRates(index));
+    const bool simple = face.size() <= 4 && rates_.isWhole(index);
+    const DomainPattern pattern = simple ? wholePattern(face) : face.pattern(facetRates(index));
     const std::vector<std::uint32_t> vertices = addVertices(index, face, pattern.coords);
     const std::size_t first = out_.facets.size();
     for (const std::array<int, 4>& facet : pattern.facets) {
