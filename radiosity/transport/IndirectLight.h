@@ -182,7 +182,11 @@ private:
     void serveLink(std::uint32_t i, std::uint32_t b, const RowBlock& block);
     void finishShot();
     void residualsChanged();
+    void noteBatch(const Shot& shot);
+    std::vector<std::uint8_t> staleSenders(bool all, std::span<const double> dirtyDirect);
     void updateResiduals();
+    void updatePatch(std::uint32_t index);
+    void bound();
     void coloursChanged();
     glm::dvec3 node(std::uint32_t index) const;
     bool isWhole(std::uint32_t index) const;
@@ -197,8 +201,7 @@ private:
     void reflect(std::uint32_t index, std::span<glm::dvec3> cells) const;
     void reflectDirect();
     void reflectDirect(std::uint32_t index, std::span<glm::dvec3> cells) const;
-    void averageClusters(std::vector<glm::dvec3>& cells) const;
-    double owed(std::uint32_t sender) const;
+    void averageClusters(ObjectId object);
     bool sends(std::uint32_t index) const;
     double dirtyOver(std::uint32_t index) const;
     double dirtyAt(std::uint32_t index) const;
@@ -232,7 +235,28 @@ private:
     std::vector<glm::dvec3> nodes_; ///< [lux]
     std::vector<double> rowSums_;   ///< of F V over the senders whose rows are known, a node each
     std::vector<glm::dvec3> sent_;  ///< S of every cell of every sender [lm/m^2]
-    std::vector<glm::dvec3> residuals_;       ///< R, likewise [lm/m^2]
+    std::vector<glm::dvec3> now_;   ///< E + rho F S, likewise [lm/m^2]
+    std::vector<glm::dvec3> residuals_; ///< R, likewise [lm/m^2]
+    /// Of each sender: bound of what it owes to any receiver, and the most that a cell owes
+    /// [lm/m^2].
+    struct Owed {
+        double toAny = 0, most = 0;
+    };
+    std::vector<Owed> owed_;
+    /// Bounds of what a patch owes, and what it sends in the mean [lm/m^2].
+    struct PatchBound {
+        double dirtyDirect = 0, dirty = 0, both = 0, area = 0, radiosity = 0;
+        void add(const PatchBound& other);
+    };
+    std::vector<PatchBound> patchBounds_;
+    /// Since the residuals were known: blocks that received of a batch (1), who sent; or anything.
+    std::vector<std::uint8_t> servedBlocks_;
+    std::vector<std::uint32_t> servers_;
+    bool allStale_ = true;
+    /// What the residuals know of dirty blocks: light and factor of a block of nodes, and what may
+    /// change in the direct light of a patch.
+    std::vector<std::pair<double, double>> dirtyBlocks_;
+    std::vector<double> dirtyDirect_;
     std::vector<glm::dvec3> colours_;         ///< reflectances, likewise
     std::vector<glm::dvec3> reflectedDirect_; ///< of direct light, unless directStale_ [lm/m^2]
     std::vector<std::uint8_t> known_;         ///< rows that are part of rowSums_

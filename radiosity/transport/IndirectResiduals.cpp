@@ -87,13 +87,6 @@ glm::dvec3 IndirectLight::reflected(std::uint32_t index) const {
     return toDouble(patchReflectance(set_, index)) * (direct_.patches()[index] + indirect.mean());
 }
 
-/// Bound of what a sender owes to any receiver [lm/m^2].
-double IndirectLight::owed(std::uint32_t sender) const {
-    const SenderLight cells = cellsOf(residuals_, sender);
-    if (cells.size() != kClusterCells) return largest(cells);
-    return largest(cells.first(kSenderCells)) + largest(cells.subspan(kSenderCells));
-}
-
 /// Whether a patch is there and light gets to it. What the nodes of others still hold is deferred
 /// work: it is right for these to send nothing.
 bool IndirectLight::sends(std::uint32_t index) const {
@@ -139,12 +132,13 @@ void IndirectLight::reflectDirect(std::uint32_t index, std::span<glm::dvec3> cel
     for (std::size_t k = 0; k < cells.size(); ++k) cells[k] = rho * toDouble(direct[k]);
 }
 
-/// Fills in what clusters send, from what their patches do.
-void IndirectLight::averageClusters(std::vector<glm::dvec3>& cells) const {
-    senders_.average(cells);
-    for (std::uint32_t s = senders_.patchCount(); s < senders_.count(); ++s)
+/// Fills in what an object's clusters send, from what their patches do.
+void IndirectLight::averageClusters(ObjectId object) {
+    senders_.average(object, now_);
+    const Range clusters = senders_.clustersOf(object);
+    for (std::uint32_t s = clusters.first; s < clusters.end(); ++s)
         std::ranges::copy(cellsOf(reflectedDirect_, s).first(kSenderCells),
-                          cellsOf(cells, s).begin());
+                          cellsOf(now_, s).begin());
 }
 
 /// What dirty blocks may change in what arrives at any cell of a patch by other patches [lux].
@@ -167,67 +161,135 @@ double IndirectLight::dirtyAt(std::uint32_t index) const {
 
 /// Batches that have not begun are chosen again.
 void IndirectLight::residualsChanged() {
-    residualsStale_ = true;
+    residualsStale_ = allStale_ = true;
     listing_.reset();
 }
 
-namespace {
+/// The same after a batch, which changes what it served and nothing else.
+void IndirectLight::noteBatch(const Shot& shot) {
+    residualsStale_ = true;
+    servedBlocks_.resize(blockCount());
+    for (std::size_t b = 0; b < shot.receivers.size(); ++b)
+        if (!shot.receivers[b].empty()) servedBlocks_[b] = 1;
+    servers_.insert(servers_.end(), shot.senders.begin(), shot.senders.end());
+}
 
-/// Bounds of what some patches owe, and what they send.
-struct Part {
-    double dirtyDirect = 0, dirty = 0, both = 0, area = 0, radiosity = 0;
+void IndirectLight::PatchBound::add(const PatchBound& other) {
+    dirtyDirect = std::max(dirtyDirect, other.dirtyDirect);
+    dirty = std::max(dirty, other.dirty);
+    both = std::max(both, other.both);
+    area += other.area;
+    radiosity += other.radiosity;
+}
 
-    void add(const Part& other) {
-        dirtyDirect = std::max(dirtyDirect, other.dirtyDirect);
-        dirty = std::max(dirty, other.dirty);
-        both = std::max(both, other.both);
-        area += other.area;
-        radiosity += other.radiosity;
+/// Senders (1) whose residuals are not what they were.
+std::vector<std::uint8_t> IndirectLight::staleSenders(bool all,
+                                                      std::span<const double> dirtyDirect) {
+    std::vector<std::uint8_t> stale(senders_.count(), std::uint8_t(all)), blocks(blockCount());
+    std::copy_n(servedBlocks_.begin(), std::min(servedBlocks_.size(), blocks.size()),
+                blocks.begin());
+    dirtyBlocks_.resize(blocks.size());
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        const DirtySet& dirty = updates_.dirty();
+        const std::pair now(double(dirty.light(b)), double(dirty.factor(b)));
+        if (std::exchange(dirtyBlocks_[b], now) != now) blocks[b] = 1;
     }
-};
-
-} // namespace
+    servedBlocks_.clear();
+    const std::vector<std::uint32_t> servers = std::exchange(servers_, {});
+    if (all) return stale;
+    for (std::uint32_t p = 0; p < senders_.patchCount(); ++p) {
+        if (!senders_.present(p)) continue; // it owes what it sent
+        const Patch& patch = set_.patches[p];
+        bool changed = dirtyDirect[p] != dirtyDirect_[p] || blocks[patch.centreNode / kBlock] != 0;
+        for (std::size_t k = 0; k < 4 && patch.hasCornerNodes && !changed; ++k)
+            changed = blocks[patch.cornerNodes[k] / kBlock] != 0;
+        stale[p] = changed;
+    }
+    for (const std::uint32_t s : servers) stale[s] = 1;
+    return stale;
+}
 
 void IndirectLight::updateResiduals() {
     residualsStale_ = false;
-    constexpr std::size_t kGrain = 512;
-    std::vector<Part> parts((senders_.patchCount() + kGrain - 1) / kGrain);
-    const std::vector<double> dirtyDirect = direct_.dirtyLight();
+    std::vector<double> dirtyDirect = direct_.dirtyLight();
+    const bool all = std::exchange(allStale_, false) || directStale_ ||
+                     now_.size() != senders_.cellCount() ||
+                     dirtyDirect_.size() != dirtyDirect.size();
     if (std::exchange(directStale_, false)) reflectDirect();
-    std::vector<glm::dvec3> now(senders_.cellCount());
-    parallelFor(senders_.patchCount(), kGrain, [&](std::size_t first, std::size_t last) {
-        Part& part = parts[first / kGrain];
-        for (auto p = std::uint32_t(first); p < last; ++p) {
-            const Patch& patch = set_.patches[p];
-            const SenderLight sent = cellsOf(sent_, p);
-            if (!senders_.present(p)) { // it has yet to take back what it sent
-                part.both = std::max(part.both, largest(sent));
-                continue;
-            }
-            const std::span<glm::dvec3> cells = cellsOf(now, p);
-            reflect(p, cells);
-            const double rho = maxChannel(patchReflectance(set_, p));
-            // A cell's direct light is an element's, plus the patch's mean, minus the cells' own.
-            const double dirtyHere = (senders_.isUneven(p) ? 3 : 1) * rho * dirtyDirect[p];
-            const double dirty = dirtyHere + rho * dirtyOver(p);
-            part.dirtyDirect = std::max(part.dirtyDirect, dirtyHere);
-            part.dirty = std::max(part.dirty, dirty);
-            for (std::size_t c = 0; c < cells.size(); ++c)
-                part.both = std::max(part.both, largest(cells[c] - sent[c]) + dirty);
-            if (rho <= 0) continue;
-            part.area += patch.area;
-            part.radiosity += patch.area * largest(meanOf(cells));
+    std::vector<std::uint8_t> stale = staleSenders(all, dirtyDirect);
+    dirtyDirect_ = std::move(dirtyDirect);
+    now_.resize(senders_.cellCount()), residuals_.resize(senders_.cellCount());
+    patchBounds_.resize(senders_.patchCount()), owed_.resize(senders_.count());
+    parallelFor(senders_.patchCount(), 512, [&](std::size_t first, std::size_t last) {
+        for (auto p = std::uint32_t(first); p < last; ++p)
+            if (stale[p] != 0) updatePatch(p);
+    });
+    std::vector<std::uint8_t> ofObject(set_.objects.size());
+    for (std::uint32_t p = 0; p < senders_.patchCount(); ++p)
+        ofObject[senders_.object(p).value] |= stale[p];
+    parallelFor(ofObject.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (auto o = std::uint32_t(first); o < last; ++o) {
+            if (ofObject[o] == 0) continue;
+            averageClusters({o});
+            const Range clusters = senders_.clustersOf({o});
+            std::fill_n(stale.begin() + clusters.first, clusters.count, std::uint8_t(1));
         }
     });
-    Part all;
-    for (const Part& part : parts) all.add(part);
-    averageClusters(now);
-    for (std::size_t c = 0; c < now.size(); ++c) now[c] -= sent_[c];
-    residuals_ = std::move(now);
-    most_ = largest(residuals_);
+    parallelFor(senders_.count(), 512, [&](std::size_t first, std::size_t last) {
+        for (auto s = std::uint32_t(first); s < last; ++s) {
+            if (stale[s] == 0) continue;
+            const SenderLight now = cellsOf(std::as_const(now_), s),
+                              sent = cellsOf(std::as_const(sent_), s);
+            const std::span<glm::dvec3> owed = cellsOf(residuals_, s);
+            for (std::size_t c = 0; c < owed.size(); ++c) owed[c] = now[c] - sent[c];
+            const SenderLight cells = owed;
+            owed_[s].most = largest(cells);
+            owed_[s].toAny =
+                cells.size() == kClusterCells
+                    ? largest(cells.first(kSenderCells)) + largest(cells.subspan(kSenderCells))
+                    : owed_[s].most;
+        }
+    });
+    bound();
+}
+
+/// What a patch sends if nothing is owed any more, and what it may still be wrong by.
+void IndirectLight::updatePatch(std::uint32_t index) {
+    const std::span<glm::dvec3> cells = cellsOf(now_, index);
+    const SenderLight sent = cellsOf(std::as_const(sent_), index);
+    PatchBound& bound = patchBounds_[index] = {};
+    if (!senders_.present(index)) { // it has yet to take back what it sent
+        std::ranges::fill(cells, glm::dvec3(0));
+        bound.both = largest(sent);
+        return;
+    }
+    reflect(index, cells);
+    const double rho = maxChannel(patchReflectance(set_, index));
+    // A cell's direct light is an element's, plus the patch's mean, minus the cells' own.
+    bound.dirtyDirect = (senders_.isUneven(index) ? 3 : 1) * rho * dirtyDirect_[index];
+    bound.dirty = bound.dirtyDirect + rho * dirtyOver(index);
+    for (std::size_t c = 0; c < cells.size(); ++c)
+        bound.both = std::max(bound.both, largest(cells[c] - sent[c]) + bound.dirty);
+    if (rho <= 0) return;
+    bound.area = set_.patches[index].area;
+    bound.radiosity = bound.area * largest(meanOf(cells));
+}
+
+/// What all of the light may still be wrong by.
+void IndirectLight::bound() {
+    constexpr std::size_t kGrain = 512; // patches that are summed up first
+    PatchBound all;
+    for (std::size_t first = 0; first < patchBounds_.size(); first += kGrain) {
+        PatchBound some;
+        for (std::size_t p = first; p < std::min(first + kGrain, patchBounds_.size()); ++p)
+            some.add(patchBounds_[p]);
+        all.add(some);
+    }
+    most_ = 0;
+    for (const Owed& owed : owed_) most_ = std::max(most_, owed.most);
     // What a cluster sends is a quarter's mean, plus a cell's direct light, minus that quarter's.
     for (std::uint32_t s = senders_.patchCount(); s < senders_.count(); ++s)
-        all.both = std::max(all.both, owed(s) + all.dirty + 4.0 / 3 * all.dirtyDirect);
+        all.both = std::max(all.both, owed_[s].toAny + all.dirty + 4.0 / 3 * all.dirtyDirect);
     dirtyBound_ = all.dirty;
     certificate_ = all.both > 0 ? gain_ * all.both : 0;
     meanRadiosity_ = all.area > 0 ? all.radiosity / all.area : 0;

@@ -175,35 +175,49 @@ glm::dvec3 IndirectSenders::meanOfPatch(std::uint32_t patch,
 }
 
 void IndirectSenders::average(std::span<glm::dvec3> values) const {
-    std::vector<glm::dvec3> mean(count());
-    std::vector<double> areas(count()); // of what is there of a cluster
+    parallelFor(clusterRanges_.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t o = first; o < last; ++o) average({std::uint32_t(o)}, values);
+    });
+}
+
+void IndirectSenders::average(ObjectId object, std::span<glm::dvec3> values) const {
+    const Range patches = set_.objects[object.value].patches;
+    const Range clusters = clusterRanges_[object.value];
+    if (clusters.count == 0) return;
+    const auto slot = [&](std::uint32_t s) -> std::size_t {
+        return s < patchCount() ? s - patches.first : patches.count + (s - clusters.first);
+    };
+    std::vector<glm::dvec3> mean(std::size_t(patches.count) + clusters.count);
+    std::vector<double> areas(mean.size()); // of what is there of a cluster
     const auto give = [&](std::uint32_t s, double area) {
         if (parents_[s] == Clusters::kNone) return;
-        mean[parents_[s]] += area * mean[s];
-        areas[parents_[s]] += area;
+        mean[slot(parents_[s])] += area * mean[slot(s)];
+        areas[slot(parents_[s])] += area;
     };
-    const std::uint32_t meshed = set_.parts.used.empty() ? patchCount() : set_.parts.firstPatch;
-    for (std::uint32_t p = 0; p < meshed; ++p) {
-        mean[p] = meanOfPatch(p, values);
+    for (std::uint32_t p = patches.first; p < patches.end(); ++p) {
+        mean[slot(p)] = meanOfPatch(p, values);
         give(p, double(areas_[p]));
     }
-    for (std::uint32_t c = count(); c-- > patchCount();) { // those within others come later
-        mean[c] /= areas[c];
-        give(c, areas[c]);
+    for (std::uint32_t c = clusters.end();
+         c-- > clusters.first;) { // those within others come later
+        mean[slot(c)] /= areas[slot(c)];
+        give(c, areas[slot(c)]);
     }
     const auto meanOver = [&](const Term& term) {
         const Range cells = cells_[term.sender];
         if (term.quarter == Clusters::kWhole || cells.count != kSenderCells ||
             set_.parts.of.contains(term.sender))
-            return mean[term.sender];
+            return mean[slot(term.sender)];
         return meanOf(values.subspan(cells.first + 4u * term.quarter, 4));
     };
-    for (std::size_t i = 0; i + 1 < firstTerm_.size(); ++i) {
-        glm::dvec3 quarter(0);
-        for (std::uint32_t t = firstTerm_[i]; t < firstTerm_[i + 1]; ++t)
-            quarter += double(terms_[t].weight) * meanOver(terms_[t]);
-        values[cells_[patchCount() + i / 4].first + kSenderCells + i % 4] = quarter;
-    }
+    for (std::uint32_t c = clusters.first; c < clusters.end(); ++c)
+        for (std::size_t q = 0; q < 4; ++q) {
+            const std::size_t i = 4 * std::size_t(c - patchCount()) + q;
+            glm::dvec3 quarter(0);
+            for (std::uint32_t t = firstTerm_[i]; t < firstTerm_[i + 1]; ++t)
+                quarter += double(terms_[t].weight) * meanOver(terms_[t]);
+            values[cells_[c].first + kSenderCells + q] = quarter;
+        }
 }
 
 void IndirectSenders::deviate(std::span<glm::dvec3> direct) const {

@@ -63,6 +63,8 @@ public:
     }
     /// Fills in the quarters of the clusters. \param values one a cell; those of patches are known
     void average(std::span<glm::dvec3> values) const;
+    /// The same of the clusters of an object.
+    void average(ObjectId object, std::span<glm::dvec3> values) const;
     /// Fills in the other cells of the clusters, see SenderLight.h, and their quarters.
     /// \param direct what is reflected of direct light, one a cell; of patches it is known
     void deviate(std::span<glm::dvec3> direct) const;

@@ -35,7 +35,7 @@ std::vector<std::uint32_t> IndirectLight::chooseSenders(double enough) const {
     constexpr std::size_t kTinyShare = 64;
     std::vector<double> priority(senders_.count()), most(senders_.count());
     for (std::uint32_t s = 0; s < priority.size(); ++s)
-        if (const double now = owed(s); now > enough) {
+        if (const double now = owed_[s].toAny; now > enough) {
             most[s] = now;
             priority[s] = now * std::sqrt(double(senders_.area(s)));
         }
@@ -250,10 +250,10 @@ void IndirectLight::finishShot() {
     }
     rowBytes_ += shot_->bytes;
     if (!shot_->dark) shots_ += shot_->senders.size();
+    noteBatch(*shot_);
     lists_ = std::move(shot_->receivers);
     for (std::vector<Link>& list : lists_) list.clear();
     shot_.reset();
-    residualsChanged();
 }
 
 } // namespace penumbra

@@ -5,6 +5,7 @@
 #include "io/image/PngWriter.h"
 #include "radiosity/process/ProcessLink.h"
 #include "radiosity/transport/LitLevel.h"
+#include "scenegraph/Objects.h"
 #include "viewer/app/EditsFile.h"
 #include "viewer/app/FileWatcher.h"
 #include "viewer/app/InteractiveRenderer.h"
@@ -403,7 +404,7 @@ void Viewer::advance(double seconds) {
     state_.light = light_->state();
     if (std::exchange(previewOf_, walk_->revision()) != walk_->revision()) {
         stale_ = kAfterglow;
-        state_.noLights = light_->dark();
+        state_.noLights = !hasLights(walk_->placed());
         if (state_.noLights || !light_->complete()) preview_ = unlitLighting(walk_->placed());
     }
     if (watcher_.changed(state_.time)) reload();
