@@ -5,7 +5,7 @@
 #include "io/usd/scene/UsdScene.h"
 #include "io/usd/stage/UsdFlatten.h"
 #include "io/usd/text/UsdLayerWriter.h"
-#include "radiosity/mesh/LightShapes.h"
+#include "radiosity/mesh/Emitters.h"
 #include "radiosity/query/LightAccount.h"
 #include "radiosity/query/NearestDrawn.h"
 #include "scenegraph/Camera.h"

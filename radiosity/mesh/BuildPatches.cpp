@@ -3,7 +3,7 @@
 #include "base/Error.h"
 #include "base/Parallel.h"
 #include "radiosity/mesh/Contact.h"
-#include "radiosity/mesh/LightShapes.h"
+#include "radiosity/mesh/Emitters.h"
 #include "radiosity/mesh/PatchAssembly.h"
 #include "radiosity/rays/Margins.h"
 #include "radiosity/surface/SurfaceMesh.h"
@@ -13,10 +13,8 @@
 #include "scenegraph/Mesh.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <span>
 
 namespace penumbra {
@@ -161,137 +159,21 @@ float coarseness(const Surface& surface, float patchSize) {
     return std::max(1.0f, float(std::sqrt(surface.area / kMostPatches)) / patchSize);
 }
 
-/// Collects emissive polygons as emitters. Small ones that lie close together, like the faces of a
-/// bulb, are one; large ones are cut, so that each is seen mildly by most of what it lights.
-class EmitterCollector {
-public:
-    EmitterCollector(const Surface& surface, double emissiveArea, BuiltPatches& built)
-        : surface_(surface), small_(2 * built.patches.patchSize),
-          large_(std::max(4 * built.patches.patchSize, float(std::sqrt(emissiveArea / 32)))),
-          sources_(built.emitterSources), out_(built.patches) {}
-
-    /// \param uvs of the outline's corners; empty: no textures
-    void add(const Material& material, const std::vector<glm::vec3>& outline,
-             std::span<const glm::vec2> uvs) {
-        if (outline.size() != 4) return addPiece(material, outline, {uvs.begin(), uvs.end()});
-        const auto parts = [&](float a, float b) {
-            return std::max(1, int(std::ceil(std::max(a, b) / large_ - 1e-3f)));
-        };
-        const auto& q = outline;
-        const int nu = parts(glm::distance(q[0], q[1]), glm::distance(q[3], q[2]));
-        const int nv = parts(glm::distance(q[0], q[3]), glm::distance(q[1], q[2]));
-        const auto at = [&](int i, int j) {
-            const float s = float(i) / float(nu), t = float(j) / float(nv);
-            return glm::mix(glm::mix(q[0], q[1], s), glm::mix(q[3], q[2], s), t);
-        };
-        const auto uvAt = [&](int i, int j) {
-            const float s = float(i) / float(nu), t = float(j) / float(nv);
-            return glm::mix(glm::mix(uvs[0], uvs[1], s), glm::mix(uvs[3], uvs[2], s), t);
-        };
-        for (int j = 0; j < nv; ++j)
-            for (int i = 0; i < nu; ++i) {
-                std::vector<glm::vec2> part;
-                if (!uvs.empty())
-                    part = {uvAt(i, j), uvAt(i + 1, j), uvAt(i + 1, j + 1), uvAt(i, j + 1)};
-                addPiece(material, {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)}, part);
-            }
-    }
-
-private:
-    /// Mean of the texture of emission over a convex piece.
-    static Rgb meanOf(const Material& material, const std::vector<glm::vec3>& outline,
-                      std::span<const glm::vec2> uvs) {
-        const auto& texture = material.textures().emission;
-        if (!texture || uvs.empty()) return Rgb(1);
-        Rgb sum;
-        float area = 0;
-        for (std::size_t i = 2; i < outline.size(); ++i) {
-            const std::array<glm::vec3, 4> at{outline[0], outline[i - 1], outline[i], outline[i]};
-            const float part = glm::length(glm::cross(at[1] - at[0], at[2] - at[0]));
-            sum += part * textureMean(*texture, at, {uvs[0], uvs[i - 1], uvs[i], uvs[i]});
-            area += part;
-        }
-        return area > 0 ? sum * (1 / area) : Rgb();
-    }
-
-    void addPiece(const Material& material, std::vector<glm::vec3> outline,
-                  const std::vector<glm::vec2>& uvs) {
-        constexpr std::size_t kMostPolygons = 64;
-        const double area = polygonArea(outline);
-        if (!(area > 0)) return;
-        const Rgb mean = meanOf(material, outline, uvs);
-        if (!(maxChannel(mean) > 0)) return; // a dark part of a texture never emits
-        Group& group = groups_[&material];
-        Bounds grown = group.bounds;
-        for (glm::vec3 point : outline) grown.add(point);
-        const bool fits =
-            group.count > 0 && group.count < kMostPolygons && grown.diagonal() <= small_;
-        if (!fits) {
-            group = {out_.emitters.size(), 0, {}};
-            for (glm::vec3 point : outline) group.bounds.add(point);
-            Emitter emitter;
-            emitter.object = surface_.object;
-            emitter.path = surface_.path;
-            out_.emitters.push_back(std::move(emitter));
-            sources_.push_back({&material, nullptr});
-        } else {
-            group.bounds = grown;
-        }
-        ++group.count;
-        Emitter& emitter = out_.emitters[group.emitter];
-        emitter.area += area;
-        emitter.texture += (mean - emitter.texture) * float(area / emitter.area);
-        emitter.exitance = lambertianExitance(material.emission()) * emitter.texture;
-        emitter.polygons.push_back(std::move(outline));
-    }
-
-    struct Group {
-        std::size_t emitter = 0, count = 0;
-        Bounds bounds;
-    };
-    const Surface& surface_;
-    float small_, large_; ///< [m]
-    std::vector<LightSource>& sources_;
-    PatchSet& out_;
-    std::map<const Material*, Group> groups_;
-};
-
 void addEmitters(const Surface& surface, const Tessellation& tessellation, BuiltPatches& built) {
-    if (surface.light) {
-        Emitter emitter = lightEmitter(*surface.light, surface.toShape);
-        if (!(emitter.area > 0) || surface.mesh.faces.empty()) return;
+    const auto add = [&](Emitter emitter, LightSource source) {
         emitter.object = surface.object;
         emitter.path = surface.path;
         built.patches.emitters.push_back(std::move(emitter));
-        built.emitterSources.push_back({nullptr, surface.light});
+        built.emitterSources.push_back(source);
+    };
+    if (surface.light) {
+        Emitter emitter = lightEmitter(*surface.light, surface.toShape);
+        if (emitter.area > 0 && !surface.mesh.faces.empty())
+            add(std::move(emitter), {nullptr, surface.light});
         return;
     }
-    const SurfaceMesh& mesh = surface.mesh;
-    double area = 0;
-    for (const SurfaceFace& face : mesh.faces)
-        if (mesh.materialOf(face).emissive())
-            area += 0.5 * glm::length(newellNormal(mesh.points, mesh.cornersOf(face)));
-    EmitterCollector collector(surface, area, built);
-    if (!mesh.subdivided()) {
-        for (const SurfaceFace& face : mesh.faces) {
-            if (!mesh.materialOf(face).emissive()) continue;
-            std::vector<glm::vec3> outline;
-            for (std::uint32_t corner : mesh.cornersOf(face))
-                outline.push_back(mesh.points[corner]);
-            collector.add(mesh.materialOf(face), outline, mesh.uvsOf(face));
-        }
-        return;
-    }
-    for (const Cell& cell : tessellation.cells) {
-        const Material& material = mesh.materialOf(mesh.faces[cell.face]);
-        if (!material.emissive()) continue;
-        const auto first = tessellation.outline.begin() + cell.firstCorner;
-        collector.add(
-            material, {first, first + cell.cornerCount},
-            tessellation.outlineUvs.empty()
-                ? std::span<const glm::vec2>()
-                : std::span(tessellation.outlineUvs).subspan(cell.firstCorner, cell.cornerCount));
-    }
+    for (FaceEmitter& faces : faceEmitters(surface.mesh, tessellation, built.patches.patchSize))
+        add(std::move(faces.emitter), {faces.material, nullptr});
 }
 
 /// Notes the faces that may hide a room from the next, in the frame of their object.

@@ -4,7 +4,7 @@
 #include "radiosity/clusters/DenseReceivers.h"
 #include "radiosity/clusters/FaceGroups.h"
 #include "radiosity/mesh/Contact.h"
-#include "radiosity/mesh/LightShapes.h"
+#include "radiosity/mesh/Emitters.h"
 #include "radiosity/mesh/NodeBlends.h"
 #include "radiosity/mesh/PatchGeometry.h"
 

@@ -1,6 +1,6 @@
 #include "radiosity/query/LightProbe.h"
 
-#include "radiosity/mesh/LightShapes.h"
+#include "radiosity/mesh/Emitters.h"
 #include "radiosity/rows/EmitterSender.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Mesh.h"

@@ -1,6 +1,6 @@
 #include "radiosity/query/SceneRays.h"
 
-#include "radiosity/mesh/LightShapes.h"
+#include "radiosity/mesh/Emitters.h"
 #include "radiosity/surface/FaceTriangles.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Mesh.h"

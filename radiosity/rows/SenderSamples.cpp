@@ -1,7 +1,7 @@
 #include "radiosity/rows/SenderSamples.h"
 
 #include "base/Frame.h"
-#include "radiosity/mesh/LightShapes.h"
+#include "radiosity/mesh/Emitters.h"
 #include "radiosity/rays/Margins.h"
 #include "radiosity/rows/ClusterParts.h"
 

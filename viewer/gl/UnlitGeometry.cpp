@@ -1,6 +1,6 @@
 #include "viewer/gl/UnlitGeometry.h"
 
-#include "radiosity/mesh/LightShapes.h"
+#include "radiosity/mesh/Emitters.h"
 #include "radiosity/surface/SurfaceMesh.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Mesh.h"

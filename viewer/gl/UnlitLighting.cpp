@@ -1,6 +1,6 @@
 #include "viewer/gl/UnlitLighting.h"
 
-#include "radiosity/mesh/LightShapes.h"
+#include "radiosity/mesh/Emitters.h"
 #include "radiosity/query/FallbackLight.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Mesh.h"

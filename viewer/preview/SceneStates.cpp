@@ -1,6 +1,6 @@
 #include "viewer/preview/SceneStates.h"
 
-#include "radiosity/mesh/LightShapes.h"
+#include "radiosity/mesh/Emitters.h"
 #include "radiosity/process/RadiosityNode.h"
 #include "scenegraph/Light.h"
 #include "scenegraph/Mesh.h"

@@ -2,7 +2,7 @@
 
 #include "base/Clock.h"
 #include "base/Error.h"
-#include "radiosity/mesh/LightShapes.h"
+#include "radiosity/mesh/Emitters.h"
 #include "radiosity/process/store/LitPatches.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // Where things stand on each other: neither darkness nor light may creep out from under them.
+#include "radiosity/mesh/OpenElements.h"
+#include "radiosity/mesh/PosedPatches.h"
 #include "radiosity/query/PointGather.h"
 #include "tests/support/Scenes.h"
 
@@ -35,6 +37,35 @@ bool inside(glm::vec3 p, glm::vec2 low, glm::vec2 high) {
 
 NodePtr floorOf(float size) {
     return object("floor", floorData(-size, size, -size, size, 0, paint(Rgb(0.5f))));
+}
+
+/// A room with a box on its floor, one that is half sunk into the floor's slab and one that is
+/// inside of the slab.
+TEST(FindOpen, CallsOpenWhatExaminingCallsFreeAndNothingElse) {
+    const Scene scene =
+        sceneOf({object("slab", boxData({-1, -1, -0.4f}, {1, 1, 0}, false)),
+                 object("on", boxData({-0.7f, -0.7f, 0}, {-0.3f, -0.2f, 0.3f}, false)),
+                 object("sunk", boxData({0.2f, 0.1f, -0.2f}, {0.6f, 0.5f, 0.2f}, false)),
+                 object("in", boxData({0, -0.5f, -0.3f}, {0.2f, -0.2f, -0.1f}, false))});
+    const BuiltPatches built = meshed(scene, {.patchSize = 0.4f, .elementSize = 0.05f});
+    const PatchSet& set = built.patches;
+    const RayScene rays = raysThrough(set);
+    const ContactResolver resolver(rays, set.rayMeshes, set.skin, set.vertices);
+    const Fans fans = fansOf(set.uncoveredElements, set.vertices.size());
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t e = 0; e < set.uncoveredElements.size(); ++e) all.push_back(e);
+    const auto open = findOpen(rays, set.rayMeshes, resolver, set.uncoveredElements, fans, all);
+    std::size_t free = 0, found = 0;
+    for (const std::uint32_t e : all) {
+        const ContactResolver::Result result = resolver.examine(set.uncoveredElements[e]);
+        const bool isFree = result == ContactResolver::Result{true, {}, {}};
+        if (open[e] != 0) EXPECT_TRUE(isFree) << e;
+        free += isFree ? 1 : 0;
+        found += open[e];
+        if (set.objects[set.elementObject[e].value].path == "/in") EXPECT_EQ(open[e], 0) << e;
+    }
+    EXPECT_LT(free, all.size() - 100);
+    EXPECT_GT(found, free * 9 / 10); // nearly all: others have something near
 }
 
 class BoxOnFloor : public testing::Test {

@@ -1,6 +1,6 @@
 // Emitters as one receiver sees them.
 #include "radiosity/rows/EmitterSender.h"
-#include "radiosity/mesh/LightShapes.h"
+#include "radiosity/mesh/Emitters.h"
 #include "radiosity/rows/FormFactor.h"
 #include "tests/support/Scenes.h"
 

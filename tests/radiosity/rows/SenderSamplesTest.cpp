@@ -1,6 +1,6 @@
 // Where senders are sampled: stratified, on the sender, each point for the same share of it.
 #include "radiosity/rows/SenderSamples.h"
-#include "radiosity/mesh/LightShapes.h"
+#include "radiosity/mesh/Emitters.h"
 #include "tests/support/Scenes.h"
 
 #include <gtest/gtest.h>

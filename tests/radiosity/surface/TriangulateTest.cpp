@@ -1,6 +1,6 @@
 // Polygons in triangles: the same area, nothing twice.
 #include "radiosity/surface/Triangulate.h"
-#include "radiosity/mesh/LightShapes.h"
+#include "radiosity/mesh/Emitters.h"
 #include "radiosity/surface/SurfaceMesh.h"
 #include "tests/scenegraph/RandomParts.h"
 

@@ -54,6 +54,18 @@ TEST_F(Invalidate, OfASmallBoxChangesNoBitAndCostsLessThanFromScratch) {
     EXPECT_LT(raysOf(cost.indirect), raysOf(scratch.indirect));
 }
 
+/// What is known of what is owed after the shots, of which each concerned a part of the room alone,
+/// is what is found when all of it is worked out again.
+TEST_F(Invalidate, OfNothingAtAllLeavesTheCertificateAsItIs) {
+    const glm::vec3 far(1000);
+    const SolveStatistics cost = invalidated({far, far + 1.0f});
+    EXPECT_EQ(cost.shots, 0u);
+    EXPECT_GT(scratch.certificate, 0);
+    EXPECT_EQ(cost.certificate, scratch.certificate);
+    EXPECT_EQ(cost.residual, scratch.residual);
+    EXPECT_EQ(cost.meanRadiosity, scratch.meanRadiosity);
+}
+
 TEST_F(Invalidate, OfEverythingTracesAllDirectLightAgainAndChangesNoBit) {
     const Lighting before = lit.solver().lighting();
     const glm::vec3 far(std::numeric_limits<float>::infinity());

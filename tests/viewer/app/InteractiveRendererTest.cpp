@@ -7,6 +7,7 @@
 #include "radiosity/query/LitSurface.h"
 #include "scenegraph/Mesh.h"
 #include "tests/support/Scenes.h"
+#include "tests/support/Textures.h"
 #include "viewer/app/InteractiveRenderer.h"
 
 #include <epoxy/gl.h>
@@ -60,6 +61,35 @@ TEST_F(InteractiveRendererTest, DrawsTheLuminancesThatTheFrameRendererDraws) {
     EXPECT_EQ(interactive.statistics().uploads, 1u);
     draw(interactive, view);
     EXPECT_EQ(interactive.statistics().uploads, 0u) << "uploaded once";
+}
+
+/// Near a texture of which a picture uploads a part only.
+TEST_F(InteractiveRendererTest, ShowsTexturesSharperPictureByPicture) {
+    LitMeshData data =
+        litSquare({Rgb(0.5f), {}, {std::make_shared<Texture>(Texture{redAndWhite(256, 4)}), {}}});
+    data.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    root.add(litNode(std::move(data)));
+    const View view = viewFrom(0.02, kSize, kSize);
+    InteractiveRenderer sharp(kExact);
+    draw(sharp, view);
+    EXPECT_FALSE(sharp.statistics().blurred);
+    const std::vector<Rgb> wanted = sharp.readLuminances();
+    InteractiveOptions options = kExact;
+    options.gradual = true;
+    InteractiveRenderer gradual(options), finished(options);
+    draw(gradual, view);
+    EXPECT_TRUE(gradual.statistics().blurred);
+    EXPECT_NE(gradual.readLuminances(), wanted);
+    int pictures = 1;
+    for (; gradual.statistics().blurred && pictures < 100; ++pictures) draw(gradual, view);
+    EXPECT_LT(pictures, 20);
+    draw(gradual, view);
+    EXPECT_EQ(gradual.readLuminances(), wanted);
+    draw(finished, view);
+    finished.finishTextures();
+    draw(finished, view);
+    EXPECT_FALSE(finished.statistics().blurred);
+    EXPECT_EQ(finished.readLuminances(), wanted);
 }
 
 TEST_F(InteractiveRendererTest, WhatIsNotLitYetIsSeenByHeadlightAndLights) {

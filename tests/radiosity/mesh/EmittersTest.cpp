@@ -1,5 +1,5 @@
 // Lights as senders: area, flux, direction.
-#include "radiosity/mesh/LightShapes.h"
+#include "radiosity/mesh/Emitters.h"
 #include "radiosity/rows/FormFactor.h"
 #include "tests/support/Scenes.h"
 
