@@ -28,7 +28,7 @@ void addRadiosityCommand(CLI::App& app) {
         ->required();
     radiosity
         ->add_option("--threads", command->limits.threads,
-                     "Threads to use (default: one a core, but one is left to the viewer)")
+                     "Threads to use (default: one a core)")
         ->check(CLI::Range(0u, 1024u));
     addMemoryOption(*radiosity, command->limits.memory);
     radiosity

@@ -64,7 +64,7 @@ void runLightingProcess(const std::string& name, const WorkerLimits& limits) {
     const Watch watch(LightingWorker::controlOf(*control));
     if (limits.niceness > 0 && nice(limits.niceness) == -1) errno = 0; // then it is not nice
     const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-    const ThreadLimit limit(limits.threads > 0 ? limits.threads : std::max(1u, cores - 1));
+    const ThreadLimit limit(limits.threads > 0 ? limits.threads : cores);
     LightingWorker(*regions, control, limits.memory).run();
 }
 

@@ -18,7 +18,9 @@ namespace penumbra {
 
 namespace {
 
-constexpr double kTurn = 0.008;            ///< [s]
+constexpr double kTurn = 0.008;            ///< while there is news of the viewer all the time [s]
+constexpr double kLongTurn = 0.05;         ///< small pieces have threads wait for each other [s]
+constexpr double kQuiet = 0.02;            ///< a turn, as a share of the time without news
 constexpr double kPromptTurn = 0.001;      ///< until something of an edit is published [s]
 constexpr double kBetweenScans = 0.1;      ///< at the indirect light while it is relaxed [s]
 constexpr double kBetweenWork = 0.03;      ///< that the dirty set is published [s]
@@ -58,7 +60,8 @@ LightingWorker::~LightingWorker() = default;
 
 void LightingWorker::run() {
     for (;;) {
-        const Turn last = turn(kTurn);
+        const double quiet = steadySeconds() - newsAt_;
+        const Turn last = turn(std::clamp(kQuiet * quiet, kTurn, kLongTurn));
         if (last == Turn::stopped) return;
         if (last == Turn::idle) wait(0.05);
     }
@@ -95,6 +98,7 @@ void LightingWorker::receive() {
         const auto serial = reader.get<std::uint64_t>();
         take(kind, reader);
         if (!reader.ok()) senseless("a message");
+        newsAt_ = steadySeconds();
         status_.taken = serial;
     }
 }
@@ -306,7 +310,7 @@ bool LightingWorker::work(double budget) {
     bool worked = false;
     if (workLeft_) {
         worked = true;
-        solve(shown_ ? budget : std::min(budget, kPromptTurn));
+        solve(shown_ || !directDone_ ? budget : std::min(budget, kPromptTurn));
     }
     if (!marked_ || worked) marked_ = publisher_->findStale();
     if (directDone_ && mesh_.empty()) {
@@ -342,14 +346,14 @@ void LightingWorker::solve(double budget) {
         if (std::strcmp(phase, "direct light") != 0) directIsDone();
     };
     Solver& solver = lit_->solver();
-    viewer_.update(solver, steadySeconds());
+    if (directDone_) viewer_.update(solver, steadySeconds()); // the first light comes all at once
     const bool done = solver.stepUntil(aim_, budget, progress);
     warnOfMemory();
     if (done) workLeft_ = std::exchange(aim_, SolutionState::exact) != SolutionState::exact;
     pace_.worked(steadySeconds(), solver.direct().dirtyKnown());
     if (done) directIsDone();
     status_.phase = WorkerStatus::solving;
-    if (directDone_) solver.sumUp(kMostSums); // the first light comes all at once
+    if (directDone_) solver.sumUp(kMostSums);
     if (done || steadySeconds() >= nextScan_) {
         publisher_->solverWorked(done);
         nextScan_ = steadySeconds() + kBetweenScans;

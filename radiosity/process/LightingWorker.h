@@ -74,6 +74,7 @@ private:
     RingReceiver messages_;
     std::vector<std::byte> message_;
     std::uint32_t heard_ = 0; ///< the doorbell's count before the messages were read
+    double newsAt_ = 0;       ///< when a message was taken last, steady clock [s]
 
     std::unique_ptr<SceneReplica> graph_;
     std::optional<LightingTask> task_; ///< its scene is in graph_

@@ -210,10 +210,13 @@ void InteractiveRenderer::drawScene(const DrawList& list, const View& view,
                        impl.textures.refine(kTexelsAPicture)};
 }
 
+bool InteractiveRenderer::sharpenTextures() {
+    return impl_->statistics.blurred = impl_->textures.refine(kTexelsAPicture);
+}
+
 void InteractiveRenderer::finishTextures() {
-    while (impl_->textures.refine(kTexelsAPicture)) {
+    while (sharpenTextures()) {
     }
-    impl_->statistics.blurred = false;
 }
 
 void InteractiveRenderer::setOverlay(OverlayPicture overlay) {

@@ -55,6 +55,9 @@ public:
     void drawScene(const DrawList& list, const View& view, const UnlitLighting& unlit, int width,
                    int height, MapPreview* maps = nullptr);
 
+    /// Makes textures that were drawn sharper, as drawScene() does too, for some milliseconds.
+    /// \return whether there is more to be done
+    bool sharpenTextures();
     /// Makes all textures that were drawn as sharp as they get.
     void finishTextures();
 

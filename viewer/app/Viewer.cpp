@@ -1,5 +1,6 @@
 #include "viewer/app/Viewer.h"
 
+#include "base/Clock.h"
 #include "base/Error.h"
 #include "io/image/Exposure.h"
 #include "io/image/PngWriter.h"
@@ -11,6 +12,7 @@
 #include "viewer/app/InteractiveRenderer.h"
 #include "viewer/app/OverlayChoice.h"
 #include "viewer/app/PictureCommands.h"
+#include "viewer/app/PicturePace.h"
 #include "viewer/app/PictureSaver.h"
 #include "viewer/app/Replay.h"
 #include "viewer/app/SessionFile.h"
@@ -38,17 +40,8 @@ namespace {
 
 constexpr double kLongestStep = 0.1;   // after a stall things don't jump further than this [s]
 constexpr double kIdlePoll = 1.0 / 60; // how long a picture that does not change is kept [s]
-constexpr int kAfterglow = 3;          // pictures that follow the last event: panels need some
 
 using Clock = std::chrono::steady_clock;
-
-/// Pictures by the processor: what costs little on a graphics card counts there.
-bool drawnInSoftware(const Window& window) {
-    const std::string name = window.renderer();
-    return name.find("llvmpipe") != std::string::npos ||
-           name.find("softpipe") != std::string::npos ||
-           name.find("SwiftShader") != std::string::npos;
-}
 
 class Viewer {
 public:
@@ -77,11 +70,12 @@ private:
     void openFile(const std::string& file);
     void takeOver();
     void advance(double seconds);
-    void draw(double seconds);
+    void draw();
     void drawPanelsOver();
     void save(const View& view);
     void showTitle();
     bool changing() const;
+    bool due() const;
 
     const ViewerOptions& options_;
     std::string scene_, name_; ///< path of the scene's file, and its name
@@ -91,6 +85,7 @@ private:
     LightRequest fromFile_; ///< settings of the light, where nobody else asks
     Window window_;
     const bool software_;
+    PicturePace pace_;
     InteractiveRenderer renderer_;
     Renderer stills_;
     PanelState state_;
@@ -106,8 +101,8 @@ private:
     std::string title_;
     double highestPriority_ = 0; ///< in the dirty set, since it is shown
     bool shown_ = false; ///< the scene, before it is lit: its light costs some time to ask for
+    double drawn_ = 0;   ///< when the last picture was begun, steady clock [s]
     bool quit_ = false;
-    int stale_ = kAfterglow; ///< pictures to be drawn whether anything changes or not
 };
 
 Viewer::Viewer(const ViewerOptions& options)
@@ -118,7 +113,7 @@ Viewer::Viewer(const ViewerOptions& options)
                .height = settings_.height,
                .title = name_ + " (loading) - Penumbra",
                .vsync = options.vsync}),
-      software_(drawnInSoftware(window_)),
+      software_(window_.drawnInSoftware()), pace_(software_),
       renderer_({.samples = options.samples > 0 ? options.samples : (software_ ? 1 : 4),
                  .compressed = !software_,
                  .gradual = true}) {
@@ -229,7 +224,7 @@ void Viewer::openScene(ReadyScene ready) {
         if (fromFile_.trigger) state_.trigger = *fromFile_.trigger;
     }
     lightScene();
-    stale_ = kAfterglow;
+    pace_.changed();
 }
 
 void Viewer::lightScene() {
@@ -261,7 +256,7 @@ void Viewer::leaveFor(const Departure& next) {
         state_.notify("Another scene is still being read");
         return;
     }
-    stale_ = kAfterglow;
+    pace_.changed();
     if (state_.leave.ask(next, walk_ && !session_ && walk_->history().edited())) goTo(next);
 }
 
@@ -343,7 +338,7 @@ void Viewer::doAsAsked() {
 
 void Viewer::takeEvents() {
     for (const InputEvent& event : window_.takeEvents()) {
-        stale_ = kAfterglow;
+        pace_.touched(steadySeconds());
         const auto* const stroke = std::get_if<KeyEvent>(&event);
         const auto* const button = std::get_if<ButtonEvent>(&event);
         const bool lets = (stroke && !stroke->down) || (button && !button->down);
@@ -363,9 +358,13 @@ void Viewer::takeEvents() {
 }
 
 bool Viewer::changing() const {
-    return stale_ > 0 || !state_.exposure.settled() || (walk_ && walk_->moving()) ||
-           (replay_ && replay_->playing()) || gui_->busy() ||
-           (light_ && overlayChanging(state_.overlay, *walk_, *light_));
+    return (walk_ && walk_->moving()) || (replay_ && replay_->playing()) || gui_->busy() ||
+           (light_ && (light_->fading() || overlayChanging(state_.overlay, *walk_, *light_)));
+}
+
+/// Whether a picture is to be drawn now.
+bool Viewer::due() const {
+    return changing() || pace_.due(steadySeconds());
 }
 
 /// What the window shows, but for the panels, as PNG; with all layers as EXR, once there is light.
@@ -399,11 +398,14 @@ void Viewer::advance(double seconds) {
     if (session_)
         if (const auto why = session_->take(*walk_)) state_.notify(*why + "; tried again", 10);
     const glm::ivec2 size = glm::max(window_.pixels(), glm::ivec2(1));
-    if (shown_ && light_->update(*walk_, walk_->rig().view(size.x, size.y))) stale_ = kAfterglow;
+    if (shown_ && light_->update(*walk_, walk_->rig().view(size.x, size.y))) pace_.news();
     for (std::string& message : light_->takeMessages()) state_.notify(std::move(message), 15);
     state_.light = light_->state();
     if (std::exchange(previewOf_, walk_->revision()) != walk_->revision()) {
-        stale_ = kAfterglow;
+        if (shown_)
+            pace_.touched(steadySeconds()); // or undone, or played
+        else
+            pace_.changed();
         state_.noLights = !hasLights(walk_->placed());
         if (state_.noLights || !light_->complete()) preview_ = unlitLighting(walk_->placed());
     }
@@ -434,7 +436,8 @@ void Viewer::drawPanelsOver() {
     gui_->end();
 }
 
-void Viewer::draw(double seconds) {
+void Viewer::draw() {
+    const double began = steadySeconds();
     const glm::ivec2 size = window_.pixels();
     const View view = walk_ ? walk_->rig().view(size.x, size.y) : View{};
     const Frustum frustum(view.worldToClip());
@@ -455,13 +458,15 @@ void Viewer::draw(double seconds) {
     }
     if (const auto luminances = renderer_.luminances(!state_.exposure.measured() && walk_))
         state_.exposure.measure(*luminances);
-    state_.exposure.advance(seconds, light_ && light_->fading());
+    state_.exposure.advance(began - std::exchange(drawn_, began), light_ && light_->fading());
     state_.drawn = renderer_.statistics();
     if (saving) save(view);
     renderer_.show(0, state_.exposure.middleGrey(), state_.tone);
     drawPanelsOver();
     window_.show();
-    stale_ = std::max(renderer_.statistics().blurred ? 1 : 0, stale_ - 1);
+    if (software_) window_.finish(); // or it would not be known how long it takes
+    pace_.drawn(steadySeconds(), steadySeconds() - began);
+    if (renderer_.statistics().blurred || !state_.exposure.settled()) pace_.news(1);
     shown_ = shown_ || walk_;
 }
 
@@ -469,7 +474,8 @@ void Viewer::run() {
     Clock::time_point last = Clock::now();
     double sinceCertificate = 0;
     while (!quit_ && !signals_.endWanted()) {
-        window_.poll(changing() ? 0 : kIdlePoll);
+        const bool blurred = renderer_.statistics().blurred;
+        window_.poll(due() || blurred ? 0 : kIdlePoll);
         takeEvents();
         takeScene();
         doAsAsked();
@@ -485,9 +491,10 @@ void Viewer::run() {
             sinceCertificate = 0;
         }
         showTitle();
-        if (!window_.visible() || !changing()) continue;
+        if (blurred && !due()) renderer_.sharpenTextures();
+        if (!window_.visible() || !due()) continue;
         state_.frameMilliseconds.add(float(1000 * passed));
-        draw(std::min(kLongestStep, passed));
+        draw();
     }
     if (session_) session_->finish();
 }

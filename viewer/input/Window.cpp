@@ -222,6 +222,10 @@ void Window::show() {
                     kHint);
 }
 
+void Window::finish() {
+    glFinish();
+}
+
 bool Window::takeClosing() {
     const bool closing = glfwWindowShouldClose(impl_->window);
     glfwSetWindowShouldClose(impl_->window, GLFW_FALSE);
@@ -291,6 +295,13 @@ std::string Window::renderer() const {
     const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     const auto* version = reinterpret_cast<const char*>(glGetString(GL_VERSION));
     return std::string(name ? name : "?") + ", OpenGL " + (version ? version : "?");
+}
+
+bool Window::drawnInSoftware() const {
+    const std::string name = renderer();
+    return name.find("llvmpipe") != std::string::npos ||
+           name.find("softpipe") != std::string::npos ||
+           name.find("SwiftShader") != std::string::npos;
 }
 
 GLFWwindow* Window::handle() const {

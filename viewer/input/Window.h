@@ -37,6 +37,8 @@ public:
 
     /// Shows what was drawn. \throws Error if the graphics card was reset and the context is gone
     void show();
+    /// Waits until it has been drawn.
+    void finish();
 
     /// Whether somebody has asked, since the last call, that the window be closed.
     bool takeClosing();
@@ -52,7 +54,9 @@ public:
     float contentScale() const;   ///< 1 at 96 dpi
     bool visible() const;         ///< neither minimised nor of no size
     std::string renderer() const; ///< OpenGL's, for people
-    GLFWwindow* handle() const;   ///< for ImGui
+    /// Pictures by the processor: what costs little on a graphics card counts there.
+    bool drawnInSoftware() const;
+    GLFWwindow* handle() const; ///< for ImGui
 
 private:
     struct Impl;
