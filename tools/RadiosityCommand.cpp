@@ -27,8 +27,7 @@ void addRadiosityCommand(CLI::App& app) {
     radiosity->add_option("NAME", command->name, "Of the memory that the viewer shares")
         ->required();
     radiosity
-        ->add_option("--threads", command->limits.threads,
-                     "Threads to use (default: one a core)")
+        ->add_option("--threads", command->limits.threads, "Threads to use (default: one a core)")
         ->check(CLI::Range(0u, 1024u));
     addMemoryOption(*radiosity, command->limits.memory);
     radiosity
