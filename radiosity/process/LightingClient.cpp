@@ -291,6 +291,7 @@ RadiosityState LightingClient::state() const {
     state.dirtyBlocks = status_.dirtyBlocks;
     state.dirtyMarked = control_ && queue_.knowsEdits(status_.marked);
     state.solution = solution();
+    state.rough = status_.rough != 0;
     state.stopped = control_ && unlitSince_ == 0 && status_.stopped != 0;
     state.age = unlitSince_ == 0 ? 0 : steadySeconds() - unlitSince_;
     state.restarts = restarts_;

@@ -260,6 +260,7 @@ void LightingWorker::build() {
     if (!lights_.empty()) publisher_->setPreviewLights(previewSet_, lights_);
     directDone_ = false;
     requestStore();
+    publisher_->showRough(roughLight(lit_->patches(), lit_->rays()));
 }
 
 void LightingWorker::requestStore() {
@@ -313,7 +314,7 @@ bool LightingWorker::work(double budget) {
         solve(shown_ || !directDone_ ? budget : std::min(budget, kPromptTurn));
     }
     if (!marked_ || worked) marked_ = publisher_->findStale();
-    if (directDone_ && mesh_.empty()) {
+    if (publisher_->hasLight() && mesh_.empty()) {
         const bool published = publisher_->publish(kMostBlocks);
         worked |= published;
         shown_ |= published;
@@ -392,6 +393,7 @@ void LightingWorker::report() {
             status_.litIlluminance = lit_->solver().litIlluminance();
         status_.certificate = certificate;
     }
+    status_.rough = publisher_ && publisher_->isRough() ? 1 : 0;
     status_.dirtyBlocks = publisher_ ? std::uint32_t(publisher_->left()) : 0;
     control_.status.write(status_);
 }

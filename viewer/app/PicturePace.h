@@ -24,6 +24,15 @@ public:
     /// Something that nobody waits for has come. \param pictures that it changes
     void news(int pictures = kAfterglow) { news_ = std::max(news_, pictures); }
 
+    /// Something fades. Of what was done this is shown smoothly; of what comes by itself it is
+    /// news.
+    void fades(double now) {
+        if (now < touched_ + kFade)
+            stale_ = std::max(stale_, 1);
+        else
+            news(1);
+    }
+
     bool due(double now) const { return stale_ > 0 || (news_ > 0 && !rests(now)); }
 
     /// A picture was drawn, in so long.
@@ -36,13 +45,14 @@ public:
 private:
     static constexpr int kAfterglow = 3; ///< pictures that follow the last event: panels need some
     static constexpr double kAttention = 2; ///< after the last event people wait for something
+    static constexpr double kFade = 10;     ///< what fades by then comes of it
     static constexpr double kRest = 5;      ///< as many times what a picture takes
 
     bool rests(double now) const { return now > touched_ + kAttention && now < rested_; }
 
     bool software_;
     int stale_ = kAfterglow, news_ = 0; ///< pictures to be drawn
-    double touched_ = 0, rested_ = 0;
+    double touched_ = -kFade, rested_ = 0;
 };
 
 } // namespace penumbra

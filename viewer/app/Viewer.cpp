@@ -359,7 +359,7 @@ void Viewer::takeEvents() {
 
 bool Viewer::changing() const {
     return (walk_ && walk_->moving()) || (replay_ && replay_->playing()) || gui_->busy() ||
-           (light_ && (light_->fading() || overlayChanging(state_.overlay, *walk_, *light_)));
+           (light_ && overlayChanging(state_.overlay, *walk_, *light_));
 }
 
 /// Whether a picture is to be drawn now.
@@ -399,6 +399,7 @@ void Viewer::advance(double seconds) {
         if (const auto why = session_->take(*walk_)) state_.notify(*why + "; tried again", 10);
     const glm::ivec2 size = glm::max(window_.pixels(), glm::ivec2(1));
     if (shown_ && light_->update(*walk_, walk_->rig().view(size.x, size.y))) pace_.news();
+    if (light_->fading()) pace_.fades(steadySeconds());
     for (std::string& message : light_->takeMessages()) state_.notify(std::move(message), 15);
     state_.light = light_->state();
     if (std::exchange(previewOf_, walk_->revision()) != walk_->revision()) {

@@ -79,7 +79,8 @@ void WalkLight::updatePreview(const Walkthrough& walk, const View& view) {
         preview_->rest(blend_.expecting(*node_, objects[selection->object.value].path), shown,
                        &view);
     } else {
-        preview_->rest(complete() ? blend_.expecting(*node_, "") : PreviewLighting(), shown, &view);
+        const bool known = complete() && !node_->state().rough;
+        preview_->rest(known ? blend_.expecting(*node_, "") : PreviewLighting(), shown, &view);
     }
 }
 

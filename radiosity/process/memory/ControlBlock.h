@@ -20,7 +20,7 @@ namespace penumbra {
 // Whoever reads it checks it: the writer may have gone mad.
 
 /// Rises with every change of the layout or of the messages.
-constexpr std::uint32_t kProtocolVersion = 10;
+constexpr std::uint32_t kProtocolVersion = 11;
 constexpr std::uint64_t kControlMagic = 0x314c5254434e5550; // "PUNCTRL1"
 constexpr std::size_t kRingBytes = std::size_t(1) << 20;
 
@@ -69,6 +69,7 @@ struct WorkerStatus {
     std::uint32_t dirtyBlocks = 0;
     std::uint32_t solution = 0; ///< SolutionState of the light as it is published
     std::uint32_t stopped = 0;  ///< 1: see Solver::stopped()
+    std::uint64_t rough = 0;    ///< 1: a RoughLight is published
     double progress = 0;
     double certificate = 0;    ///< [lm/m^2]
     double litIlluminance = 0; ///< [lux]

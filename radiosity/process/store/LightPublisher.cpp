@@ -24,6 +24,10 @@ bool differs(const glm::dvec3& a, const glm::dvec3& b, bool exact) {
     return false;
 }
 
+bool isLit(const glm::dvec3& light) {
+    return light != glm::dvec3(0);
+}
+
 } // namespace
 
 LightPublisher::LightPublisher(LitScene& scene) : scene_(scene) {
@@ -61,8 +65,20 @@ void LightPublisher::take(std::uint32_t vertex) {
         noteBlock(blend.patches[k], vertex / kBlock);
 }
 
+void LightPublisher::showRough(RoughLight light) {
+    if (light.empty()) return;
+    rough_ = std::move(light);
+    if (scene_.solver().directOnly()) rough_.ambient = {};
+    objectsLit_ = objects_;
+}
+
 void LightPublisher::directIsDone() {
     objectsLit_ = objects_;
+    if (!std::exchange(rough_.direct, {}).empty()) touchAll();
+}
+
+void LightPublisher::touchAll() {
+    for (std::uint32_t b = 0; b < blockCount(); ++b) touch(b);
 }
 
 /// A block has a vertex that is lit by the nodes of a patch of the mesh, or of its parts.
@@ -81,7 +97,7 @@ bool LightPublisher::outgrown() const {
 
 void LightPublisher::setStore(std::unique_ptr<StoreWriter> store) {
     store_ = std::move(store);
-    for (std::uint32_t b = 0; b < blockCount(); ++b) touch(b);
+    touchAll();
 }
 
 void LightPublisher::touch(std::uint32_t block) {
@@ -99,7 +115,8 @@ void LightPublisher::touchStale(std::uint32_t block) {
 }
 
 bool LightPublisher::canPublish(std::uint32_t block) const {
-    return block < store_->shape().blocks && scene_.solver().direct().summed(block) &&
+    return block < store_->shape().blocks &&
+           (!rough_.empty() || scene_.solver().direct().summed(block)) &&
            scene_.patches().vertexBlockObject[block].value < objectsLit_;
 }
 
@@ -128,7 +145,7 @@ void LightPublisher::setPreviewLights(std::uint32_t serial, const std::vector<st
         rows.emitters.push_back(e);
     }
     findStale();
-    for (std::uint32_t b = 0; b < blockCount(); ++b) touch(b);
+    touchAll();
 }
 
 bool LightPublisher::findStale() {
@@ -175,6 +192,10 @@ void LightPublisher::solverWorked(bool settled) {
 /// \param exact takes note of the smallest change, not only of what can be seen
 void LightPublisher::nodesChanged(bool exact) {
     const std::vector<glm::dvec3> now = scene_.solver().nodeIlluminance();
+    if (rough_.ambient != Rgb() && std::ranges::any_of(now, isLit)) {
+        rough_.ambient = {};
+        touchAll();
+    }
     const PatchSet& set = scene_.patches();
     for (std::uint32_t p = 0; p < set.patches.size(); ++p) {
         const Patch& patch = set.patches[p];
@@ -252,7 +273,8 @@ LightBlock LightPublisher::blockOf(std::uint32_t block) const {
     const PatchSet& set = scene_.patches();
     LightBlock light;
     light.object = set.vertexBlockObject[block].value;
-    const std::span<const Rgb> lit = scene_.solver().direct().vertices();
+    const std::span<const Rgb> lit =
+        rough_.empty() ? scene_.solver().direct().vertices() : std::span<const Rgb>(rough_.direct);
     for (std::uint32_t k = 0; k < kBlock; ++k) {
         const std::uint32_t v = block * kBlock + k;
         if (v < lit.size()) light.direct[k] = lit[v];
@@ -274,7 +296,7 @@ Rgb LightPublisher::interpolatedAt(std::uint32_t vertex) const {
 Rgb LightPublisher::indirectAt(std::uint32_t vertex) const {
     const bool known = vertex < detail_.size() &&
                        scene_.patches().vertexCoordinates[vertex].patch != Element::kNone;
-    return interpolatedAt(vertex) + (known ? detail_[vertex] : Rgb());
+    return rough_.ambient + interpolatedAt(vertex) + (known ? detail_[vertex] : Rgb());
 }
 
 void LightPublisher::writeLights(std::uint32_t block, LightBlock& light) const {
@@ -289,7 +311,8 @@ void LightPublisher::writeLights(std::uint32_t block, LightBlock& light) const {
             light.exitance[l] = scene_.patches().emitters[lights_[l].emitters.front()].exitance;
         // What other lights give is in the light that a factor is taken with.
         for (const LightRows* rows : {&lights_[l], &others_})
-            if (std::binary_search(rows->stale.begin(), rows->stale.end(), block))
+            if (!rough_.empty() ||
+                std::binary_search(rows->stale.begin(), rows->stale.end(), block))
                 light.stale |= 1u << l;
     }
 }

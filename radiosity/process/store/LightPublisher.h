@@ -2,6 +2,7 @@
 #pragma once
 
 #include "radiosity/process/store/LightStore.h"
+#include "radiosity/process/store/RoughLight.h"
 #include "radiosity/transport/LitScene.h"
 
 #include <glm/glm.hpp>
@@ -45,6 +46,11 @@ public:
 
     /// Objects were added to the patches.
     void grow();
+    /// Until the direct light is known this is published, of the objects that there are now.
+    void showRough(RoughLight light);
+    bool isRough() const { return !rough_.empty(); }
+    /// Whether there is anything that may be published.
+    bool hasLight() const { return objectsLit_ > 0; }
     /// All direct light is known, that of objects which were added included: they are published
     /// from now on.
     void directIsDone();
@@ -68,6 +74,7 @@ private:
     void take(const ObjectPart& object);
     void take(std::uint32_t vertex);
     void touch(std::uint32_t block);
+    void touchAll();
     void touchStale(std::uint32_t block);
     bool canPublish(std::uint32_t block) const;
     void nodesChanged(bool exact);
@@ -89,6 +96,7 @@ private:
     std::vector<std::vector<std::uint32_t>> patchBlocks_; ///< by patches of the mesh
     std::size_t objects_ = 0, objectsLit_ = 0;            ///< that are known; that may be published
     std::vector<glm::dvec3> nodes_;                       ///< illuminance that is published [lux]
+    RoughLight rough_;                                    ///< its parts, until others are known
     std::vector<Rgb> detail_; ///< what fine shadows added when it was settled last [lux]
     std::uint32_t previewSet_ = 0;
     std::vector<std::string> previewed_; ///< paths of that set

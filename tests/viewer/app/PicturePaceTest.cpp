@@ -56,5 +56,16 @@ TEST(PicturePace, WhatPeopleDoAndWhatComesOfItIsDrawnAtOnce) {
     EXPECT_TRUE(pace.due(10.02));
 }
 
+TEST(PicturePace, WhatWasDoneFadesSmoothlyAndWhatComesByItselfAsNews) {
+    PicturePace pace(true);
+    drawAll(pace, 10);
+    pace.fades(10.1);
+    EXPECT_FALSE(pace.due(10.1));
+    pace.touched(10.2);
+    drawAll(pace, 10.2);
+    pace.fades(15);
+    EXPECT_TRUE(pace.due(15));
+}
+
 } // namespace
 } // namespace penumbra
