@@ -35,6 +35,8 @@ public:
 
     bool due(double now) const { return stale_ > 0 || (news_ > 0 && !rests(now)); }
 
+    /// Whether it matters how long the next picture takes: to wait for it takes time itself.
+    bool measures(double now) const { return software_ && now > touched_ + kAttention; }
     /// A picture was drawn, in so long.
     void drawn(double now, double took) {
         stale_ = std::max(0, stale_ - 1);

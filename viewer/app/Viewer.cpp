@@ -465,7 +465,7 @@ void Viewer::draw() {
     renderer_.show(0, state_.exposure.middleGrey(), state_.tone);
     drawPanelsOver();
     window_.show();
-    if (software_) window_.finish(); // or it would not be known how long it takes
+    if (pace_.measures(began)) window_.finish();
     pace_.drawn(steadySeconds(), steadySeconds() - began);
     if (renderer_.statistics().blurred || !state_.exposure.settled()) pace_.news(1);
     shown_ = shown_ || walk_;
