@@ -21,7 +21,7 @@ struct RadiosityState {
     /// Of the light that has been taken in, of the scene with all edits that were sent.
     SolutionState solution = SolutionState::working;
     bool stopped = false; ///< relaxation met its limit: it stays `working`, and nobody works
-    bool rough = false; ///< of a scene that was opened: direct light is an estimate still
+    bool rough = false;   ///< of a scene that was opened: direct light is an estimate still
     /// Whether there is nothing to wait for: it is reached, or will not be.
     bool reached(SolutionState wanted) const { return solution >= wanted || stopped; }
     std::string task;              ///< of phase solving, e.g. "direct light"
