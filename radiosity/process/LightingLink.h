@@ -12,7 +12,7 @@
 namespace penumbra {
 
 struct WorkerLimits {
-    unsigned threads = 0; ///< 0: one a core; a thread's worker leaves one to others
+    unsigned threads = 0; ///< 0: one a core; one less in a thread of the program
     int niceness = 0;
     std::size_t memory = 0; ///< instead of what the viewer asks for [bytes]; 0: that
 };

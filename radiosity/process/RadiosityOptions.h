@@ -13,7 +13,7 @@ struct RadiosityOptions {
     MeshingOptions meshing{};
     SolverOptions solving{};
     Trigger trigger = Trigger::implicit;
-    unsigned threads = 0; ///< 0: one a core; a thread's worker leaves one to others
+    unsigned threads = 0; ///< 0: one a core; one less in a thread of the program
     int niceness = 5;     ///< of a process, see nice(1)
     /// Nothing heard from the worker for so long: it hangs [s].
     double timeout = 2;

@@ -94,6 +94,14 @@ void EmitterSender::sphereGroup(const Receiver& receiver, int first, SampleGroup
     }
 }
 
+void SampleGroup::add(float& total, float& seen) const {
+    for (int i = 0; i < 16; ++i) {
+        if (!(rays.used >> i & 1)) continue;
+        total += weight[i];
+        if (rays.blocker[i] == ObjectId::kNone) seen += weight[i];
+    }
+}
+
 float EmitterSender::visibility(const RayScene& rays, const Receiver& receiver, int first,
                                 int count) const {
     float total = 0, seen = 0;
@@ -101,11 +109,7 @@ float EmitterSender::visibility(const RayScene& rays, const Receiver& receiver, 
     for (int at = first; at < first + count; at += 16) {
         sampleGroup(receiver, at, group);
         rays.occluded(group.rays);
-        for (int i = 0; i < 16; ++i) {
-            if (!(group.rays.used >> i & 1)) continue;
-            total += group.weight[i];
-            if (group.rays.blocker[i] == ObjectId::kNone) seen += group.weight[i];
-        }
+        group.add(total, seen);
     }
     return total > 0 ? seen / total : 0.0f;
 }

@@ -12,6 +12,10 @@ namespace penumbra {
 struct SampleGroup {
     ShadowRays rays;              ///< to the samples that count
     alignas(64) float weight[16]; ///< cos cos / d^2, common factors left out; 0: does not count
+
+    /// Adds the weights of the samples that are used, and of those among them that nothing blocks.
+    /// \pre rays are traced
+    void add(float& total, float& seen) const;
 };
 
 /// An emitter with its visibility samples.

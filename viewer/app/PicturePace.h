@@ -36,12 +36,12 @@ public:
     bool due(double now) const { return stale_ > 0 || (news_ > 0 && !rests(now)); }
 
     /// Whether it matters how long the next picture takes: to wait for it takes time itself.
-    bool measures(double now) const { return software_ && now > touched_ + kAttention; }
+    bool measures(double now) const { return software_ && isAlone(now); }
     /// A picture was drawn, in so long.
     void drawn(double now, double took) {
         stale_ = std::max(0, stale_ - 1);
         news_ = std::max(0, news_ - 1);
-        if (software_) rested_ = now + kRest * took;
+        if (software_) restsUntil_ = now + kRest * took;
     }
 
 private:
@@ -50,11 +50,12 @@ private:
     static constexpr double kFade = 10;     ///< what fades by then comes of it
     static constexpr double kRest = 5;      ///< as many times what a picture takes
 
-    bool rests(double now) const { return now > touched_ + kAttention && now < rested_; }
+    bool isAlone(double now) const { return now > touched_ + kAttention; }
+    bool rests(double now) const { return isAlone(now) && now < restsUntil_; }
 
     bool software_;
     int stale_ = kAfterglow, news_ = 0; ///< pictures to be drawn
-    double touched_ = -kFade, rested_ = 0;
+    double touched_ = -kFade, restsUntil_ = 0;
 };
 
 } // namespace penumbra

@@ -1,5 +1,6 @@
 #include "viewer/app/PictureSaver.h"
 
+#include "io/image/Exposure.h"
 #include "io/image/ExrWriter.h"
 
 #include <cstdio>
@@ -28,6 +29,13 @@ std::string freeStem(const std::string& name) {
             !std::filesystem::exists(stem + ".png", unknown))
             return stem;
     }
+}
+
+std::string describeExposure(float middleGrey, ToneStyle style) {
+    char text[64];
+    std::snprintf(text, sizeof text, " (exposure %.2f EV, %s)", exposureValueOf(middleGrey),
+                  kToneStyleNames[std::size_t(style)]);
+    return text;
 }
 
 } // namespace penumbra

@@ -1,6 +1,7 @@
 // Lit frames to files, from the solution as it is.
 #pragma once
 
+#include "io/image/ToneCurve.h"
 #include "scenegraph/Camera.h"
 #include "scenegraph/Group.h"
 #include "viewer/gl/Renderer.h"
@@ -20,5 +21,8 @@ void saveLayers(const std::string& path, const std::string& scene, Renderer& ren
 
 /// `name`-0001, -0002, ...: the first of which neither an .exr nor a .png is there yet.
 std::string freeStem(const std::string& name);
+
+/// For people: how a picture is shown, in parentheses.
+std::string describeExposure(float middleGrey, ToneStyle style);
 
 } // namespace penumbra

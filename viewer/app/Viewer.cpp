@@ -29,7 +29,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -379,10 +378,8 @@ void Viewer::save(const View& view) {
             saveLayers(stem + ".exr", name_, stills_, light_->lit(), view,
                        {picture.width, picture.height});
         const bool whole = lit && light_->state().reached(SolutionState::certified);
-        char exposure[64];
-        std::snprintf(exposure, sizeof exposure, " (exposure %.2f EV, %s)", exposureValueOf(grey),
-                      kToneStyleNames[std::size_t(state_.tone)]);
-        state_.notify("Saved " + stem + (lit ? ".png and .exr" : ".png") + exposure +
+        state_.notify("Saved " + stem + (lit ? ".png and .exr" : ".png") +
+                      describeExposure(grey, state_.tone) +
                       (whole ? "" : ", while the light is being worked on"));
     } catch (const Error& error) {
         state_.notify(error.what(), 15);
@@ -459,7 +456,8 @@ void Viewer::draw() {
     }
     if (const auto luminances = renderer_.luminances(!state_.exposure.measured() && walk_))
         state_.exposure.measure(*luminances);
-    state_.exposure.advance(began - std::exchange(drawn_, began), light_ && light_->fading());
+    const double passed = std::min(kLongestStep, began - std::exchange(drawn_, began));
+    state_.exposure.advance(passed, light_ && light_->fading());
     state_.drawn = renderer_.statistics();
     if (saving) save(view);
     renderer_.show(0, state_.exposure.middleGrey(), state_.tone);

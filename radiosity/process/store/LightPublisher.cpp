@@ -116,7 +116,7 @@ void LightPublisher::touchStale(std::uint32_t block) {
 
 bool LightPublisher::canPublish(std::uint32_t block) const {
     return block < store_->shape().blocks &&
-           (!rough_.empty() || scene_.solver().direct().summed(block)) &&
+           (isRough() || scene_.solver().direct().summed(block)) &&
            scene_.patches().vertexBlockObject[block].value < objectsLit_;
 }
 
@@ -189,10 +189,10 @@ void LightPublisher::solverWorked(bool settled) {
         }
 }
 
-/// \param exact takes note of the smallest change, not only of what can be seen
+/// \param exact all is settled: takes note of the smallest change, not only of what can be seen
 void LightPublisher::nodesChanged(bool exact) {
     const std::vector<glm::dvec3> now = scene_.solver().nodeIlluminance();
-    if (rough_.ambient != Rgb() && std::ranges::any_of(now, isLit)) {
+    if (rough_.ambient != Rgb() && (exact || std::ranges::any_of(now, isLit))) {
         rough_.ambient = {};
         touchAll();
     }
@@ -274,7 +274,7 @@ LightBlock LightPublisher::blockOf(std::uint32_t block) const {
     LightBlock light;
     light.object = set.vertexBlockObject[block].value;
     const std::span<const Rgb> lit =
-        rough_.empty() ? scene_.solver().direct().vertices() : std::span<const Rgb>(rough_.direct);
+        isRough() ? std::span<const Rgb>(rough_.direct) : scene_.solver().direct().vertices();
     for (std::uint32_t k = 0; k < kBlock; ++k) {
         const std::uint32_t v = block * kBlock + k;
         if (v < lit.size()) light.direct[k] = lit[v];
@@ -310,10 +310,10 @@ void LightPublisher::writeLights(std::uint32_t block, LightBlock& light) const {
         if (!lights_[l].emitters.empty())
             light.exitance[l] = scene_.patches().emitters[lights_[l].emitters.front()].exitance;
         // What other lights give is in the light that a factor is taken with.
-        for (const LightRows* rows : {&lights_[l], &others_})
-            if (!rough_.empty() ||
-                std::binary_search(rows->stale.begin(), rows->stale.end(), block))
-                light.stale |= 1u << l;
+        const auto isStale = [&](const LightRows& rows) {
+            return std::ranges::binary_search(rows.stale, block);
+        };
+        if (isRough() || isStale(lights_[l]) || isStale(others_)) light.stale |= 1u << l;
     }
 }
 

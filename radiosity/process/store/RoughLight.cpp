@@ -21,11 +21,7 @@ float visibility(const EmitterSender& sender, const RayScene& rays, const Receiv
     if ((group.rays.used & kFirst) != 0) group.rays.used &= kFirst;
     rays.occluded(group.rays);
     float total = 0, seen = 0;
-    for (int i = 0; i < kSamples; ++i) {
-        if (!(group.rays.used >> i & 1)) continue;
-        total += group.weight[i];
-        if (group.rays.blocker[i] == ObjectId::kNone) seen += group.weight[i];
-    }
+    group.add(total, seen);
     return total > 0 ? seen / total : 0.0f;
 }
 

@@ -10,16 +10,20 @@ void drawAll(PicturePace& pace, double now) {
     while (pace.due(now)) pace.drawn(now, 0.1);
 }
 
+/// With a window of which all is drawn.
+PicturePace paceAt(double now, bool software) {
+    PicturePace pace(software);
+    drawAll(pace, now);
+    return pace;
+}
+
 TEST(PicturePace, NothingNewIsNotDrawnAgain) {
-    PicturePace pace(true);
-    EXPECT_TRUE(pace.due(0));
-    drawAll(pace, 10);
-    EXPECT_FALSE(pace.due(1000));
+    EXPECT_TRUE(PicturePace(true).due(0));
+    EXPECT_FALSE(paceAt(10, true).due(1000));
 }
 
 TEST(PicturePace, AProcessorThatDrawsLeavesNewsMostOfItsTimeToOthers) {
-    PicturePace pace(true);
-    drawAll(pace, 10);
+    PicturePace pace = paceAt(10, true);
     int drawn = 0;
     for (double now = 10; now < 20; now += 0.1) {
         pace.news();
@@ -31,24 +35,17 @@ TEST(PicturePace, AProcessorThatDrawsLeavesNewsMostOfItsTimeToOthers) {
     EXPECT_LT(drawn, 25);
 }
 
-TEST(PicturePace, AGraphicsCardDrawsNewsAtOnce) {
-    PicturePace pace(false);
-    drawAll(pace, 10);
-    pace.news();
-    EXPECT_TRUE(pace.due(10));
-}
-
-TEST(PicturePace, TheLastNewsAreDrawnInTheEnd) {
-    PicturePace pace(true);
-    drawAll(pace, 10);
-    pace.news(1);
-    EXPECT_FALSE(pace.due(10.1));
-    EXPECT_TRUE(pace.due(11));
+TEST(PicturePace, AGraphicsCardDrawsNewsAtOnceAndAProcessorInTheEnd) {
+    for (const bool software : {false, true}) {
+        PicturePace pace = paceAt(10, software);
+        pace.news(1);
+        EXPECT_EQ(pace.due(10.1), !software);
+        EXPECT_TRUE(pace.due(11));
+    }
 }
 
 TEST(PicturePace, WhatPeopleDoAndWhatComesOfItIsDrawnAtOnce) {
-    PicturePace pace(true);
-    drawAll(pace, 10);
+    PicturePace pace = paceAt(10, true);
     pace.touched(10.01);
     EXPECT_TRUE(pace.due(10.01));
     drawAll(pace, 10.01);
@@ -57,8 +54,7 @@ TEST(PicturePace, WhatPeopleDoAndWhatComesOfItIsDrawnAtOnce) {
 }
 
 TEST(PicturePace, WhatWasDoneFadesSmoothlyAndWhatComesByItselfAsNews) {
-    PicturePace pace(true);
-    drawAll(pace, 10);
+    PicturePace pace = paceAt(10, true);
     pace.fades(10.1);
     EXPECT_FALSE(pace.due(10.1));
     pace.touched(10.2);

@@ -81,6 +81,20 @@ TEST(RoughLight, IsShownBeforeTheDirectLightIsKnownAndGoneAfterIt) {
     EXPECT_EQ(room.difference(), "");
 }
 
+/// What it says of interreflection has to go where there is none: nothing ever lights a node.
+TEST(RoughLight, LeavesNoAmbientLightWhereNothingIsReflectedOntoAnything) {
+    const RadiosityOptions options = LitRoom::smallRoomOptions();
+    RadiosityNode node("lit", options, makeThreadLink());
+    node.add(object("floor", floorData(-1, 1, -1, 1, 0, paint(Rgb(0.5f)))));
+    node.add(ceilingLight({0, 0, 1}, 0.3f, 0.3f));
+    ASSERT_TRUE(updateUntilSettled(node));
+    EXPECT_EQ(differenceFromScratch(node, options), "");
+    for (const LitObject& object : node.objects()) {
+        if (!object.geometry) continue;
+        for (const Rgb& light : object.geometry->data().indirect) EXPECT_EQ(light, Rgb());
+    }
+}
+
 } // namespace
 
 } // namespace penumbra
