@@ -81,7 +81,7 @@ TEST(RoughLight, IsShownBeforeTheDirectLightIsKnownAndGoneAfterIt) {
     EXPECT_EQ(room.difference(), "");
 }
 
-/// The floor reflects light onto the lamp alone.
+/// The floor reflects onto the light alone.
 TEST(RoughLight, LeavesNoAmbientLightWhereNothingIsReflectedOntoAnything) {
     const RadiosityOptions options = LitRoom::smallRoomOptions();
     RadiosityNode node("lit", options, makeThreadLink());
