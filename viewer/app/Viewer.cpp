@@ -39,6 +39,7 @@ namespace {
 
 constexpr double kLongestStep = 0.1;   // after a stall things don't jump further than this [s]
 constexpr double kIdlePoll = 1.0 / 60; // how long a picture that does not change is kept [s]
+constexpr double kPreviewSlice = 0.08; // of a frame, for rays of what moves [s]
 
 using Clock = std::chrono::steady_clock;
 
@@ -233,7 +234,8 @@ void Viewer::lightScene() {
     if (state_.elementSize > 0) asked.elementSize = state_.elementSize;
     const RadiosityOptions how = optionsFor(asked.orElse(fromFile_), options_.light);
     light_.reset();
-    light_.emplace(*walk_, how, makeProcessLink(), BlendOptions{.software = software_});
+    light_.emplace(*walk_, how, makeProcessLink(),
+                   BlendOptions{.software = software_, .slice = kPreviewSlice});
 }
 
 void Viewer::reload() {

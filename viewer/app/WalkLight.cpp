@@ -15,7 +15,8 @@ WalkLight::WalkLight(const Walkthrough& walk, const RadiosityOptions& options,
     : scene_(*walk.scene().root),
       node_(std::make_shared<RadiosityNode>("lit", options, std::move(link))), blend_(blend),
       by_(blend.by), choice_(blend.software, blend.inTime), samples_(options.solving.samples),
-      mostLights_(blend.lights), trigger_(options.trigger), policy_(options.solving.policy) {
+      slice_(blend.slice), mostLights_(blend.lights), trigger_(options.trigger),
+      policy_(options.solving.policy) {
     node_->add(walk.scene().root);
     choosePreview();
 }
@@ -40,7 +41,7 @@ void WalkLight::choosePreview() {
     } else {
         maps_ = nullptr;
         preview_ = std::make_unique<RayPreview>(
-            samples_, [this] { return node_->patches(); }, PreviewRows::Indexing::aside);
+            samples_, [this] { return node_->patches(); }, PreviewRows::Indexing::aside, slice_);
     }
 }
 
@@ -105,8 +106,10 @@ bool WalkLight::update(const Walkthrough& walk, const View& view) {
     ages_.advance(node_->objects(), walk.time());
     updatePreview(walk, view);
     const RadiosityState& state = node_->state();
-    const bool news = blend_.changing() || blocks_ != state.blocksTaken || phase_ != state.phase ||
-                      solution_ != state.solution || unlit_ != node_->unlit().size();
+    const bool on = blend_.preview().active() && preview_->unfinished();
+    const bool news = on || blend_.changing() || blocks_ != state.blocksTaken ||
+                      phase_ != state.phase || solution_ != state.solution ||
+                      unlit_ != node_->unlit().size();
     blocks_ = state.blocksTaken;
     phase_ = state.phase;
     solution_ = state.solution;

@@ -88,6 +88,7 @@ private:
     std::unique_ptr<Preview> preview_;
     MapPreview* maps_ = nullptr; ///< preview_, if it is that
     int samples_;                ///< of the light, and of its preview by rays
+    double slice_;               ///< see BlendOptions
     std::size_t mostLights_;     ///< emitters previewed at most
     PreviewMethod lightsBy_{};   ///< that previewed lights were chosen for
     bool lightsLit_ = false;     ///< lightsFor_ was answered when all was lit

@@ -141,6 +141,7 @@ void LightBlend::describePreview(const RadiosityNode& node, double time) {
     preview_ = {};
     preview_.points = options_.points;
     preview_.now = now_;
+    preview_.awaited = sent_;
     const float share = restShare(time);
     const auto anchor = [&](const SceneStatePtr& of, float rest, float behind) {
         if (of && of != now_ && (rest > 0 || behind > 0))

@@ -4,6 +4,7 @@
 #include "viewer/preview/LightFade.h"
 #include "viewer/preview/Preview.h"
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,9 +19,11 @@ struct RadiosityState;
 struct BlendOptions {
     double seconds = 0.25; ///< that a vertex takes from one light to the next; 0: it jumps
     int points = 16;       ///< of a light for its shadow maps, at most 16
-    std::optional<PreviewMethod> by{};   ///< the preview; none: see PreviewChoice
-    bool software = false;               ///< the processor draws
-    double inTime = 1.0 / 120;           ///< that rays of a frame may take, see PreviewChoice [s]
+    std::optional<PreviewMethod> by{}; ///< the preview; none: see PreviewChoice
+    bool software = false;             ///< the processor draws
+    double inTime = 1.0 / 120;         ///< that rays of a frame may take, see PreviewChoice [s]
+    /// That rays of a frame may take before what has had no turn waits for the next [s].
+    double slice = std::numeric_limits<double>::infinity();
     std::size_t lights = kMostPreviewed; ///< emitters previewed at most, see PreviewLimits
 };
 

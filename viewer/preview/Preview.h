@@ -33,6 +33,9 @@ public:
 
     /// Takes back what update() has done to the shown light.
     virtual void takeBack() = 0;
+    /// Whether there is more to be shown of the last update() than it had the time for: the next
+    /// one goes on.
+    virtual bool unfinished() const { return false; }
     /// \param light with PreviewLighting::active() \param view from where it is seen: what can't be
     /// seen may be left out; null: nothing is
     virtual void update(const PreviewLighting& light, const ShownOf& shown, const View* view) = 0;

@@ -61,6 +61,7 @@ struct PreviewLighting {
     std::vector<PreviewLight> lights; ///< at most kMostPreviewed; by maps, kMostPreviewedByMaps
     SceneStatePtr now;
     std::vector<Anchor> anchors; ///< at most 3, none of them now
+    SceneStatePtr awaited;       ///< whose light is on its way: an anchor in a later frame, or null
     int points = 16;             ///< of a light, from which shadows are drawn; at most 16
 
     bool active() const { return !lights.empty() && !anchors.empty(); }

@@ -1,5 +1,6 @@
 #include "viewer/preview/PreviewRows.h"
 
+#include "base/Clock.h"
 #include "base/Parallel.h"
 #include "radiosity/rays/Shaft.h"
 #include "scenegraph/Frustum.h"
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -20,8 +22,12 @@ void PreviewRows::require(const PreviewLighting& light) {
     }
     std::vector<std::shared_ptr<const LitGeometry>> geometries;
     for (const auto& object : light.objects) geometries.push_back(object.geometry);
-    if (geometries == geometries_) return;
+    if (geometries == geometries_) {
+        if (behind_ && light.anchors.empty()) catchUp(light.now);
+        return;
+    }
     forget();
+    behind_ = false;
     geometries_ = std::move(geometries);
     surfaces_.clear();
     stage_.reset();
@@ -36,9 +42,22 @@ void PreviewRows::require(const PreviewLighting& light) {
     if (indexing_ == Indexing::atOnce) takeStage();
 }
 
+/// Poses all things as they are, contacts and all: which may take longer than a frame.
+void PreviewRows::catchUp(const SceneStatePtr& now) {
+    forget();
+    behind_ = false;
+    const auto pose = [](std::unique_ptr<PreviewScene> stage, const SceneStatePtr& as) {
+        stage->pose(*as);
+        return stage;
+    };
+    making_ = std::async(std::launch::async, pose, std::move(stage_), now);
+    if (indexing_ == Indexing::atOnce) takeStage();
+}
+
 /// Waits for what is being indexed.
 void PreviewRows::takeStage() {
     std::unique_ptr<PreviewScene> stage = making_.get();
+    surfaces_.clear();
     for (std::uint32_t o = 0; o < geometries_.size(); ++o)
         if (geometries_[o] && !PreviewSurface::fits(*geometries_[o], *stage, o)) return;
     stage_ = std::move(stage);
@@ -51,7 +70,8 @@ bool PreviewRows::knows(const PreviewLighting& light) const {
     const auto alike = [](const PreviewLighting::Object& object, bool moves) {
         return object.moves == moves;
     };
-    return light.anchors.empty() && slots_.size() == 1 && slots_.front().of == light.now &&
+    return light.anchors.empty() && !unfinished_ && slots_.size() == 1 &&
+           slots_.front().of == light.now &&
            std::equal(light.objects.begin(), light.objects.end(), moves_.begin(), moves_.end(),
                       alike);
 }
@@ -109,10 +129,13 @@ void PreviewRows::dropStandIns(std::uint32_t object) {
         return entry.first >> 32 == object && std::uint32_t(entry.first) / kMostPreviewed >= first;
     };
     std::erase_if(clear_, isStandIn);
+    std::erase_if(last_, isStandIn);
     for (Slot& slot : slots_) std::erase_if(slot.table, isStandIn);
+    if (awaited_) std::erase_if(awaited_->table, isStandIn);
 }
 
-PreviewRows::Slot PreviewRows::makeSlot(const PreviewLighting& light, const SceneStatePtr& of) {
+PreviewRows::Slot PreviewRows::makeSlot(const PreviewLighting& light, const SceneStatePtr& of,
+                                        double seconds) {
     Slot slot;
     slot.of = of;
     const int base = std::min(samples_, int(kBlock));
@@ -128,23 +151,43 @@ PreviewRows::Slot PreviewRows::makeSlot(const PreviewLighting& light, const Scen
         if (place.visible)
             slot.things.push_back(transformed(surfaces_[o].geometry()->bounds(), place.toWorld));
     }
-    stage_->pose(*of);
-    slot.touched = stage_->touched();
+    if (contacts_ || stage_->isPosedAs(*of))
+        findContacts(slot, seconds);
+    else
+        behind_ = true;
     return slot;
 }
 
+/// What is touched in a scene state, unless that has taken longer than rays may.
+void PreviewRows::findContacts(Slot& slot, double seconds) {
+    const double begun = steadySeconds();
+    stage_->pose(*slot.of);
+    slot.touched = stage_->touched();
+    slot.contacts = true;
+    if (steadySeconds() - begun > seconds) contacts_ = false;
+}
+
 /// Slot 0 is now, 1 ... are the anchors; keeps those that are there already.
-void PreviewRows::chooseSlots(const PreviewLighting& light) {
+void PreviewRows::chooseSlots(const PreviewLighting& light, double seconds) {
+    constexpr double kSurely = 5; // the other way round it is tried
+    if (contacts_ && !light.anchors.empty() && stage_->secondsToPose(moves_) > kSurely * seconds)
+        contacts_ = false;
     std::vector<SceneStatePtr> wanted{light.now};
     for (const auto& anchor : light.anchors) wanted.push_back(anchor.sceneState);
-    std::vector<Slot> slots(wanted.size());
+    std::vector<Slot> before = std::exchange(slots_, std::vector<Slot>(wanted.size()));
+    if (awaited_) before.push_back(std::move(*awaited_));
+    const auto take = [&](const SceneStatePtr& state) {
+        const auto known = std::ranges::find(before, state, &Slot::of);
+        if (!state || known == before.end()) return std::optional<Slot>();
+        std::optional<Slot> slot = std::move(*known);
+        known->of = nullptr;
+        return slot;
+    };
     for (std::size_t s = wanted.size(); s-- > 0;) { // now last: things keep their poses of now
-        const auto known = std::find_if(slots_.begin(), slots_.end(),
-                                        [&](const Slot& slot) { return slot.of == wanted[s]; });
-        slots[s] = known != slots_.end() ? std::move(*known) : makeSlot(light, wanted[s]);
-        if (known != slots_.end()) known->of = nullptr;
+        std::optional<Slot> slot = take(wanted[s]);
+        slots_[s] = slot ? std::move(*slot) : makeSlot(light, wanted[s], seconds);
     }
-    slots_ = std::move(slots);
+    awaited_ = take(light.awaited);
 }
 
 /// Lights between which and a box something that moves may be.
@@ -291,22 +334,43 @@ Receiver PreviewRows::receiver(const Slot& slot, std::uint32_t object, std::size
     return ownReceiver(slot, object, vertex);
 }
 
-void PreviewRows::prepare(const PreviewLighting& light, const ShownOf& shown, const View* view) {
+void PreviewRows::prepare(const PreviewLighting& light, const ShownOf& shown, const View* view,
+                          double seconds) {
+    constexpr double kAtRest = 3; // times as long, once the hand rests
+    const double begun = steadySeconds();
+    if (!light.anchors.empty() && !slots_.empty() && slots_.front().of == light.now)
+        seconds *= kAtRest;
+    unfinished_ = false;
     require(light);
     if (!stage_) return;
-    if (!sameMoves(light)) forget();
+    if (!sameMoves(light)) {
+        forget();
+        if (behind_) catchUp(light.now);
+        if (!stage_) return;
+    }
     followTriangles(shown);
-    chooseSlots(light);
+    chooseSlots(light, seconds);
     findReached(light, view);
     findTouched(light);
+    ++frame_;
     // Now comes last: what all states have in common is traced as it was when it was lit.
-    for (std::size_t s = slots_.size(); s-- > 0;) trace(light, slots_[s]);
+    const double soon = std::isfinite(seconds) ? begun : seconds; // vertices carry it as well
+    for (std::size_t s = slots_.size(); s-- > 1;) trace(light, slots_[s], soon);
+    unfinished_ = false;
+    trace(light, slots_.front(), begun + seconds);
+    guess(slots_.front());
+    remember(slots_.front());
     traceTouched();
 }
 
 void PreviewRows::forget() {
     slots_.clear();
+    awaited_.reset();
     clear_.clear();
+    last_.clear();
+    guessed_.clear();
+    frame_ = 0;
+    contacts_ = true;
     reached_.clear();
     touched_.clear();
 }

@@ -33,6 +33,8 @@ class EmitterRowBuilder;
 /// Each vertex remembers the point at which radiosity evaluated it in a scene state; the preview
 /// evaluates it at the same point. For a vertex that represents a corner this is the point that
 /// was found for the corner then. Corners that something touches now are in a list of their own.
+/// Where what moves touches so much that finding it takes longer than rays may, such as a wall
+/// does, nothing is touched: radiosity's light has it when it comes.
 class PreviewRows {
 public:
     static constexpr std::size_t kBlock = LitGeometry::kBlock;
@@ -64,19 +66,37 @@ public:
         unsigned lights = 0;
         std::uint64_t vertices = ~std::uint64_t(0);
     };
-    /// Traces what is missing. \param light of some lights; without anchors: what it is like now,
-    /// so that little is missing when something begins to move \param shown what vertices carry
+    /// Traces what is missing, in the order in which it matters: what is near to what moves, and
+    /// what has waited for long. \param light of some lights; without anchors: what it is like now,
+    /// so that little is missing
+    ///        when something begins to move
+    /// \param shown what vertices carry
     /// \param view from where it is seen: what can't be seen is left out; null: nothing is
-    void prepare(const PreviewLighting& light, const ShownOf& shown, const View* view);
+    /// \param seconds that rays are begun for; something is always traced
+    void prepare(const PreviewLighting& light, const ShownOf& shown, const View* view,
+                 double seconds);
+    /// Whether something is missing still: the same call goes on.
+    bool unfinished() const { return unfinished_; }
     /// Drops what is known.
     void forget();
     std::span<const Reached> reached() const { return reached_; }
+    /// Whether vertices of the block carry light of receivers beside them (see PatchSet).
+    bool isBlended(const Reached& at) const { return stage_->isBlended(at.object, at.block); }
 
-    using Factors = std::array<float, kBlock>; ///< F V of the vertices of a block
-    /// Of a light that reaches the block. \param slot 0: now; 1 ...: the anchors \param at an index
-    /// of reached()
-    const Factors& factors(std::size_t slot, std::size_t at, std::size_t source) const {
-        return slots_[slot].found[at * kMostPreviewed + source]->factors;
+    /// What is known of a light at the vertices of a block.
+    struct Known {
+        std::array<float, kBlock> factors{}; ///< F V
+        std::uint64_t vertices = 0;          ///< bits: of which it is known
+        std::uint32_t frame = 0;             ///< when it was traced
+
+        bool of(std::size_t vertex) const { return vertices >> vertex % kBlock & 1; }
+    };
+    /// Of a light that reaches the block. Where only some vertices have had their turn, now is
+    /// guessed of the others; where none has, it is as it was in the last frame that had it. Of
+    /// anchors, what has had no turn is not known.
+    /// \param slot 0: now; 1 ...: the anchors \param at an index of reached()
+    const Known& known(std::size_t slot, std::size_t at, std::size_t source) const {
+        return *slots_[slot].found[at * kMostPreviewed + source];
     }
     /// What a light gives to a vertex now when nothing is in its way.
     float unoccluded(const Reached& at, std::size_t source, std::size_t vertex) const;
@@ -93,10 +113,6 @@ public:
 
 private:
     using Key = std::uint64_t;
-    struct Known {
-        Factors factors{};
-        std::uint64_t vertices = 0; ///< bits: that are known
-    };
     using Table = std::unordered_map<Key, Known>;
     struct Slot {
         SceneStatePtr of;
@@ -104,6 +120,7 @@ private:
         std::vector<Bounds> things; ///< boxes around what moves, one a thing [m, world]
         std::unordered_map<std::uint32_t, Pose> poses; ///< of objects that move
         std::vector<TouchedCorner> touched;
+        bool contacts = false;                     ///< touched has them all
         std::unordered_map<Key, Receiver> instead; ///< of vertices that are lit somewhere else
         Table table;
         /// What is known of what is reached, by index of reached() and light; null: not reached.
@@ -116,6 +133,7 @@ private:
         Known* known;
         Known* clear; ///< of vertices that nothing that moves is before; null: not to be asked
         std::uint64_t missing;
+        float urgency;
     };
     static Key keyOf(std::uint32_t object, std::uint64_t piece) {
         return Key(object) << 32 | piece;
@@ -126,12 +144,14 @@ private:
     static float unoccluded(std::span<const EmitterSender> source, const Receiver& receiver);
 
     void takeStage();
+    void catchUp(const SceneStatePtr& now);
+    void findContacts(Slot& slot, double seconds);
     bool sameMoves(const PreviewLighting& light);
     void followTriangles(const ShownOf& shown);
     void carryOver(std::uint32_t object, const std::vector<AdoptedVertex>& adopted);
     void dropStandIns(std::uint32_t object);
-    void chooseSlots(const PreviewLighting& light);
-    Slot makeSlot(const PreviewLighting& light, const SceneStatePtr& of);
+    void chooseSlots(const PreviewLighting& light, double seconds);
+    Slot makeSlot(const PreviewLighting& light, const SceneStatePtr& of, double seconds);
     unsigned lightsThrough(const PreviewLighting& light, const Slot& slot, const Bounds& box) const;
     unsigned lightsReaching(const PreviewLighting& light, std::uint32_t object,
                             const Bounds& box) const;
@@ -143,7 +163,12 @@ private:
     void findTouched(const PreviewLighting& light);
     std::vector<unsigned> lightsInDoubt(const PreviewLighting& light, const Slot& slot) const;
     const RayScene& raysOf(const Slot& slot);
-    void trace(const PreviewLighting& light, Slot& slot);
+    std::vector<Task> tasksOf(const PreviewLighting& light, Slot& slot);
+    std::uint64_t chosenIn(const Reached& at) const;
+    float nearness(const PreviewLighting& light, const Slot& slot, const Reached& at) const;
+    void trace(const PreviewLighting& light, Slot& slot, double until);
+    void guess(Slot& now);
+    void remember(Slot& now);
     void traceTouched();
     bool isClear(const Task& task, std::size_t vertex, const Receiver& receiver) const;
     void run(const Task& task, EmitterRowBuilder& builder) const;
@@ -158,7 +183,14 @@ private:
     std::future<std::unique_ptr<PreviewScene>> making_;          ///< of geometries_
     std::vector<PreviewSurface> surfaces_;                       ///< by object
     std::vector<Slot> slots_;
-    Table clear_; ///< where nothing that moves is in the way
+    std::optional<Slot> awaited_; ///< of PreviewLighting::awaited, as far as it is known
+    Table clear_;                 ///< where nothing that moves is in the way
+    Table last_;                  ///< of earlier frames
+    Table guessed_;               ///< of now, where only some vertices are known
+    std::uint32_t frame_ = 0;     ///< since forget()
+    bool unfinished_ = false;
+    bool contacts_ = true; ///< are found, of what moves now; else they are left to radiosity
+    bool behind_ = false;  ///< stage_ is not posed as things are: see catchUp()
     std::vector<bool> moves_, lightMoves_;
     std::vector<std::vector<Emitter>> lights_; ///< that clear_ is of
     std::vector<Reached> reached_;

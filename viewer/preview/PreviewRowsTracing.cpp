@@ -1,5 +1,6 @@
 // The rays of PreviewRows: of what is missing, in one scene state.
 #include "base/Bits.h"
+#include "base/Clock.h"
 #include "base/Parallel.h"
 #include "radiosity/rays/Shaft.h"
 #include "radiosity/rows/EmitterRowBuilder.h"
@@ -7,8 +8,19 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <functional>
 
 namespace penumbra {
+
+namespace {
+
+const PreviewRows::Known kNothing;
+
+constexpr std::size_t kTasksAtOnce = 64; ///< some milliseconds
+constexpr float kRest = 1.0f / 16;       ///< urgency of vertices that can be guessed meanwhile
+
+} // namespace
 
 /// Whether nothing that moves is between a light and a vertex or touches the vertex: it is then
 /// evaluated where it always is. Blocks are wide: of the vertices of one that something is before,
@@ -45,7 +57,8 @@ void PreviewRows::run(const Task& task, EmitterRowBuilder& builder) const {
         if (isClear(task, begin + i, receivers[i])) clear |= bit;
         if (!(clear & bit) || !(task.clear->vertices & bit)) wanted |= bit;
     }
-    for (const int i : bitsOf(wanted & clear)) task.clear->factors[i] = 0;
+    for (const std::size_t i : bitsOf(task.missing)) task.known->factors[i] = 0;
+    for (const std::size_t i : bitsOf(wanted & clear)) task.clear->factors[i] = 0;
     for (const EmitterSender& sender : task.slot->senders[task.source]) {
         if (wanted == 0) break;
         RowBlock block;
@@ -55,6 +68,7 @@ void PreviewRows::run(const Task& task, EmitterRowBuilder& builder) const {
             known.factors[std::size_t(i)] += factor;
         });
     }
+    task.known->vertices |= task.missing;
     if (clear == 0) return;
     task.clear->vertices |= clear;
     for (const std::size_t i : bitsOf(clear)) {
@@ -80,38 +94,132 @@ std::vector<unsigned> PreviewRows::lightsInDoubt(const PreviewLighting& light,
 
 /// Things keep their present poses.
 const RayScene& PreviewRows::raysOf(const Slot& slot) {
-    if (&slot != &slots_.front()) return stage_->raysAt(*slot.of);
+    if (!contacts_ || &slot != &slots_.front()) return stage_->raysAt(*slot.of);
     stage_->pose(*slot.of);
     return stage_->rays();
 }
 
-void PreviewRows::trace(const PreviewLighting& light, Slot& slot) {
+/// How near a block is to what moves: 1 beside it, a half at a distance of its size.
+float PreviewRows::nearness(const PreviewLighting& light, const Slot& slot,
+                            const Reached& at) const {
+    const std::span<const Bounds> blocks = surfaces_[at.object].blocks();
+    if (light.objects[at.object].moves || at.block >= blocks.size()) return 1;
+    const Bounds box = transformed(blocks[at.block], slot.of->objects[at.object].toWorld);
+    float nearest = slot.things.empty() ? 1 : 0;
+    for (const Bounds& thing : slot.things) {
+        const glm::vec3 away =
+            glm::max(glm::vec3(0), glm::max(thing.lower - box.upper, box.lower - thing.upper));
+        const float far = glm::dot(away, away), size = thing.diagonal();
+        nearest = std::max(nearest, 1 / (1 + far / std::max(size * size, 1e-12f)));
+    }
+    return nearest;
+}
+
+/// Vertices of a block from which the others are guessed; none: they can't be.
+std::uint64_t PreviewRows::chosenIn(const Reached& at) const {
+    const auto coarse = surfaces_[at.object].coarse();
+    return at.block < coarse.size() ? at.vertices & coarse[at.block].chosen : 0;
+}
+
+/// What is missing, the most urgent first.
+std::vector<PreviewRows::Task> PreviewRows::tasksOf(const PreviewLighting& light, Slot& slot) {
     std::vector<Task> tasks;
     const std::vector<unsigned> inDoubt = lightsInDoubt(light, slot);
     slot.found.assign(reached_.size() * kMostPreviewed, nullptr);
     for (std::size_t i = 0; i < reached_.size(); ++i) {
         const Reached& at = reached_[i];
         const bool moves = light.objects[at.object].moves;
+        const bool isStandIn = at.block >= surfaces_[at.object].blocks().size();
+        const bool nowhere = isStandIn && !slot.contacts && &slot != &slots_.front();
         for (std::size_t l = 0; l < slot.senders.size(); ++l) {
             if (!(at.lights >> l & 1)) continue;
+            if (nowhere) {
+                slot.found[i * kMostPreviewed + l] = &kNothing;
+                continue;
+            }
+            const Key key = keyOf(at, l);
             const bool inTheWay = inDoubt[i] >> l & 1;
-            Known& known = (inTheWay ? slot.table : clear_)[keyOf(at, l)];
+            Known& known = (inTheWay ? slot.table : clear_)[key];
             slot.found[i * kMostPreviewed + l] = &known;
             const std::uint64_t missing = at.vertices & ~known.vertices;
-            known.vertices |= missing;
-            for (const int v : bitsOf(missing)) known.factors[std::size_t(v)] = 0;
-            if (missing == 0 || slot.senders[l].empty()) continue;
+            if (missing == 0) continue;
             const bool some = inTheWay && !moves && !light.lights[l].moves;
-            tasks.push_back(
-                {&slot, &at, l, &known, some ? &clear_[keyOf(at, l)] : nullptr, missing});
+            const auto before = last_.find(key);
+            const auto waited = float(frame_ - (before == last_.end() ? 0 : before->second.frame));
+            Task task{&slot,
+                      &at,
+                      l,
+                      &known,
+                      some ? &clear_[key] : nullptr,
+                      missing,
+                      waited * nearness(light, slot, at)};
+            const std::uint64_t first = missing & chosenIn(at);
+            if (first != missing && first != 0) {
+                task.missing = first;
+                tasks.push_back(task);
+                task.missing = missing & ~first;
+                task.urgency *= kRest;
+            }
+            tasks.push_back(task);
         }
     }
+    std::ranges::stable_sort(tasks, std::ranges::greater(), &Task::urgency);
+    return tasks;
+}
+
+/// \param until when the last rays may be begun, but for the most urgent ones [s]
+void PreviewRows::trace(const PreviewLighting& light, Slot& slot, double until) {
+    const std::vector<Task> tasks = tasksOf(light, slot);
     if (tasks.empty()) return;
     const RayScene& rays = raysOf(slot);
-    parallelFor(tasks.size(), 8, [&](std::size_t first, std::size_t last) {
-        EmitterRowBuilder builder(rays);
-        for (std::size_t t = first; t < last; ++t) run(tasks[t], builder);
-    });
+    const std::size_t atOnce = std::isfinite(until) ? kTasksAtOnce : tasks.size();
+    std::size_t done = 0;
+    while (done < tasks.size() && (done == 0 || steadySeconds() < until)) {
+        const std::size_t count = std::min(atOnce, tasks.size() - done);
+        parallelFor(count, 4, [&](std::size_t first, std::size_t last) {
+            EmitterRowBuilder builder(rays);
+            for (std::size_t t = first; t < last; ++t) run(tasks[done + t], builder);
+        });
+        done += count;
+    }
+    unfinished_ |= done < tasks.size();
+}
+
+/// Vertices of which the chosen ones are known, but not they.
+void PreviewRows::guess(Slot& now) {
+    guessed_.clear();
+    for (std::size_t i = 0; i < now.found.size(); ++i) {
+        const Known*& found = now.found[i];
+        if (!found) continue;
+        const Reached& at = reached_[i / kMostPreviewed];
+        const std::uint64_t missing = at.vertices & ~found->vertices, chosen = chosenIn(at);
+        if (missing == 0 || chosen == 0 || (missing & chosen) != 0) continue;
+        const PreviewSurface::Coarse& from = surfaces_[at.object].coarse()[at.block];
+        Known& known = guessed_[keyOf(at, i % kMostPreviewed)] = *found;
+        for (const std::size_t v : bitsOf(missing)) {
+            if (!found->of(from.first[v]) || !found->of(from.second[v])) continue;
+            known.factors[v] = glm::mix(found->factors[from.second[v]],
+                                        found->factors[from.first[v]], from.share[v]);
+            known.vertices |= std::uint64_t(1) << v;
+        }
+        found = &known;
+    }
+}
+
+/// What is not known of now is as it was known last.
+void PreviewRows::remember(Slot& now) {
+    for (std::size_t i = 0; i < now.found.size(); ++i) {
+        const Known*& found = now.found[i];
+        if (!found) continue;
+        const Reached& at = reached_[i / kMostPreviewed];
+        const Key key = keyOf(at, i % kMostPreviewed);
+        if ((at.vertices & ~found->vertices) == 0) {
+            Known& last = last_[key] = *found;
+            last.frame = frame_;
+        } else if (const auto last = last_.find(key); last != last_.end()) {
+            found = &last->second;
+        }
+    }
 }
 
 /// What is touched now: a few corners, evaluated anew in each frame.

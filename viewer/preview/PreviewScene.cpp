@@ -1,5 +1,6 @@
 #include "viewer/preview/PreviewScene.h"
 
+#include "base/Clock.h"
 #include "radiosity/rays/Margins.h"
 #include "radiosity/rays/Shaft.h"
 
@@ -31,7 +32,20 @@ std::vector<PosedPatches::ObjectPose> PreviewScene::follow(ObjectStates& states,
 }
 
 void PreviewScene::pose(const SceneState& sceneState) {
+    const double begun = steadySeconds();
     posed_.pose(follow(poses_, sceneState));
+    if (!secondsForAll_) secondsForAll_ = steadySeconds() - begun;
+}
+
+bool PreviewScene::isPosedAs(const SceneState& sceneState) const {
+    return std::ranges::equal(poses_, sceneState.objects);
+}
+
+double PreviewScene::secondsToPose(const std::vector<bool>& moves) const {
+    double elements = 0;
+    for (std::uint32_t o = 0; o < set_.objects.size(); ++o)
+        if (moves[o]) elements += set_.objects[o].elements.count;
+    return secondsForAll_.value_or(0) * elements / std::max(1.0, double(set_.elements.size()));
 }
 
 const RayScene& PreviewScene::raysAt(const SceneState& sceneState) {

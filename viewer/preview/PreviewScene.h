@@ -28,8 +28,11 @@ public:
     /// \param set see RadiosityNode::patches()
     explicit PreviewScene(PatchSet set);
 
-    /// Poses things as in this scene state; costs what changes.
+    /// Poses things as in this scene state; costs what changes: the first time, everything.
     void pose(const SceneState& sceneState);
+    bool isPosedAs(const SceneState& sceneState) const;
+    /// About how long pose() takes when these objects move, by how long it took the first time [s].
+    double secondsToPose(const std::vector<bool>& moves) const;
 
     const RayScene& rays() const { return posed_.rays(); }
     /// Rays through things as they are in another scene state; what they touch there is not
@@ -44,6 +47,12 @@ public:
 
     /// Vertices that an object has from the start; those behind them represent corners.
     std::size_t vertices(std::uint32_t object) const { return set_.objects[object].vertices.count; }
+    /// Whether vertices of a block of an object take their light from receivers beside them.
+    bool isBlended(std::uint32_t object, std::uint32_t block) const {
+        const Range& own = set_.objects[object].vertices;
+        return block < own.count / PatchSet::kBlock &&
+               set_.isBlended(own.first / PatchSet::kBlock + block);
+    }
     /// The elements of an object when nothing touches it; their vertices are the set's.
     std::span<const Element> elements(std::uint32_t object) const;
     std::uint32_t firstVertex(std::uint32_t object) const {
@@ -62,6 +71,7 @@ private:
     RayScene aside_;                     ///< of raysAt()
     std::vector<ObjectPose> asidePoses_; ///< of what is in it, by object
     ObjectStates poses_, asideAs_;       ///< what was asked for last
+    std::optional<double> secondsForAll_;
 };
 
 } // namespace penumbra

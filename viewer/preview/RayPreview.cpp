@@ -61,26 +61,32 @@ void RayPreview::takeBack() {
 /// Factors of a light at a block, in the scene states of the anchors.
 RayPreview::Then RayPreview::thenOf(const PreviewLighting& light, std::size_t at,
                                     std::size_t source) const {
-    Then then{};
+    Then then{.blended = rows_.isBlended(rows_.reached()[at])};
     for (std::size_t a = 0; a < light.anchors.size(); ++a)
-        then[a] = &rows_.factors(a + 1, at, source);
+        then.rows[a] = &rows_.known(a + 1, at, source);
     return then;
 }
 
 /// The formula of PreviewLighting for one light, over its exitance. There is no less light than
-/// none, and no more than without obstacles. \param unoccluded asked for what the light gives then,
-/// if that matters
+/// none, and no more than without obstacles. Where rows of an anchor are missing, its light is what
+/// the vertex carries, unless that is not the light of that one point. \param unoccluded asked for
+/// what the light gives then, if that matters
 template <class Unoccluded>
 float RayPreview::change(const PreviewLighting& light, const ShownLight& shown, const Then& then,
                          std::size_t source, std::size_t vertex, float now,
                          const Unoccluded& unoccluded) {
     float change = 0;
+    bool complete = true;
     for (std::size_t a = 0; a < light.anchors.size(); ++a) {
         const PreviewLighting::Anchor& anchor = light.anchors[a];
         const float share = glm::mix(anchor.rest, anchor.behind, shown.behind[vertex]);
-        change += share * (now - (*then[a])[vertex % kBlock]);
+        if (share == 0) continue;
+        complete &= then.rows[a]->of(vertex);
+        change += share * (now - then.rows[a]->factors[vertex % kBlock]);
     }
     const float known = shown.factors[vertex][source];
+    if (!complete && (known < 0 || then.blended)) return 0;
+    if (!complete) change = now - known;
     if (known < 0) return change;
     if (change > 0) change = std::min(change, std::max(0.0f, unoccluded() - known));
     return std::max(change, -known);
@@ -112,11 +118,11 @@ bool RayPreview::bringUpToDate(const PreviewLighting& light, std::size_t reached
     bool any = false;
     for (std::size_t l = 0; l < light.lights.size(); ++l) {
         if (!(at.lights >> l & 1)) continue;
-        const PreviewRows::Factors& now = rows_.factors(0, reached, l);
+        const PreviewRows::Known& now = rows_.known(0, reached, l);
         const Then then = thenOf(light, reached, l);
         for (std::size_t v = begin; v < end; ++v) {
-            if (!(at.vertices >> (v - begin) & 1)) continue;
-            const float by = change(light, shown, then, l, v, now[v - begin],
+            if (!(at.vertices >> (v - begin) & 1) || !now.of(v)) continue;
+            const float by = change(light, shown, then, l, v, now.factors[v - begin],
                                     [&] { return rows_.unoccluded(at, l, v); });
             if (by == 0) continue;
             shown.direct[v] = shown.direct[v] + light.lights[l].exitance * by;
@@ -201,12 +207,12 @@ void RayPreview::rest(const PreviewLighting& expected, const ShownOf& shown, con
     if (expected.lights.empty())
         rows_.forget();
     else if (!rows_.knows(expected))
-        rows_.prepare(expected, shown, view);
+        rows_.prepare(expected, shown, view, seconds_);
 }
 
 void RayPreview::update(const PreviewLighting& light, const ShownOf& shown, const View* view) {
     takeBack();
-    rows_.prepare(light, shown, view);
+    rows_.prepare(light, shown, view, seconds_);
     listReached(light, shown);
     std::vector<std::vector<Rgb>> over; // of copies over their vertices
     for (const Surface& surface : surfaces_) {

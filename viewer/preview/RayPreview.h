@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -21,10 +22,15 @@ namespace penumbra {
 class RayPreview : public Preview {
 public:
     /// \param samples as SolverOptions::samples \param patches see PreviewRows
+    /// \param seconds that the rays of a frame may take: what has no turn then stays as it was
+    /// shown
+    ///        last, or as it is lit without a preview
     RayPreview(int samples, PreviewRows::PatchesOf patches,
-               PreviewRows::Indexing indexing = PreviewRows::Indexing::atOnce)
-        : rows_(samples, std::move(patches), indexing) {}
+               PreviewRows::Indexing indexing = PreviewRows::Indexing::atOnce,
+               double seconds = std::numeric_limits<double>::infinity())
+        : rows_(samples, std::move(patches), indexing), seconds_(seconds) {}
 
+    bool unfinished() const override { return rows_.unfinished(); }
     PreviewMethod method() const override { return PreviewMethod::rays; }
     void takeBack() override;
     void update(const PreviewLighting& light, const ShownOf& shown, const View* view) override;
@@ -47,7 +53,10 @@ private:
         SplitCorners corners;
         std::vector<Rgb> copies; ///< direct light
     };
-    using Then = std::array<const PreviewRows::Factors*, 3>; ///< by anchor
+    struct Then {
+        std::array<const PreviewRows::Known*, 3> rows{}; ///< by anchor
+        bool blended = false; ///< what vertices carry is of several points
+    };
     Then thenOf(const PreviewLighting& light, std::size_t at, std::size_t source) const;
     template <class Unoccluded>
     static float change(const PreviewLighting& light, const ShownLight& shown, const Then& then,
@@ -63,6 +72,7 @@ private:
     Rgb before(const Surface& surface, const PreviewRows::Touched& corner, std::size_t drawn) const;
 
     PreviewRows rows_;
+    double seconds_;
     std::vector<Block> blocks_; ///< as reached()
     std::vector<Surface> surfaces_;
 };

@@ -9,9 +9,9 @@ namespace penumbra {
 
 namespace {
 
-RadiosityOptions directRoom() {
+RadiosityOptions directRoom(float elementSize = 0.2f) {
     RadiosityOptions options = fineRoom();
-    options.meshing = {.patchSize = 0.8f, .elementSize = 0.2f};
+    options.meshing = {.patchSize = 0.8f, .elementSize = elementSize};
     options.solving.samples = 16;
     options.solving.directOnly = true;
     return options;
@@ -25,7 +25,8 @@ glm::dmat4 posed(double x, double y, double angle) {
 
 /// A room in which the box stands somewhere, settled.
 struct PosedRoom : PreviewRoom {
-    explicit PosedRoom(const glm::dmat4& place) : PreviewRoom(directRoom()) {
+    explicit PosedRoom(const glm::dmat4& place, const RadiosityOptions& options = directRoom())
+        : PreviewRoom(options) {
         room.box->setMatrix(place);
         settleAndShow();
     }
@@ -78,11 +79,11 @@ std::vector<float> drawnLight(const LitGeometry& geometry, const ShownLight* bro
     return light;
 }
 
-/// Corners at which the light of `before`, brought to where the box stands in `after`, is not what
-/// radiosity has there.
-std::size_t differing(PosedRoom& before, PosedRoom& after, SceneStatePtr then = nullptr) {
-    if (!then) then = before.sceneState();
-    before.vertices.update(before.preview(after.sceneState(), then), before.shownOf(), nullptr);
+/// Corners at which the light that is shown of `before` is not what radiosity has in `after`.
+/// \param where those of the room there that matter
+std::size_t differing(
+    PosedRoom& before, PosedRoom& after,
+    const std::function<bool(glm::vec3)>& where = [](glm::vec3) { return true; }) {
     std::size_t wrong = 0;
     const auto objects = before.room.node->objects();
     for (std::size_t o = 0; o < objects.size(); ++o) {
@@ -95,8 +96,9 @@ std::size_t differing(PosedRoom& before, PosedRoom& after, SceneStatePtr then = 
         for (std::size_t i = 0; i < std::min(is.size(), shouldBe.size()); ++i) {
             if (std::abs(is[i] - shouldBe[i]) <= 3e-3f * std::max(is[i], shouldBe[i]) + 1e-3f)
                 continue;
-            if (wrong++ > 4) continue;
             const glm::vec3 at = geometry.data().positions[geometry.data().indices[i]];
+            if (objects[o].path == "/room" && !where(at)) continue;
+            if (wrong++ > 4) continue;
             ADD_FAILURE() << objects[o].path << " at (" << at.x << ", " << at.y << ", " << at.z
                           << "): " << is[i] << " for " << shouldBe[i];
         }
@@ -104,21 +106,28 @@ std::size_t differing(PosedRoom& before, PosedRoom& after, SceneStatePtr then = 
     return wrong;
 }
 
+/// The same once the light of `before` is brought to where the box stands in `after`.
+std::size_t broughtAmiss(PosedRoom& before, PosedRoom& after, SceneStatePtr then = nullptr) {
+    if (!then) then = before.sceneState();
+    before.vertices.update(before.preview(after.sceneState(), then), before.shownOf(), nullptr);
+    return differing(before, after);
+}
+
 TEST(RayPreview, AThingThatStandsOnTheFloorHasItsContactsWhereverItIsPut) {
     PosedRoom before(posed(0.3, 0.2, 0.3)), after(posed(-0.53, 0.61, 0.8));
-    EXPECT_EQ(differing(before, after), 0u);
+    EXPECT_EQ(broughtAmiss(before, after), 0u);
 }
 
 TEST(RayPreview, AThingThatIsLiftedUncoversWhatItStoodOn) {
     PosedRoom before(posed(0.3, 0.2, 0.3));
     PosedRoom after(glm::translate(glm::dmat4(1.0), glm::dvec3(0.3, 0.2, 0.7)));
-    EXPECT_EQ(differing(before, after), 0u);
+    EXPECT_EQ(broughtAmiss(before, after), 0u);
 }
 
 TEST(RayPreview, AThingThatIsPutDownTouchesTheFloor) {
     PosedRoom before(glm::translate(glm::dmat4(1.0), glm::dvec3(0.3, 0.2, 0.7)));
     PosedRoom after(posed(0.3, 0.2, 0.3));
-    EXPECT_EQ(differing(before, after), 0u);
+    EXPECT_EQ(broughtAmiss(before, after), 0u);
 }
 
 TEST(RayPreview, AThingThatIsDraggedAlongLeavesNoTrace) {
@@ -135,20 +144,20 @@ TEST(RayPreview, AThingThatIsDraggedAlongLeavesNoTrace) {
         before.vertices.update(before.preview(std::make_shared<SceneState>(now), then),
                                before.shownOf(), nullptr);
     }
-    EXPECT_EQ(differing(before, after), 0u);
+    EXPECT_EQ(broughtAmiss(before, after), 0u);
 }
 
 TEST(RayPreview, AThingThatMovesShadesAMeshThatShinesAsRadiosityHasIt) {
     const glm::dmat4 hung = glm::translate(glm::dmat4(1.0), glm::dvec3(0.2, 0.3, 0));
     GlowingRoom before(posed(0.3, 0.2, 0.3), hung), after(posed(-0.53, 0.61, 0.8), hung);
-    EXPECT_EQ(differing(before, after), 0u);
+    EXPECT_EQ(broughtAmiss(before, after), 0u);
 }
 
 TEST(RayPreview, AMeshThatShinesTakesItsLightAlong) {
     const glm::dmat4 box = posed(0.3, 0.2, 0.3);
     GlowingRoom before(box, glm::translate(glm::dmat4(1.0), glm::dvec3(0.2, 0.3, 0)));
     GlowingRoom after(box, posed(-0.4, -0.3, 0.7));
-    EXPECT_EQ(differing(before, after), 0u);
+    EXPECT_EQ(broughtAmiss(before, after), 0u);
 }
 
 TEST(RayPreview, AMoveGoesOnFromWhatWasMadeReadyAtRest) {
@@ -159,7 +168,39 @@ TEST(RayPreview, AMoveGoesOnFromWhatWasMadeReadyAtRest) {
     for (std::size_t o = 0; o < expected.objects.size(); ++o)
         expected.objects[o].moves = before.room.node->objects()[o].path == "/box";
     before.vertices.rest(expected, before.shownOf(), nullptr);
-    EXPECT_EQ(differing(before, after, then), 0u);
+    EXPECT_EQ(broughtAmiss(before, after, then), 0u);
+}
+
+/// Brings it up to date with as little time a frame as there can be. \return frames
+int inSlices(PosedRoom& before, const PreviewLighting& light, RayPreview& slices) {
+    int frames = 0;
+    do {
+        slices.update(light, before.shownOf(), nullptr);
+    } while (++frames < 1000 && slices.unfinished());
+    return frames;
+}
+
+RayPreview hurried(PosedRoom& room) {
+    return {directRoom().solving.samples, [&room] { return room.room.node->patches(); },
+            PreviewRows::Indexing::atOnce, 0};
+}
+
+TEST(RayPreview, WhatHasNoTurnInAFrameComesInALaterOne) {
+    const RadiosityOptions fine = directRoom(0.05f);
+    PosedRoom before(glm::translate(glm::dmat4(1.0), glm::dvec3(0.3, 0.2, 0.7)), fine);
+    PosedRoom after(glm::translate(glm::dmat4(1.0), glm::dvec3(-0.53, 0.61, 0.3)), fine);
+    RayPreview slices = hurried(before);
+    const PreviewLighting light = before.preview(after.sceneState(), before.sceneState());
+    EXPECT_GT(inSlices(before, light, slices), 1);
+    EXPECT_EQ(differing(before, after), 0u);
+}
+
+TEST(RayPreview, ContactsThatTakeTooLongAreLeftToRadiosity) {
+    PosedRoom before(posed(0.3, 0.2, 0.3)), after(posed(-0.53, 0.61, 0.8));
+    RayPreview slices = hurried(before);
+    inSlices(before, before.preview(after.sceneState(), before.sceneState()), slices);
+    const auto beside = [](glm::vec3 at) { return glm::distance(at, {-0.53f, 0.61f, 0}) < 0.9f; };
+    EXPECT_EQ(differing(before, after, std::not_fn(beside)), 0u) << "what it stood on is uncovered";
 }
 
 } // namespace
