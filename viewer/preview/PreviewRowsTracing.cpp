@@ -194,12 +194,11 @@ void PreviewRows::guess(Slot& now) {
         const Reached& at = reached_[i / kMostPreviewed];
         const std::uint64_t missing = at.vertices & ~found->vertices, chosen = chosenIn(at);
         if (missing == 0 || chosen == 0 || (missing & chosen) != 0) continue;
-        const PreviewSurface::Coarse& from = surfaces_[at.object].coarse()[at.block];
+        const CoarseBlock& from = surfaces_[at.object].coarse()[at.block];
         Known& known = guessed_[keyOf(at, i % kMostPreviewed)] = *found;
         for (const std::size_t v : bitsOf(missing)) {
-            if (!found->of(from.first[v]) || !found->of(from.second[v])) continue;
-            known.factors[v] = glm::mix(found->factors[from.second[v]],
-                                        found->factors[from.first[v]], from.share[v]);
+            if (!found->of(from.nearest[v]) || !found->of(from.secondNear[v])) continue;
+            known.factors[v] = from.guess(found->factors, v);
             known.vertices |= std::uint64_t(1) << v;
         }
         found = &known;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 namespace penumbra {
@@ -32,6 +30,7 @@ PreviewSurface::PreviewSurface(std::shared_ptr<const LitGeometry> geometry,
     : geometry_(std::move(geometry)), ownVertices_(stage.vertices(object)) {
     const LitMeshData& data = geometry_->data();
     blocks_.resize(ownVertices_ / kBlock);
+    std::vector<std::uint64_t> used(blocks_.size());
     const std::uint32_t first = stage.firstVertex(object);
     std::uint32_t entry = 0;
     for (const Element& element : stage.elements(object)) {
@@ -39,6 +38,7 @@ PreviewSurface::PreviewSurface(std::shared_ptr<const LitGeometry> geometry,
         for (std::uint32_t& v : own) {
             v -= first;
             blocks_[v / kBlock].add(data.positions[v]);
+            used[v / kBlock] |= std::uint64_t(1) << v % kBlock;
         }
         elements_.push_back(own);
         largestElement_ = std::max(largestElement_,
@@ -46,42 +46,10 @@ PreviewSurface::PreviewSurface(std::shared_ptr<const LitGeometry> geometry,
         firstEntry_.push_back(entry);
         entry += entryCount(own);
     }
-    for (std::size_t b = 0; b < blocks_.size(); ++b) coarse_.push_back(coarseOf(b));
-}
-
-/// A vertex is chosen unless one that was chosen before is near: a quarter of the block.
-PreviewSurface::Coarse PreviewSurface::coarseOf(std::size_t block) const {
-    constexpr float kAlike = 0.8f; // cosine of normals
-    const LitMeshData& data = geometry_->data();
-    const std::size_t begin = block * kBlock;
-    const float near = 0.25f * blocks_[block].diagonal();
-    Coarse coarse;
-    std::vector<std::uint8_t> chosen;
-    const auto distance = [&](std::size_t a, std::size_t b) {
-        const bool alike = glm::dot(data.normals[begin + a], data.normals[begin + b]) > kAlike;
-        return alike ? glm::distance(data.positions[begin + a], data.positions[begin + b])
-                     : std::numeric_limits<float>::infinity();
-    };
-    for (std::uint8_t v = 0; v < kBlock; ++v) {
-        if (std::ranges::any_of(chosen, [&](std::uint8_t c) { return distance(v, c) < near; }))
-            continue;
-        chosen.push_back(v);
-        coarse.chosen |= std::uint64_t(1) << v;
-    }
-    for (std::size_t v = 0; v < kBlock; ++v) {
-        std::array<std::pair<float, std::uint8_t>, 2> nearest;
-        nearest.fill({std::numeric_limits<float>::infinity(), chosen.front()});
-        for (const std::uint8_t c : chosen) {
-            const std::pair<float, std::uint8_t> found{distance(v, c), c};
-            if (found < nearest[1]) nearest[1] = found;
-            if (nearest[1] < nearest[0]) std::swap(nearest[0], nearest[1]);
-        }
-        coarse.first[v] = nearest[0].second;
-        coarse.second[v] = nearest[1].second;
-        const float sum = nearest[0].first + nearest[1].first;
-        coarse.share[v] = std::isfinite(sum) && sum > 0 ? nearest[1].first / sum : 1;
-    }
-    return coarse;
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+        coarse_.push_back(coarseBlock(std::span(data.positions).subspan(b * kBlock, kBlock),
+                                      std::span(data.normals).subspan(b * kBlock, kBlock),
+                                      used[b]));
 }
 
 /// Of a bent element it is enough that one corner's normal is turned there.

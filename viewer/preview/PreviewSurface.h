@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Bounds.h"
+#include "radiosity/clusters/CoarseBlock.h"
 #include "scenegraph/LitGeometry.h"
 #include "viewer/preview/PreviewScene.h"
 
@@ -39,14 +40,7 @@ public:
     std::size_t ownVertices() const { return ownVertices_; }
     /// Boxes of blocks of the vertices from the start, empty ones left out [m, local].
     std::span<const Bounds> blocks() const { return blocks_; }
-    /// Some vertices of a block, from which the others can be guessed: each has near to it one or
-    /// two that are turned the same way, and a share of the first.
-    struct Coarse {
-        std::uint64_t chosen = 0; ///< a bit each
-        std::array<std::uint8_t, kBlock> first{}, second{};
-        std::array<float, kBlock> share{};
-    };
-    std::span<const Coarse> coarse() const { return coarse_; } ///< as blocks()
+    std::span<const CoarseBlock> coarse() const { return coarse_; } ///< as blocks()
     /// Diagonal of an element's box, at most [m, local].
     float largestElement() const { return largestElement_; }
     /// Vertices from the start that have an element which does not turn its back on a point: one
@@ -69,15 +63,13 @@ public:
     Bounds elementBox(std::uint32_t corner) const;
 
 private:
-    Coarse coarseOf(std::size_t block) const;
-
     std::shared_ptr<const LitGeometry> geometry_;
     std::uint64_t topology_ = 0;
     std::size_t ownVertices_ = 0;
     std::vector<std::array<std::uint32_t, 4>> elements_; ///< of vertices from the start
     std::vector<std::uint32_t> firstEntry_;              ///< of each element, in the indices
     std::vector<Bounds> blocks_;
-    std::vector<Coarse> coarse_;
+    std::vector<CoarseBlock> coarse_;
     float largestElement_ = 0;
     std::vector<StandIn> standIns_;
 };

@@ -1,10 +1,16 @@
 #include "radiosity/process/store/RoughLight.h"
 
+#include "base/Bits.h"
 #include "base/Parallel.h"
+#include "radiosity/clusters/CoarseBlock.h"
 #include "radiosity/rows/EmitterSender.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdint>
+#include <numeric>
+#include <span>
 
 namespace penumbra {
 
@@ -12,13 +18,14 @@ namespace {
 
 constexpr std::uint32_t kBlock = PatchSet::kBlock;
 constexpr int kSamples = 16;          ///< that an emitter is made ready with
-constexpr std::uint32_t kFirst = 0xf; ///< those of them that are traced
+constexpr std::uint32_t kFirst = 0xf; ///< those of them that are traced where all receivers are
 constexpr double kMostReflected = 0.98;
 
-float visibility(const EmitterSender& sender, const RayScene& rays, const Receiver& receiver) {
+float visibility(const EmitterSender& sender, const RayScene& rays, const Receiver& receiver,
+                 std::uint32_t samples) {
     SampleGroup group;
     sender.sampleGroup(receiver, 0, group);
-    if ((group.rays.used & kFirst) != 0) group.rays.used &= kFirst;
+    if ((group.rays.used & samples) != 0) group.rays.used &= samples;
     rays.occluded(group.rays);
     float total = 0, seen = 0;
     group.add(total, seen);
@@ -59,39 +66,89 @@ Rgb ambientOf(const PatchSet& set, const std::vector<Rgb>& direct) {
     return {float(ambient.r), float(ambient.g), float(ambient.b)};
 }
 
+/// Receivers of a block, and those of them that are traced.
+struct TracedBlock {
+    std::uint64_t receivers = 0, traced = 0; ///< a bit each
+    CoarseBlock coarse;                      ///< where not all are traced
+};
+
+std::vector<TracedBlock> blocksOf(const PatchSet& set, bool all) {
+    std::vector<TracedBlock> blocks(set.vertices.size() / kBlock);
+    parallelFor(blocks.size(), 16, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) {
+            if (set.isBlended(std::uint32_t(b))) continue;
+            std::array<glm::vec3, kBlock> positions{}, normals{};
+            for (std::size_t i = 0; i < kBlock; ++i) {
+                const Receiver& receiver = set.vertices[b * kBlock + i].receiver;
+                if (isPadding(receiver)) continue;
+                positions[i] = receiver.position;
+                normals[i] = receiver.normal;
+                blocks[b].receivers |= std::uint64_t(1) << i;
+            }
+            blocks[b].traced = blocks[b].receivers;
+            if (all) continue;
+            blocks[b].coarse = coarseBlock(positions, normals, blocks[b].receivers);
+            blocks[b].traced = blocks[b].coarse.chosen;
+        }
+    });
+    return blocks;
+}
+
+std::size_t tracedIn(const std::vector<TracedBlock>& blocks) {
+    return std::accumulate(blocks.begin(), blocks.end(), std::size_t(0),
+                           [](std::size_t sum, const TracedBlock& block) {
+                               return sum + std::size_t(std::popcount(block.traced));
+                           });
+}
+
+/// Vertices that take their light from receivers beside them.
+void blend(const PatchSet& set, std::vector<Rgb>& light) {
+    parallelFor(set.vertices.size() / kBlock, 4, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) {
+            if (!set.isBlended(std::uint32_t(b))) continue;
+            for (auto v = std::uint32_t(b * kBlock); v < (b + 1) * kBlock; ++v)
+                if (!isPadding(set.vertices[v].receiver))
+                    set.forEachReceiver(v, [&](std::uint32_t receiver, float weight) {
+                        light[v] += weight * light[receiver];
+                    });
+        }
+    });
+}
+
 } // namespace
 
 RoughLight roughLight(const PatchSet& set, const RayScene& rays, std::size_t most) {
-    const std::size_t receivers = set.vertices.size();
-    if (set.emitters.empty() || receivers * set.emitters.size() > most) return {};
+    const std::size_t emitters = set.emitters.size();
+    if (emitters == 0) return {};
+    std::vector<TracedBlock> blocks = blocksOf(set, true);
+    std::uint32_t samples = kFirst;
+    if (tracedIn(blocks) * emitters > most) {
+        blocks = blocksOf(set, false);
+        samples = ~0u; // the noise of one would be seen over all that is guessed from it
+    }
+    if (tracedIn(blocks) * emitters > most) return {};
     std::vector<EmitterSender> senders;
     for (const Emitter& emitter : set.emitters) senders.emplace_back(emitter, kSamples, kSamples);
-    RoughLight light;
-    light.direct.resize(receivers);
-    const auto eachVertex = [&](bool blended, auto&& lit) {
-        parallelFor(receivers / kBlock, 4, [&](std::size_t first, std::size_t last) {
-            for (std::size_t b = first; b < last; ++b) {
-                if (set.isBlended(std::uint32_t(b)) != blended) continue;
-                for (auto v = std::uint32_t(b * kBlock); v < (b + 1) * kBlock; ++v)
-                    if (!isPadding(set.vertices[v].receiver)) light.direct[v] = lit(v);
-            }
-        });
-    };
-    eachVertex(false, [&](std::uint32_t v) {
-        const Receiver& receiver = set.vertices[v].receiver;
+    const auto lit = [&](const Receiver& receiver) {
         Rgb sum;
         for (const EmitterSender& sender : senders)
             if (const float factor = sender.formFactor(receiver); factor > 0)
-                sum += factor * visibility(sender, rays, receiver) * sender.emitter().exitance;
+                sum += factor * visibility(sender, rays, receiver, samples) *
+                       sender.emitter().exitance;
         return sum;
+    };
+    RoughLight light;
+    light.direct.resize(set.vertices.size());
+    parallelFor(blocks.size(), 4, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) {
+            const auto [receivers, traced, coarse] = blocks[b];
+            const auto of = std::span(light.direct).subspan(b * kBlock, kBlock);
+            for (const std::size_t i : bitsOf(traced))
+                of[i] = lit(set.vertices[b * kBlock + i].receiver);
+            for (const std::size_t i : bitsOf(receivers & ~traced)) of[i] = coarse.guess(of, i);
+        }
     });
-    eachVertex(true, [&](std::uint32_t v) {
-        Rgb sum;
-        set.forEachReceiver(v, [&](std::uint32_t receiver, float weight) {
-            sum += weight * light.direct[receiver];
-        });
-        return sum;
-    });
+    blend(set, light.direct);
     light.ambient = ambientOf(set, light.direct);
     return light;
 }

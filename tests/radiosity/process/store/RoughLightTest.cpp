@@ -48,6 +48,20 @@ TEST(RoughLight, IsAsBrightInAFurnaceAsAllLight) {
     EXPECT_NEAR(roughLight(lit.patches(), lit.rays()).ambient.g, 1, 0.02);
 }
 
+TEST(RoughLight, IsGuessedWhereThereIsNotTheTimeForAllReceivers) {
+    const MeshingOptions fine{.patchSize = 0.25f, .elementSize = 0.0625f};
+    const Solution solution(shadowedRoom(), fine, {.directOnly = true});
+    const std::vector<Rgb>& light = solution.lighting.direct;
+    const RoughLight rough = roughLight(solution.patches(), solution.rays, light.size() / 2);
+    ASSERT_EQ(rough.direct.size(), light.size());
+    double sum = 0, apart = 0;
+    for (std::size_t v = 0; v < light.size(); ++v) {
+        sum += double(light[v].g);
+        apart += std::abs(double(rough.direct[v].g) - double(light[v].g));
+    }
+    EXPECT_LT(apart, 0.1 * sum);
+}
+
 TEST(RoughLight, IsNotWorthItWithTooManyPairsAndThereIsNoneWithoutEmitters) {
     const Solution solution(shadowedRoom(), kCoarse, {.directOnly = true});
     EXPECT_TRUE(roughLight(solution.patches(), solution.rays, 100).empty());
