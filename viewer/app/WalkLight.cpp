@@ -106,8 +106,8 @@ bool WalkLight::update(const Walkthrough& walk, const View& view) {
     ages_.advance(node_->objects(), walk.time());
     updatePreview(walk, view);
     const RadiosityState& state = node_->state();
-    const bool on = blend_.preview().active() && preview_->unfinished();
-    const bool news = on || blend_.changing() || blocks_ != state.blocksTaken ||
+    const bool unfinished = blend_.preview().active() && preview_->unfinished();
+    const bool news = unfinished || blend_.changing() || blocks_ != state.blocksTaken ||
                       phase_ != state.phase || solution_ != state.solution ||
                       unlit_ != node_->unlit().size();
     blocks_ = state.blocksTaken;

@@ -67,9 +67,9 @@ public:
         std::uint64_t vertices = ~std::uint64_t(0);
     };
     /// Traces what is missing, in the order in which it matters: what is near to what moves, and
-    /// what has waited for long. \param light of some lights; without anchors: what it is like now,
-    /// so that little is missing
-    ///        when something begins to move
+    /// what has waited for long.
+    /// \param light of some lights; without anchors: what it is like now, so that little is missing
+    /// when something begins to move
     /// \param shown what vertices carry
     /// \param view from where it is seen: what can't be seen is left out; null: nothing is
     /// \param seconds that rays are begun for; something is always traced

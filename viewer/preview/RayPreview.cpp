@@ -69,8 +69,8 @@ RayPreview::Then RayPreview::thenOf(const PreviewLighting& light, std::size_t at
 
 /// The formula of PreviewLighting for one light, over its exitance. There is no less light than
 /// none, and no more than without obstacles. Where rows of an anchor are missing, its light is what
-/// the vertex carries, unless that is not the light of that one point. \param unoccluded asked for
-/// what the light gives then, if that matters
+/// the vertex carries, unless that is not the light of that one point.
+/// \param unoccluded asked for what the light gives then, if that matters
 template <class Unoccluded>
 float RayPreview::change(const PreviewLighting& light, const ShownLight& shown, const Then& then,
                          std::size_t source, std::size_t vertex, float now,

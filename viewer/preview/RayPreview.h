@@ -23,8 +23,7 @@ class RayPreview : public Preview {
 public:
     /// \param samples as SolverOptions::samples \param patches see PreviewRows
     /// \param seconds that the rays of a frame may take: what has no turn then stays as it was
-    /// shown
-    ///        last, or as it is lit without a preview
+    /// shown last, or as it is lit without a preview
     RayPreview(int samples, PreviewRows::PatchesOf patches,
                PreviewRows::Indexing indexing = PreviewRows::Indexing::atOnce,
                double seconds = std::numeric_limits<double>::infinity())

@@ -141,7 +141,7 @@ RoughLight roughLight(const PatchSet& set, const RayScene& rays, std::size_t mos
     light.direct.resize(set.vertices.size());
     parallelFor(blocks.size(), 4, [&](std::size_t first, std::size_t last) {
         for (std::size_t b = first; b < last; ++b) {
-            const auto [receivers, traced, coarse] = blocks[b];
+            const auto& [receivers, traced, coarse] = blocks[b];
             const auto of = std::span(light.direct).subspan(b * kBlock, kBlock);
             for (const std::size_t i : bitsOf(traced))
                 of[i] = lit(set.vertices[b * kBlock + i].receiver);
