@@ -158,13 +158,14 @@ PreviewRows::Slot PreviewRows::makeSlot(const PreviewLighting& light, const Scen
     return slot;
 }
 
-/// What is touched in a scene state, unless that has taken longer than rays may.
+/// What is touched in a scene state. If that takes longer than rays may, it is not asked again.
 void PreviewRows::findContacts(Slot& slot, double seconds) {
     const double begun = steadySeconds();
     stage_->pose(*slot.of);
     slot.touched = stage_->touched();
     slot.contacts = true;
-    if (steadySeconds() - begun > seconds) contacts_ = false;
+    slow_ = steadySeconds() - begun > seconds ? slow_ + 1 : 0;
+    if (slow_ > 1) contacts_ = false; // once may be chance
 }
 
 /// Slot 0 is now, 1 ... are the anchors; keeps those that are there already.
@@ -235,7 +236,7 @@ std::vector<PreviewRows::Reached> PreviewRows::reachedOf(const PreviewLighting& 
         const Bounds drawn = grown(blocks[b], surface.largestElement());
         if (frustum && !frustum->mayContain(transformed(drawn, toWorld))) continue;
         if (const unsigned lights = lightsReaching(light, object, blocks[b]))
-            reached.push_back({object, b, lights, vertices});
+            reached.push_back({object, b, lights, vertices | surface.coarse()[b].chosen});
     }
     addReachedStandIns(light, object, reached);
     return reached;
@@ -356,8 +357,11 @@ void PreviewRows::prepare(const PreviewLighting& light, const ShownOf& shown, co
     // Now comes last: what all states have in common is traced as it was when it was lit.
     const double soon = std::isfinite(seconds) ? begun : seconds; // vertices carry it as well
     for (std::size_t s = slots_.size(); s-- > 1;) trace(light, slots_[s], soon);
-    unfinished_ = false;
+    const bool anchors = std::exchange(unfinished_, false);
     trace(light, slots_.front(), begun + seconds);
+    for (std::size_t s = slots_.size(); anchors && !unfinished_ && s-- > 1;)
+        trace(light, slots_[s], begun + seconds);
+    unfinished_ |= anchors;
     guess(slots_.front());
     remember(slots_.front());
     traceTouched();
@@ -371,6 +375,7 @@ void PreviewRows::forget() {
     guessed_.clear();
     frame_ = 0;
     contacts_ = true;
+    slow_ = 0;
     reached_.clear();
     touched_.clear();
 }

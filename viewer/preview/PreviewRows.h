@@ -76,7 +76,7 @@ public:
     void prepare(const PreviewLighting& light, const ShownOf& shown, const View* view,
                  double seconds);
     /// Whether something is missing still: the same call goes on.
-    bool unfinished() const { return unfinished_; }
+    bool unfinished() const { return unfinished_ || making_.valid(); }
     /// Drops what is known.
     void forget();
     std::span<const Reached> reached() const { return reached_; }
@@ -88,6 +88,7 @@ public:
         std::array<float, kBlock> factors{}; ///< F V
         std::uint64_t vertices = 0;          ///< bits: of which it is known
         std::uint32_t frame = 0;             ///< when it was traced
+        std::uint32_t shown = 0;             ///< the last frame in which it was asked for
 
         bool of(std::size_t vertex) const { return vertices >> vertex % kBlock & 1; }
     };
@@ -134,6 +135,7 @@ private:
         Known* clear; ///< of vertices that nothing that moves is before; null: not to be asked
         std::uint64_t missing;
         float urgency;
+        std::uint64_t found = 0; ///< vertices of `clear` that were traced with it
     };
     static Key keyOf(std::uint32_t object, std::uint64_t piece) {
         return Key(object) << 32 | piece;
@@ -171,7 +173,7 @@ private:
     void remember(Slot& now);
     void traceTouched();
     bool isClear(const Task& task, std::size_t vertex, const Receiver& receiver) const;
-    void run(const Task& task, EmitterRowBuilder& builder) const;
+    void run(Task& task, EmitterRowBuilder& builder) const;
     Receiver receiver(const Slot& slot, std::uint32_t object, std::size_t vertex) const;
     Receiver ownReceiver(const Slot& slot, std::uint32_t object, std::size_t vertex) const;
 
@@ -190,6 +192,7 @@ private:
     std::uint32_t frame_ = 0;     ///< since forget()
     bool unfinished_ = false;
     bool contacts_ = true; ///< are found, of what moves now; else they are left to radiosity
+    int slow_ = 0;         ///< times in a row that finding them took too long
     bool behind_ = false;  ///< stage_ is not posed as things are: see catchUp()
     std::vector<bool> moves_, lightMoves_;
     std::vector<std::vector<Emitter>> lights_; ///< that clear_ is of

@@ -46,7 +46,8 @@ bool PreviewRows::isClear(const Task& task, std::size_t vertex, const Receiver& 
     });
 }
 
-void PreviewRows::run(const Task& task, EmitterRowBuilder& builder) const {
+/// What is known then is noted by trace(): another task may be of the same block.
+void PreviewRows::run(Task& task, EmitterRowBuilder& builder) const {
     std::array<Receiver, kBlock> receivers{};
     std::uint64_t wanted = 0, clear = 0;
     const std::size_t begin = task.at->block * kBlock;
@@ -68,9 +69,7 @@ void PreviewRows::run(const Task& task, EmitterRowBuilder& builder) const {
             known.factors[std::size_t(i)] += factor;
         });
     }
-    task.known->vertices |= task.missing;
-    if (clear == 0) return;
-    task.clear->vertices |= clear;
+    task.found = clear;
     for (const std::size_t i : bitsOf(clear)) {
         task.known->factors[i] = task.clear->factors[i];
     }
@@ -169,7 +168,7 @@ std::vector<PreviewRows::Task> PreviewRows::tasksOf(const PreviewLighting& light
 
 /// \param until when the last rays may be begun, but for the most urgent ones [s]
 void PreviewRows::trace(const PreviewLighting& light, Slot& slot, double until) {
-    const std::vector<Task> tasks = tasksOf(light, slot);
+    std::vector<Task> tasks = tasksOf(light, slot);
     if (tasks.empty()) return;
     const RayScene& rays = raysOf(slot);
     const std::size_t atOnce = std::isfinite(until) ? kTasksAtOnce : tasks.size();
@@ -180,6 +179,10 @@ void PreviewRows::trace(const PreviewLighting& light, Slot& slot, double until) 
             EmitterRowBuilder builder(rays);
             for (std::size_t t = first; t < last; ++t) run(tasks[done + t], builder);
         });
+        for (const Task& task : std::span(tasks).subspan(done, count)) {
+            task.known->vertices |= task.missing;
+            if (task.found != 0) task.clear->vertices |= task.found;
+        }
         done += count;
     }
     unfinished_ |= done < tasks.size();
@@ -214,11 +217,13 @@ void PreviewRows::remember(Slot& now) {
         const Key key = keyOf(at, i % kMostPreviewed);
         if ((at.vertices & ~found->vertices) == 0) {
             Known& last = last_[key] = *found;
-            last.frame = frame_;
+            last.frame = last.shown = frame_;
         } else if (const auto last = last_.find(key); last != last_.end()) {
+            last->second.shown = frame_;
             found = &last->second;
         }
     }
+    std::erase_if(last_, [&](const auto& entry) { return entry.second.shown != frame_; });
 }
 
 /// What is touched now: a few corners, evaluated anew in each frame.

@@ -86,7 +86,7 @@ std::vector<TracedBlock> blocksOf(const PatchSet& set, bool all) {
                 blocks[b].receivers |= std::uint64_t(1) << i;
             }
             blocks[b].traced = blocks[b].receivers;
-            if (all) continue;
+            if (all || b * kBlock >= set.firstPrivate) continue; // those lie here and there
             blocks[b].coarse = coarseBlock(positions, normals, blocks[b].receivers);
             blocks[b].traced = blocks[b].coarse.chosen;
         }

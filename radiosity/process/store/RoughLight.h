@@ -23,7 +23,7 @@ struct RoughLight {
 /// Few shadow rays an emitter and receiver, and none that is remembered.
 /// \param most pairs of an emitter and a receiver that are worth it; of more, some receivers of
 /// each
-///        block are traced, and the others guessed from them (CoarseBlock)
+///        block are traced, by more rays, and the others guessed from them (CoarseBlock)
 /// \return empty if those are more still, or there is no emitter
 RoughLight roughLight(const PatchSet& set, const RayScene& rays, std::size_t most = 6'000'000);
 
