@@ -135,7 +135,7 @@ private:
         Known* clear; ///< of vertices that nothing that moves is before; null: not to be asked
         std::uint64_t missing;
         float urgency;
-        std::uint64_t found = 0; ///< vertices of `clear` that were traced with it
+        std::uint64_t cleared = 0; ///< vertices that `clear` has from now on
     };
     static Key keyOf(std::uint32_t object, std::uint64_t piece) {
         return Key(object) << 32 | piece;

@@ -2,6 +2,7 @@
 #include "base/Bits.h"
 #include "base/Clock.h"
 #include "base/Parallel.h"
+#include "importance/Proximity.h"
 #include "radiosity/rays/Shaft.h"
 #include "radiosity/rows/EmitterRowBuilder.h"
 #include "viewer/preview/PreviewRows.h"
@@ -69,7 +70,7 @@ void PreviewRows::run(Task& task, EmitterRowBuilder& builder) const {
             known.factors[std::size_t(i)] += factor;
         });
     }
-    task.found = clear;
+    task.cleared = clear;
     for (const std::size_t i : bitsOf(clear)) {
         task.known->factors[i] = task.clear->factors[i];
     }
@@ -104,14 +105,12 @@ float PreviewRows::nearness(const PreviewLighting& light, const Slot& slot,
     const std::span<const Bounds> blocks = surfaces_[at.object].blocks();
     if (light.objects[at.object].moves || at.block >= blocks.size()) return 1;
     const Bounds box = transformed(blocks[at.block], slot.of->objects[at.object].toWorld);
-    float nearest = slot.things.empty() ? 1 : 0;
+    double nearest = slot.things.empty() ? 1 : 0;
     for (const Bounds& thing : slot.things) {
-        const glm::vec3 away =
-            glm::max(glm::vec3(0), glm::max(thing.lower - box.upper, box.lower - thing.upper));
-        const float far = glm::dot(away, away), size = thing.diagonal();
-        nearest = std::max(nearest, 1 / (1 + far / std::max(size * size, 1e-12f)));
+        const double sizes = distanceBetween(box, thing) / std::max(thing.diagonal(), 1e-6f);
+        nearest = std::max(nearest, 1 / (1 + sizes * sizes));
     }
-    return nearest;
+    return float(nearest);
 }
 
 /// Vertices of a block from which the others are guessed; none: they can't be.
@@ -181,7 +180,7 @@ void PreviewRows::trace(const PreviewLighting& light, Slot& slot, double until) 
         });
         for (const Task& task : std::span(tasks).subspan(done, count)) {
             task.known->vertices |= task.missing;
-            if (task.found != 0) task.clear->vertices |= task.found;
+            if (task.cleared != 0) task.clear->vertices |= task.cleared;
         }
         done += count;
     }

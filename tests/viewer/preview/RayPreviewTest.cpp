@@ -5,6 +5,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <functional>
+
 namespace penumbra {
 
 namespace {
