@@ -94,12 +94,18 @@ BareTracing::Packets BareTracing::packetsOf(std::size_t firstReceiver,
     Packets packets;
     SampleGroup group;
     Bounds box;
+    if (set_.isBlended(std::uint32_t(firstReceiver / RowBlock::kSize))) return packets;
     for (std::size_t r = firstReceiver; r < lastReceiver; ++r)
         if (!isPadding(set_.vertices[r].receiver)) box.add(set_.vertices[r].receiver.position);
     for (const EmitterSender& sender : senders_) {
         if (walls_.between(sender.box(), box).valid()) continue;
+        const std::vector<std::uint32_t> walls = walls_.beside(sender.box(), box);
         for (std::size_t r = firstReceiver; r < lastReceiver; ++r) {
             const Receiver& receiver = set_.vertices[r].receiver;
+            if (std::ranges::any_of(walls, [&](std::uint32_t wall) {
+                    return walls_.isHidden(wall, sender.box(), receiver.position);
+                }))
+                continue;
             const float factor = sender.formFactor(receiver);
             if (!(factor > 0)) continue;
             const int base = factor > 0.15f ? sender.allSamples() : sender.baseSamples();

@@ -71,7 +71,7 @@ DetailGather::Light DetailGather::usual(const std::vector<Light>& lights) {
 /// begin again, though it may be hidden and no edit follow.
 void DetailGather::add(std::span<const ObjectId> objects) {
     hits_.add(objects);
-    sweeping_ = false;
+    sweeping_ = sent_.current = false;
     if (sent_.nodes.empty()) return;
     sent_.all.resize(patches_.elements.size(), usual(sent_.all));
     sent_.direct.resize(patches_.elements.size(), usual(sent_.direct));
@@ -100,13 +100,13 @@ void DetailGather::takeOver(const DetailGather& before, const PatchMatch& match,
 
 void DetailGather::apply(const SceneChange& change, std::span<const NodeHits::Move> moves) {
     hits_.apply(change, moves);
-    swept_ = sweeping_ = false;
+    swept_ = sweeping_ = sent_.current = false;
     pending_ = true;
 }
 
 void DetailGather::invalidate(const Bounds& region) {
     hits_.invalidate(region);
-    swept_ = sweeping_ = false;
+    swept_ = sweeping_ = sent_.current = false;
     pending_ = true;
 }
 
@@ -118,6 +118,8 @@ void DetailGather::beginSweeps(std::span<const Rgb> direct, std::vector<glm::dve
     sweep_->sent.all.resize(patches_.elements.size());
     sweep_->sent.direct.resize(patches_.elements.size());
     sweep_->sent.nodes.resize(patches_.nodes.size());
+    sweep_->sent.far.resize(patches_.nodes.size());
+    sweep_->sent.current = true;
     sweep_->round = -1;
     sweep_->next = 0;
     sweeping_ = true;
@@ -216,8 +218,24 @@ void DetailGather::sendElements(Sweep& sweep, std::size_t first, std::size_t las
 }
 
 void DetailGather::gatherNodes(Sweep& sweep, std::size_t first, std::size_t last) const {
-    for (std::size_t n = first; n < last; ++n)
-        sweep.sent.nodes[n] = gathered(sweep.sent, hits_.nodes().hits(n), false);
+    Sent& sent = sweep.sent;
+    for (std::size_t n = first; n < last; ++n) {
+        sent.nodes[n] = gathered(sent, hits_.nodes().hits(n), false);
+        sent.far[n] = brightestFar(sent, n);
+    }
+}
+
+/// The most that a far ray of a node finds [lm/m^2].
+float DetailGather::brightestFar(const Sent& sent, std::size_t node) const {
+    float most = 0;
+    const std::span<const std::uint32_t> hits = hits_.nodes().hits(node);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        const std::uint32_t element = hits[i] & ~DetailRays::kAcross;
+        const bool isNear = (hits_.nodes().near(node) >> i & 1) != 0;
+        if (!isNear && element < sent.all.size())
+            most = std::max(most, sent.all[element].luminance);
+    }
+    return most;
 }
 
 void DetailGather::gatherVertices(Sweep& sweep, std::size_t first, std::size_t last) const {
@@ -259,6 +277,12 @@ glm::dvec3 DetailGather::gathered(const Sent& sent, std::span<const std::uint32_
     return (sum - glm::dvec3(excess.r, excess.g, excess.b)) / (double(kRays) - returned);
 }
 
+/// What a node gathers, its far rays bounded: where none finds as much, what the sweeps gathered.
+glm::dvec3 DetailGather::gatheredAt(const Sent& sent, std::uint32_t node, float most) const {
+    if (sent.current && node < sent.far.size() && sent.far[node] <= most) return sent.nodes[node];
+    return gathered(sent, hits_.nodes().hits(node), false, ~hits_.nodes().near(node), most);
+}
+
 /// How much more a vertex gathers than its nodes do. Both count what is far away only up to a few
 /// times what is `known` of the vertex: a single ray that happens to find something small and
 /// bright there would stand for a 64th of the hemisphere at one of them, and for nothing at the
@@ -268,9 +292,8 @@ glm::dvec3 DetailGather::difference(const Sent& sent, std::span<const std::uint3
     const PatchCoordinate& at = patches_.vertexCoordinates[gatherer.vertex];
     const float most = kMostOfFar * luminance(toRgb(glm::max(known, 0.0)));
     return gathered(sent, hits, false, ~gatherer.near, most) -
-           interpolate<glm::dvec3>(patches_, at, [&](std::uint32_t n) {
-               return gathered(sent, hits_.nodes().hits(n), false, ~hits_.nodes().near(n), most);
-           });
+           interpolate<glm::dvec3>(patches_, at,
+                                   [&](std::uint32_t n) { return gatheredAt(sent, n, most); });
 }
 
 glm::dvec3 DetailGather::nodeValue(const Sent& sent, std::size_t node, glm::dvec3 known) const {

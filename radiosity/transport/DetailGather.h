@@ -92,12 +92,16 @@ private:
     struct Sent {
         std::vector<Light> all, direct; ///< of all light, and of direct light alone
         std::vector<glm::dvec3> nodes;  ///< [lux]
+        std::vector<float> far;         ///< the brightest that nodes' far rays find [lm/m^2]
+        bool current = false;           ///< whether these rays meet the same still
     };
     struct Sweep;
     static Light usual(const std::vector<Light>& lights);
     /// \param bounded bits: rays that count for a luminance of `most` [lm/m^2] at the most
     glm::dvec3 gathered(const Sent& sent, std::span<const std::uint32_t> hits, bool slit,
                         std::uint64_t bounded = 0, float most = 0) const;
+    float brightestFar(const Sent& sent, std::size_t node) const;
+    glm::dvec3 gatheredAt(const Sent& sent, std::uint32_t node, float most) const;
     glm::dvec3 difference(const Sent& sent, std::span<const std::uint32_t> hits,
                           const DetailHits::Gatherer& gatherer, glm::dvec3 known) const;
     glm::dvec3 nodeValue(const Sent& sent, std::size_t node, glm::dvec3 known) const;
