@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <compare>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -91,32 +92,42 @@ Blend blendOf(std::vector<Near>& near, float size) {
     return blend;
 }
 
+/// Of the clusters around a vertex; nothing if it has one alone.
+std::optional<NodeBlend> blendAt(const PatchSet& set, std::uint32_t index,
+                                 std::vector<Near>& near) {
+    const PatchCoordinate& at = set.vertexCoordinates[index];
+    if (at.patch == PatchCoordinate::kNone) return {};
+    const auto others = set.clustersNear(set.patches[at.patch]);
+    if (others.empty()) return {};
+    const Vertex& vertex = set.vertices[index];
+    near.clear();
+    const auto add = [&](std::uint32_t p) {
+        const Receiver& node = set.nodes[set.patches[p].centreNode];
+        const float cosine = glm::dot(node.normal, vertex.receiver.normal);
+        if (p != at.patch && cosine < kLeastCosine) return;
+        near.emplace_back(
+            glm::distance(node.position, vertex.position) + 2 * set.patchSize * (1 - cosine), p);
+    };
+    add(at.patch);
+    for (const std::uint32_t p : others) add(p);
+    if (near.size() < 2) return {};
+    const Blend blend = blendOf(near, set.patchSize);
+    return NodeBlend{blend.things, blend.weights};
+}
+
 } // namespace
 
 void blendNodes(PatchSet& set) {
     listNear(set);
-    std::vector<Near> near;
-    for (std::uint32_t v = 0; v < set.vertexCoordinates.size(); ++v) {
-        PatchCoordinate& at = set.vertexCoordinates[v];
-        if (at.patch == PatchCoordinate::kNone) continue;
-        const auto others = set.clustersNear(set.patches[at.patch]);
-        if (others.empty()) continue;
-        const Vertex& vertex = set.vertices[v];
-        near.clear();
-        const auto add = [&](std::uint32_t p) {
-            const Receiver& node = set.nodes[set.patches[p].centreNode];
-            const float cosine = glm::dot(node.normal, vertex.receiver.normal);
-            if (p != at.patch && cosine < kLeastCosine) return;
-            near.emplace_back(glm::distance(node.position, vertex.position) +
-                                  2 * set.patchSize * (1 - cosine),
-                              p);
-        };
-        add(at.patch);
-        for (const std::uint32_t p : others) add(p);
-        if (near.size() < 2) continue;
-        at.blend = std::uint32_t(set.blends.size());
-        const Blend blend = blendOf(near, set.patchSize);
-        set.blends.push_back({blend.things, blend.weights});
+    std::vector<std::optional<NodeBlend>> found(set.vertexCoordinates.size());
+    parallelFor(found.size(), 1024, [&](std::size_t first, std::size_t last) {
+        std::vector<Near> near;
+        for (std::size_t v = first; v < last; ++v) found[v] = blendAt(set, std::uint32_t(v), near);
+    });
+    for (std::size_t v = 0; v < found.size(); ++v) {
+        if (!found[v]) continue;
+        set.vertexCoordinates[v].blend = std::uint32_t(set.blends.size());
+        set.blends.push_back(*found[v]);
     }
 }
 

@@ -263,12 +263,16 @@ std::vector<PatchAssembly::Group> PatchAssembly::groupsInOrder() {
 
 std::vector<std::vector<std::uint32_t>>
 PatchAssembly::elementsOf(const std::vector<Group>& groups) const {
-    std::vector<std::vector<std::uint32_t>> ofCell(cells_.size());
-    for (std::uint32_t e = 0; e < elementCell_.size(); ++e) ofCell[elementCell_[e]].push_back(e);
+    std::vector<std::uint32_t> first(cells_.size() + 1), ofCell(elementCell_.size());
+    for (const std::uint32_t c : elementCell_) ++first[c + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<std::uint32_t> next = first;
+    for (std::uint32_t e = 0; e < elementCell_.size(); ++e) ofCell[next[elementCell_[e]]++] = e;
     std::vector<std::vector<std::uint32_t>> elements(groups.size());
     for (std::size_t g = 0; g < groups.size(); ++g)
         for (const std::uint32_t c : groups[g])
-            elements[g].insert(elements[g].end(), ofCell[c].begin(), ofCell[c].end());
+            elements[g].insert(elements[g].end(), ofCell.begin() + first[c],
+                               ofCell.begin() + first[c + 1]);
     return elements;
 }
 
@@ -342,11 +346,35 @@ void PatchAssembly::chooseReceivers(std::span<const Group> groups,
     }
 }
 
+/// The groups of each object, which follow one another.
+std::vector<PatchAssembly::Run> PatchAssembly::runsOf(const std::vector<Group>& order) const {
+    std::vector<Run> runs;
+    const auto objectOf = [&](std::size_t i) { return cells_[order[i][0]].object; };
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        if (i == 0 || objectOf(i) != objectOf(i - 1)) runs.push_back({i, i});
+        runs.back().last = i + 1;
+    }
+    return runs;
+}
+
+std::vector<PatchAssembly::VertexKind>
+PatchAssembly::kindsOf(std::span<const Run> runs, std::span<const Group> order,
+                       std::span<const std::vector<std::uint32_t>> elements) const {
+    std::vector<VertexKind> kinds(out_.vertices.size());
+    parallelFor(runs.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (const auto& [first, last] : runs.subspan(begin, end - begin))
+            chooseReceivers(order.subspan(first, last - first),
+                            elements.subspan(first, last - first), kinds);
+    });
+    return kinds;
+}
+
 /// Puts the vertices into blocks: object by object, cell by cell; in each object first those that
 /// are receivers.
 void PatchAssembly::orderVertices(const std::vector<std::vector<std::uint32_t>>& elements,
                                   const std::vector<Group>& order) {
-    std::vector<VertexKind> kinds(out_.vertices.size());
+    const std::vector<Run> runs = runsOf(order);
+    const std::vector<VertexKind> kinds = kindsOf(runs, order, elements);
     std::vector<std::uint32_t> index(out_.vertices.size(), kNone);
     std::vector<Vertex> ordered;
     ordered.reserve(out_.vertices.size() + 2 * PatchSet::kBlock * out_.objects.size());
@@ -361,13 +389,10 @@ void PatchAssembly::orderVertices(const std::vector<std::vector<std::uint32_t>>&
                         flat_.back() = kinds[v].flat;
                     }
     };
-    for (std::size_t i = 0, last = 0; i < order.size(); i = last) {
+    for (const auto& [i, last] : runs) {
         const ObjectId object = cells_[order[i][0]].object;
-        while (last < order.size() && cells_[order[last][0]].object == object) ++last;
         Range& range = out_.objects[object.value].vertices;
         range.first = std::uint32_t(ordered.size());
-        chooseReceivers(std::span(order).subspan(i, last - i),
-                        std::span(elements).subspan(i, last - i), kinds);
         take(i, last, true);
         range.count = std::uint32_t(ordered.size()) - range.first;
         padBlock(ordered, {});

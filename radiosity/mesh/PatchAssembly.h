@@ -54,6 +54,10 @@ private:
     };
     /// Cells that become a patch together.
     using Group = std::vector<std::uint32_t>;
+    /// Groups first ... last - 1.
+    struct Run {
+        std::size_t first, last;
+    };
     void addSheet(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object,
                   bool back);
     void addElements(const Tessellation& tessellation, std::uint32_t firstCell, ObjectId object,
@@ -68,6 +72,9 @@ private:
     void chooseReceivers(std::span<const Group> groups,
                          std::span<const std::vector<std::uint32_t>> elements,
                          std::vector<VertexKind>& kinds) const;
+    std::vector<Run> runsOf(const std::vector<Group>& order) const;
+    std::vector<VertexKind> kindsOf(std::span<const Run> runs, std::span<const Group> order,
+                                    std::span<const std::vector<std::uint32_t>> elements) const;
     void orderVertices(const std::vector<std::vector<std::uint32_t>>& elements,
                        const std::vector<Group>& order);
     void placeObjects();
