@@ -235,7 +235,9 @@ void SceneSolution::mesh(const MeshingOptions& meshing) {
     progress_.show("meshing", 0);
     timed("mesh", [&] {
         try {
-            lit_ = std::make_unique<LitScene>(placed_, meshing, solving_);
+            lit_ = std::make_unique<LitScene>(
+                placed_, meshing, solving_, true,
+                [&](const char* phase, double done) { progress_.show(phase, done); });
         } catch (const Error& error) {
             progress_.clear();
             throw SceneFileError({settings_.scene}, error.what());

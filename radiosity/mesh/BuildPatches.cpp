@@ -291,9 +291,11 @@ struct CutSurface {
 
 /// Calls visit(surface, how it is cut) for each, in order.
 template <class Visit>
-void cutSurfaces(std::span<const Surface> surfaces, const PatchSet& set, const Visit& visit) {
+void cutSurfaces(std::span<const Surface> surfaces, const PatchSet& set, const Progress& progress,
+                 const Visit& visit) {
     constexpr std::size_t kFaces = 1 << 17; // cut on all cores before they are looked at
     for (std::size_t first = 0, last = 0; first < surfaces.size(); first = last) {
+        if (progress) progress("cutting surfaces", double(first) / double(surfaces.size()));
         for (std::size_t faces = 0; last < surfaces.size() && faces < kFaces; ++last)
             faces += surfaces[last].mesh.faces.size();
         std::vector<CutSurface> cut(last - first);
@@ -317,7 +319,8 @@ void addSurface(const Surface& surface, const CutSurface& cut, PatchAssembly& as
         built.warnings.push_back(
             surface.path + ": OpenSubdiv refuses this cage; its polygons are used as they are");
     leftOut.add(surface, surface.mesh.skipped + tessellation.leftOut);
-    assembly.add(surface.mesh, tessellation, surface.object);
+    assembly.add(surface.mesh, tessellation, surface.object,
+                 coarseness(surface, out.patchSize) > 1);
     Range& emitters = out.objects[surface.object.value].emitters;
     if (emitters.count == 0) emitters.first = std::uint32_t(out.emitters.size());
     addEmitters(surface, tessellation, built);
@@ -353,7 +356,8 @@ float defaultPatchSize(double area) {
 }
 
 BuiltPatches buildObjects(const PlacedScene& scene, const MeshingOptions& sizes,
-                          std::span<const glm::vec3> lights) {
+                          std::span<const glm::vec3> lights, const Progress& progress) {
+    constexpr double kCut = 0.4; // of the time
     BuiltPatches built;
     PatchSet& out = built.patches;
     listObjects(scene, out);
@@ -365,17 +369,19 @@ BuiltPatches buildObjects(const PlacedScene& scene, const MeshingOptions& sizes,
     LeftOut leftOut;
     PatchAssembly assembly(out);
     for (const Surface& surface : surfaces) addWalls(surface, out);
-    cutSurfaces(surfaces, out, [&](const Surface& surface, const CutSurface& cut) {
-        addSurface(surface, cut, assembly, leftOut, built);
-    });
-    assembly.finish();
+    cutSurfaces(surfaces, out, shareOf(progress, 0, kCut),
+                [&](const Surface& surface, const CutSurface& cut) {
+                    addSurface(surface, cut, assembly, leftOut, built);
+                });
+    assembly.finish(shareOf(progress, kCut, 1));
     noteMaterialSources(surfaces, assembly, built);
     leftOut.say(built.warnings);
     return built;
 }
 
-BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& options) {
-    BuiltPatches built = buildObjects(scene, options, {});
+BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& options,
+                          const Progress& progress) {
+    BuiltPatches built = buildObjects(scene, options, {}, progress);
     const PatchSet& out = built.patches;
     const bool dark = std::all_of(out.emitters.begin(), out.emitters.end(),
                                   [](const Emitter& e) { return maxChannel(e.exitance) <= 0; });

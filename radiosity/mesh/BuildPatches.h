@@ -1,6 +1,7 @@
 // From the scene graph to flat arrays.
 #pragma once
 
+#include "base/Progress.h"
 #include "radiosity/mesh/Enclosure.h"
 #include "radiosity/mesh/PatchSet.h"
 #include "scenegraph/Objects.h"
@@ -50,13 +51,14 @@ struct BuiltPatches {
 /// is meshed in a frame of its own, as if nothing touched it, and brought to its pose; a Coverage
 /// sees to what it touches. \throws Error if the scene is too wide to trace rays in, or would make
 /// too many elements
-BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& options = {});
+BuiltPatches buildPatches(const PlacedScene& scene, const MeshingOptions& options = {},
+                          const Progress& progress = {});
 
 /// The same, of objects that stand in a scene with others, and are alone in `scene`.
 /// \param sizes those of the others
 /// \param lights of the others: points in front of what emits, see Enclosures [m, world]
 BuiltPatches buildObjects(const PlacedScene& scene, const MeshingOptions& sizes,
-                          std::span<const glm::vec3> lights);
+                          std::span<const glm::vec3> lights, const Progress& progress = {});
 
 /// The same sizes, with those that follow the scene filled in: what buildPatches() would choose.
 /// They are to be resolved once, for the scene as it is at its start, or a thing that grows

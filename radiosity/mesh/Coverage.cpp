@@ -12,6 +12,7 @@ namespace penumbra {
 namespace {
 
 const ContactResolver::Result kFree{true, {}, {}};
+constexpr const char* kPhase = "finding what touches";
 
 void makeUnique(std::vector<std::uint32_t>& items) {
     std::sort(items.begin(), items.end());
@@ -20,7 +21,7 @@ void makeUnique(std::vector<std::uint32_t>& items) {
 
 } // namespace
 
-Coverage::Coverage(PatchSet& set, const RayScene& rays)
+Coverage::Coverage(PatchSet& set, const RayScene& rays, const Progress& progress)
     : set_(set), rays_(rays), resolver_(rays, set.rayMeshes, set.skin, set.vertices),
       shared_(set.uncoveredElements), fans_(fansOf(shared_, set.vertices.size())) {
     set_.displaced.resize(set_.firstPrivate);
@@ -29,7 +30,7 @@ Coverage::Coverage(PatchSet& set, const RayScene& rays)
     for (std::uint32_t e = 0; e < shared_.size(); ++e)
         if (set_.objects[set_.elementObject[e].value].present) all.push_back(e);
     Change change;
-    refresh(std::move(all), change);
+    refresh(std::move(all), change, progress);
     if (!set_.nodes.empty()) parting_.emplace(set_, fans_, change.patches);
 }
 
@@ -104,11 +105,13 @@ Coverage::Change Coverage::update(std::span<const ObjectId> moved, std::span<con
     return change;
 }
 
-void Coverage::refresh(std::vector<std::uint32_t> elements, Change& change) {
+void Coverage::refresh(std::vector<std::uint32_t> elements, Change& change,
+                       const Progress& progress) {
     std::erase_if(elements, [&](std::uint32_t e) { return shared_[e].patch == Element::kNone; });
     makeUnique(elements);
-    examine(elements);
-    std::vector<std::uint32_t> vertices, nodes;
+    examine(elements, shareOf(progress, 0, 0.6));
+    if (progress) progress(kPhase, 0.6);
+    std::vector<std::uint32_t> vertices;
     for (std::uint32_t e : elements) {
         const auto& v = shared_[e].vertices;
         vertices.insert(vertices.end(), v.begin(), v.end());
@@ -118,6 +121,7 @@ void Coverage::refresh(std::vector<std::uint32_t> elements, Change& change) {
     parallelFor(vertices.size(), 64, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) apart[i] = parted(vertices[i]);
     });
+    if (progress) progress(kPhase, 0.8);
     for (std::size_t i = 0; i < vertices.size(); ++i)
         for (std::uint32_t corner : fans_.at(vertices[i]))
             if (shared_[corner / 4].patch != Element::kNone)
@@ -127,7 +131,8 @@ void Coverage::refresh(std::vector<std::uint32_t> elements, Change& change) {
     if (parting_) change.parted = parting_->update(change.patches);
 }
 
-void Coverage::examine(const std::vector<std::uint32_t>& elements) {
+void Coverage::examine(const std::vector<std::uint32_t>& elements, const Progress& progress) {
+    if (progress) progress(kPhase, 0);
     std::vector<std::uint32_t> present, near;
     for (const std::uint32_t e : elements) {
         set_.covered[e] = 0;
@@ -138,6 +143,7 @@ void Coverage::examine(const std::vector<std::uint32_t>& elements) {
         findOpen(rays_, set_.rayMeshes, resolver_, shared_, fans_, present);
     for (std::size_t i = 0; i < present.size(); ++i)
         if (open[i] == 0) near.push_back(present[i]);
+    if (progress) progress(kPhase, 0.5);
     std::vector<Result> fresh(near.size());
     parallelFor(near.size(), 64, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) fresh[i] = resolver_.examine(shared_[near[i]]);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/BoundsTree.h"
+#include "base/Progress.h"
 #include "radiosity/mesh/Contact.h"
 #include "radiosity/mesh/Parting.h"
 #include "radiosity/mesh/PatchSet.h"
@@ -22,7 +23,7 @@ namespace penumbra {
 class Coverage {
 public:
     /// Brings `set` up to date. Both must outlive this; `rays` shows the objects of `set`.
-    Coverage(PatchSet& set, const RayScene& rays);
+    Coverage(PatchSet& set, const RayScene& rays, const Progress& progress = {});
 
     /// What lies elsewhere than before. Whole moved objects are not listed.
     struct Change {
@@ -46,11 +47,12 @@ private:
     void updateChunk(std::size_t chunk);
     void collectNear(const Bounds& box, std::vector<std::uint32_t>& elements) const;
     Bounds boxOf(std::uint32_t element) const;
-    void examine(const std::vector<std::uint32_t>& elements);
+    void examine(const std::vector<std::uint32_t>& elements, const Progress& progress);
     bool parted(std::uint32_t vertex) const;
     void settleCorner(std::uint32_t element, std::uint32_t corner, bool parted, Change& change);
     std::uint32_t takeVertex(ObjectId object);
-    void refresh(std::vector<std::uint32_t> elements, Change& change);
+    void refresh(std::vector<std::uint32_t> elements, Change& change,
+                 const Progress& progress = {});
 
     using Result = ContactResolver::Result;
     PatchSet& set_;

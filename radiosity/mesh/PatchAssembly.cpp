@@ -62,13 +62,15 @@ std::uint32_t PatchAssembly::materialIndex(const Material& material, bool emits)
     return found->second;
 }
 
-void PatchAssembly::add(const SurfaceMesh& mesh, const Tessellation& tessellation,
-                        ObjectId object) {
+void PatchAssembly::add(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object,
+                        bool far) {
     Range& elements = out_.objects[object.value].elements;
     if (elements.count == 0) elements.first = std::uint32_t(out_.elements.size());
     addRays(mesh, tessellation, object);
+    const std::size_t before = cells_.size();
     addSheet(mesh, tessellation, object, false);
     addSheet(mesh, tessellation, object, true);
+    for (std::size_t c = before; c < cells_.size(); ++c) cells_[c].far = far;
     elements.count = std::uint32_t(out_.elements.size()) - elements.first;
 }
 
@@ -167,12 +169,18 @@ void PatchAssembly::addElements(const Tessellation& tessellation, std::uint32_t 
     }
 }
 
-void PatchAssembly::finish() {
+void PatchAssembly::finish(const Progress& progress) {
+    const auto done = [&](double share) {
+        if (progress) progress("making patches", share);
+    };
     pullReceiversIn(out_.skin, out_.elements, out_.vertices);
+    done(0.1);
     const std::vector<Group> order = groupsInOrder();
+    done(0.3);
     std::vector<std::vector<std::uint32_t>> elements = elementsOf(order);
     orderElements(order, elements);
     orderVertices(elements, order);
+    done(0.6);
     out_.covered.assign(out_.elements.size(), 0);
     out_.vertexCoordinates.assign(out_.vertices.size(), {});
     out_.parts.vertexNode.assign(out_.vertices.size(), kNone);
@@ -191,12 +199,14 @@ void PatchAssembly::finish() {
         padBlock(out_.nodes, {});
         out_.nodeBlockObject.resize(out_.nodes.size() / PatchSet::kBlock, object);
     }
+    done(0.7);
     out_.uncoveredNodes = out_.nodes;
     out_.uncoveredElements = out_.elements;
     out_.firstPrivate = std::uint32_t(out_.vertices.size());
     blendNodes(out_);
     flat_.resize(out_.vertices.size());
     blendVertices(out_, flat_);
+    done(0.9);
     findTextureMeans(out_);
     placeObjects();
 }
@@ -445,6 +455,7 @@ void PatchAssembly::makePatch(const Group& group, const std::vector<std::uint32_
     patch.cluster = cell.clustered;
     patch.divisible = !patch.cluster && !cell.whole && cell.outline.size() == 4;
     patch.smooth = cell.smooth;
+    patch.far = cell.far;
     const bool any = measurePatch(out_, elements, patch);
     const auto index = any ? std::uint32_t(out_.patches.size()) : kNone;
     for (std::uint32_t e : elements) out_.elements[e].patch = index;

@@ -1,6 +1,7 @@
 // Puts tessellated surfaces together into a PatchSet.
 #pragma once
 
+#include "base/Progress.h"
 #include "radiosity/mesh/PatchSet.h"
 #include "radiosity/rays/RayScene.h"
 #include "radiosity/surface/SurfaceMesh.h"
@@ -21,12 +22,12 @@ public:
     explicit PatchAssembly(PatchSet& out) : out_(out) {}
 
     /// Adds the sides of `mesh` that there are as elements, and its triangles to the object's
-    /// RayMesh. \param mesh in the object's stretched frame
+    /// RayMesh. \param mesh in the object's stretched frame \param far see Patch
     /// \pre all surfaces of an object follow one another
-    void add(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object);
+    void add(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object, bool far);
 
     /// Makes patches of the elements, as if no object were near another, and places the objects.
-    void finish();
+    void finish(const Progress& progress = {});
 
     /// Of out.materials, one by one.
     struct MaterialSource {
@@ -46,6 +47,7 @@ private:
         bool whole = false;
         bool smooth = false;    ///< of a subdivision surface
         bool clustered = false; ///< in a group that is a cluster
+        bool far = false;
     };
     /// See DenseVertex.
     struct VertexKind {

@@ -83,6 +83,7 @@ struct Patch {
     bool divisible = false;      ///< a quadrilateral with coordinates: contacts may part it
     bool smooth = false;         ///< of a subdivision surface
     bool cluster = false;        ///< its elements come in an order in which near ones are near
+    bool far = false;            ///< of a backdrop so large that it is cut coarser than the rest
     std::uint32_t firstNear = 0; ///< clusters that it touches: of PatchSet::nearClusters
     std::uint32_t nearCount = 0;
     glm::vec3 centre{};

@@ -10,8 +10,8 @@ RayScene raysThrough(const PatchSet& set) {
     return rays;
 }
 
-PosedPatches::PosedPatches(PatchSet& set)
-    : set_(set), rays_(raysThrough(set)), coverage_(set, rays_) {}
+PosedPatches::PosedPatches(PatchSet& set, const Progress& progress)
+    : set_(set), rays_(raysThrough(set)), coverage_(set, rays_, progress) {}
 
 void PosedPatches::setAlone(std::span<const ObjectId> objects) {
     for (const ObjectId object : objects) rays_.setAlone(object);

@@ -1,6 +1,7 @@
 // The patches of a scene, posed: with its objects where they are, for rays and with their contacts.
 #pragma once
 
+#include "base/Progress.h"
 #include "radiosity/mesh/Coverage.h"
 #include "radiosity/mesh/PatchSet.h"
 #include "radiosity/rays/RayScene.h"
@@ -19,7 +20,7 @@ RayScene raysThrough(const PatchSet& set);
 class PosedPatches {
 public:
     /// Everything has the pose that the set says. \param set must outlive this
-    explicit PosedPatches(PatchSet& set);
+    explicit PosedPatches(PatchSet& set, const Progress& progress = {});
     PosedPatches(const PosedPatches&) = delete;
     PosedPatches& operator=(const PosedPatches&) = delete;
 

@@ -254,7 +254,13 @@ void LightingWorker::build() {
     const PlacedScene placed = placeScene(graph_->scene());
     publisher_.reset();
     invalid_.clear();
-    if (!lit_) lit_ = std::make_unique<LitScene>(placed, task_->meshing, task_->solving);
+    const auto progress = [this](const char* phase, double done) {
+        status_.task.set(phase);
+        status_.progress = done;
+        report();
+    };
+    if (!lit_)
+        lit_ = std::make_unique<LitScene>(placed, task_->meshing, task_->solving, true, progress);
     viewer_.solverIsNew();
     publisher_ = std::make_unique<LightPublisher>(*lit_);
     if (!lights_.empty()) publisher_->setPreviewLights(previewSet_, lights_);

@@ -14,6 +14,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -245,7 +246,8 @@ private:
     std::vector<Owed> owed_;
     /// Bounds of what a patch owes, and what it sends in the mean [lm/m^2].
     struct PatchBound {
-        double dirtyDirect = 0, dirty = 0, both = 0, area = 0, radiosity = 0;
+        double dirtyDirect = 0, dirty = 0, both = 0;
+        std::array<double, 2> area{}, radiosity{}; ///< of what is not far, and far (see Patch)
         void add(const PatchBound& other);
     };
     std::vector<PatchBound> patchBounds_;

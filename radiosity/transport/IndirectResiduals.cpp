@@ -178,8 +178,10 @@ void IndirectLight::PatchBound::add(const PatchBound& other) {
     dirtyDirect = std::max(dirtyDirect, other.dirtyDirect);
     dirty = std::max(dirty, other.dirty);
     both = std::max(both, other.both);
-    area += other.area;
-    radiosity += other.radiosity;
+    for (std::size_t k = 0; k < area.size(); ++k) {
+        area[k] += other.area[k];
+        radiosity[k] += other.radiosity[k];
+    }
 }
 
 /// Senders (1) whose residuals are not what they were.
@@ -271,8 +273,9 @@ void IndirectLight::updatePatch(std::uint32_t index) {
     for (std::size_t c = 0; c < cells.size(); ++c)
         bound.both = std::max(bound.both, largest(cells[c] - sent[c]) + bound.dirty);
     if (rho <= 0) return;
-    bound.area = set_.patches[index].area;
-    bound.radiosity = bound.area * largest(meanOf(cells));
+    const Patch& patch = set_.patches[index];
+    bound.area[patch.far] = patch.area;
+    bound.radiosity[patch.far] = patch.area * largest(meanOf(cells));
 }
 
 /// What all of the light may still be wrong by.
@@ -292,7 +295,8 @@ void IndirectLight::bound() {
         all.both = std::max(all.both, owed_[s].toAny + all.dirty + 4.0 / 3 * all.dirtyDirect);
     dirtyBound_ = all.dirty;
     certificate_ = all.both > 0 ? gain_ * all.both : 0;
-    meanRadiosity_ = all.area > 0 ? all.radiosity / all.area : 0;
+    const std::size_t k = all.radiosity[0] > 0 ? 0 : 1;
+    meanRadiosity_ = all.area[k] > 0 ? all.radiosity[k] / all.area[k] : 0;
 }
 
 /// Reflectances, and what follows from them. |B_exact - B| <= max|R| / (1 - max(rho * row sum)), in
@@ -322,16 +326,22 @@ void IndirectLight::coloursChanged() {
 }
 
 /// What is owed goes, on average, once over all surfaces and is reflected on: Cohen et al. 1988.
+/// What a ground of hundreds of metres owes is not for the room that stands on it.
 glm::dvec3 IndirectLight::ambient() const {
-    glm::dvec3 owed(0), reflected(0);
-    double area = 0;
+    struct Sum {
+        glm::dvec3 owed{0}, reflected{0};
+        double area = 0;
+    };
+    std::array<Sum, 2> sums; // of what is not far, and far
     for (std::uint32_t p = 0; p < set_.patches.size(); ++p) {
-        const double size =
-            set_.parts.used.empty() || set_.parts.used[p] ? set_.patches[p].area : 0;
-        owed += size * meanOf(cellsOf(residuals_, p));
-        reflected += size * toDouble(patchReflectance(set_, p));
-        area += size;
+        if (!set_.parts.used.empty() && !set_.parts.used[p]) continue;
+        const Patch& patch = set_.patches[p];
+        Sum& sum = sums[patch.far];
+        sum.owed += double(patch.area) * meanOf(cellsOf(residuals_, p));
+        sum.reflected += double(patch.area) * toDouble(patchReflectance(set_, p));
+        sum.area += patch.area;
     }
+    const auto& [owed, reflected, area] = sums[0].area > 0 ? sums[0] : sums[1];
     if (area == 0) return owed;
     return (owed / area) / (1.0 - glm::min(reflected / area, 0.98));
 }

@@ -13,7 +13,7 @@ namespace penumbra {
 /// H is the largest of the three channels, with what is not sent yet as the ambient light that is
 /// drawn for it: what a shade leaves may be less than relaxation was to find. A median, since
 /// behind a shade a mean says how bright the few surfaces near the emitter are. Surfaces that no
-/// light reaches do not count.
+/// light reaches do not count, nor what is far (see Patch) unless there is nothing else.
 class LitLevel {
 public:
     /// \param illuminance [lux]; at or below 0 it is not lit \param area [m^2]

@@ -15,6 +15,8 @@ namespace penumbra {
 
 namespace {
 
+constexpr double kBuilt = 0.6; ///< share of the time of meshing when there are patches
+
 using ObjectsByPath = std::unordered_map<std::string_view, const Object*>;
 
 ObjectsByPath objectsByPath(const PlacedScene& scene) {
@@ -26,16 +28,18 @@ ObjectsByPath objectsByPath(const PlacedScene& scene) {
 } // namespace
 
 LitScene::LitScene(const PlacedScene& scene, const MeshingOptions& meshing,
-                   const SolverOptions& solving, bool room)
+                   const SolverOptions& solving, bool room, const Progress& progress)
     : solving_(solving), room_(room),
-      meshed_(std::make_unique<Meshed>(mesh(scene, meshing, room), solving)) {
+      meshed_(std::make_unique<Meshed>(mesh(scene, meshing, room, shareOf(progress, 0, kBuilt)),
+                                       solving, shareOf(progress, kBuilt, 1))) {
     pieces_.note(scene);
 }
 
 LitScene::~LitScene() = default;
 
-BuiltPatches LitScene::mesh(const PlacedScene& scene, const MeshingOptions& sizes, bool room) {
-    BuiltPatches built = buildPatches(scene, sizes);
+BuiltPatches LitScene::mesh(const PlacedScene& scene, const MeshingOptions& sizes, bool room,
+                            const Progress& progress) {
+    BuiltPatches built = buildPatches(scene, sizes, progress);
     if (room) makeRoom(built.patches);
     return built;
 }

@@ -29,9 +29,10 @@ public:
     /// Meshes; solves nothing yet. Keeps meshes and lights alive until the next follow(), if they
     /// are held by shared pointers.
     /// \param room whether there is to be room for objects that come later; if not, each of them
-    /// has the scene meshed anew, to compare with \throws Error
+    /// has the scene meshed anew, to compare with
+    /// \param progress of meshing \throws Error
     LitScene(const PlacedScene& scene, const MeshingOptions& meshing, const SolverOptions& solving,
-             bool room = true);
+             bool room = true, const Progress& progress = {});
     ~LitScene();
     LitScene(const LitScene&) = delete;
     LitScene& operator=(const LitScene&) = delete;
@@ -69,11 +70,12 @@ private:
         BuiltPatches built;
         PosedPatches posed;
         Solver solver;
-        Meshed(BuiltPatches patches, const SolverOptions& solving)
-            : built(std::move(patches)), posed(built.patches),
+        Meshed(BuiltPatches patches, const SolverOptions& solving, const Progress& progress = {})
+            : built(std::move(patches)), posed(built.patches, progress),
               solver(built.patches, posed.rays(), solving) {}
     };
-    static BuiltPatches mesh(const PlacedScene& scene, const MeshingOptions& sizes, bool room);
+    static BuiltPatches mesh(const PlacedScene& scene, const MeshingOptions& sizes, bool room,
+                             const Progress& progress = {});
     void rebuild(const PlacedScene& scene);
     std::vector<ObjectId> unknownObjects(const PlacedScene& now) const;
     std::vector<ObjectId> beginToShine(const PlacedScene& now) const;

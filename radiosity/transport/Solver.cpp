@@ -352,7 +352,7 @@ std::vector<Rgb> Solver::radiosity() const {
 
 double Solver::litIlluminance() const {
     const std::vector<glm::dvec3> nodes = nodeIlluminance();
-    LitLevel level;
+    LitLevel level, far;
     for (std::uint32_t p = 0; p < set_.patches.size(); ++p) {
         const Patch& patch = set_.patches[p];
         if (!set_.sends(p) || !(maxChannel(patchReflectance(set_, p)) > 0)) continue;
@@ -360,9 +360,10 @@ double Solver::litIlluminance() const {
         if (indirect_)
             h += interpolate<glm::dvec3>(patch, 0.5f, 0.5f,
                                          [&](std::uint32_t n) { return nodes[n]; });
-        level.add(std::max({h.r, h.g, h.b}), patch.area);
+        (patch.far ? far : level).add(std::max({h.r, h.g, h.b}), patch.area);
     }
-    return level.median();
+    const double median = level.median();
+    return median > 0 ? median : far.median();
 }
 
 WorkDone Solver::done() const {

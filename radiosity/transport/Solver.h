@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/LightRequest.h"
+#include "base/Progress.h"
 #include "base/Rgb.h"
 #include "base/SolutionState.h"
 #include "radiosity/mesh/PatchSet.h"
@@ -45,9 +46,6 @@ struct SolverOptions {
     /// with the square of the number of patches then.
     bool clusters = true;
 };
-
-/// Called now and then with the phase's name and the share done in [0, 1].
-using Progress = std::function<void(const char* phase, double done)>;
 
 /// What was done so far for one kind of light; the difference of two says what an edit cost.
 struct WorkCount {

@@ -65,8 +65,10 @@ void drawLightPanel(PanelState& state) {
         ImGui::SameLine();
         if (ImGui::SmallButton("update now")) state.wantsUpdate = true;
     }
-    if (light.phase == RadiosityState::Phase::solving && !light.task.empty() &&
-        light.solution == SolutionState::working && !light.stopped)
+    using Phase = RadiosityState::Phase;
+    const bool working =
+        light.phase == Phase::solving && !light.stopped && light.solution == SolutionState::working;
+    if ((working || light.phase == Phase::meshing) && !light.task.empty())
         ImGui::ProgressBar(float(light.progress), {-1, 0}, light.task.c_str());
     ImGui::TextWrapped("still to compute: %zu pieces, %zu changes", light.dirtyBlocks,
                        light.queued);

@@ -8,11 +8,14 @@ namespace penumbra {
 
 namespace {
 
+std::string percent(const RadiosityState& light) {
+    return std::to_string(int(100 * light.progress)) + " %";
+}
+
 std::string solutionWords(const RadiosityState& light) {
     if (light.stopped) return "stopped: the light gets no better";
     if (light.solution == SolutionState::working)
-        return "computing " + (light.task.empty() ? "light" : light.task) + ": " +
-               std::to_string(int(100 * light.progress)) + " %";
+        return "computing " + (light.task.empty() ? "light" : light.task) + ": " + percent(light);
     if (light.held > 0) return "the light waits for you: press U to update it";
     return light.solution == SolutionState::exact ? "light complete"
                                                   : "light good, last details to come";
@@ -28,7 +31,7 @@ std::string lightWords(const RadiosityState& light) {
     case Phase::connecting:
         return "starting to compute light";
     case Phase::meshing:
-        return "dividing surfaces into small pieces";
+        return "dividing surfaces into small pieces: " + percent(light);
     case Phase::solving:
         return solutionWords(light);
     case Phase::failed:

@@ -3,9 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <vector>
 
 namespace penumbra {
 
@@ -231,6 +233,20 @@ TEST(BuildPatches, LeavesOutLightsThatAreTooSmallToBeTraced) {
             EXPECT_EQ(warnings[0], "1 light too small to be traced left out (/tiny/light)");
             EXPECT_THAT(warnings[1], testing::HasSubstr("no light"));
         }
+}
+
+TEST(BuildPatches, SaysHowFarItHasComeAndNeverGoesBack) {
+    std::vector<double> shares;
+    const LitScene lit(placeScene(room(1)), {.patchSize = 0.5f}, {}, true,
+                       [&](const char*, double done) { shares.push_back(done); });
+    EXPECT_GE(shares.size(), 8u);
+    EXPECT_TRUE(std::ranges::is_sorted(shares));
+    EXPECT_GE(shares.front(), 0);
+    EXPECT_LE(shares.back(), 1);
+    double longest = 0;
+    for (std::size_t i = 1; i < shares.size(); ++i)
+        longest = std::max(longest, shares[i] - shares[i - 1]);
+    EXPECT_LT(longest, 0.3);
 }
 
 } // namespace

@@ -62,6 +62,26 @@ TEST(LitLevel, BehindAShadeTheSameShareOfTheEmitterIsMoreThanTheLight) {
     EXPECT_GT(shareOf(room(10, true), 5e-3), 1);
 }
 
+TEST(LitLevel, OfARoomIsNotThatOfTheGroundAroundIt) {
+    const auto statistics = [](const Scene& scene) {
+        return Solution(scene, kCoarse, {}).solver.statistics();
+    };
+    const NodePtr ground = object("ground", floorData(-110, 110, -110, 110, -1.5f));
+    const NodePtr light = ceilingLight({60, 60, 4}, 1, 1); // of the ground alone
+    const Scene within = room(100, false);
+    Scene around = room(100, false);
+    around.root->add(ground);
+    around.root->add(light);
+    const SolveStatistics alone = statistics(within), both = statistics(around);
+    // The room has an outside now, where there is little light.
+    EXPECT_GT(both.litIlluminance, 0.1 * alone.litIlluminance);
+    EXPECT_GT(both.meanRadiosity, 0.4 * alone.meanRadiosity);
+
+    const SolveStatistics nothingElse = statistics(sceneOf({ground, light}));
+    EXPECT_GT(nothingElse.litIlluminance, 0);
+    EXPECT_GT(nothingElse.meanRadiosity, 0);
+}
+
 } // namespace
 
 } // namespace penumbra
