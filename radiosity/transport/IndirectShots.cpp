@@ -3,7 +3,7 @@
 // & Slusallek, IEEE CG&A 14(6), 1994). Departures: senders shoot in batches of a fixed size, so
 // that receivers can be worked on side by side; a patch receives at its middle and its corners; its
 // first shot sends more than it owes, by what the ambient estimate says will come (Shao & Badler
-// 1993, Xu & Fussell 1994 call this overshooting), and each later one as far as it owes as much.
+// 1993, Xu & Fussell 1994 call this overshooting).
 #include "radiosity/transport/IndirectLight.h"
 
 #include "radiosity/rows/RowRoom.h"
@@ -24,13 +24,6 @@ namespace {
 constexpr std::uint32_t kBlock = PatchSet::kBlock;
 /// Senders shot at a time: a share of them all, for choosing them goes through all.
 constexpr std::size_t kLeastBatch = 32, kMostBatch = 1024, kBatchShare = 32;
-
-/// Of what is expected to come, what is sent along with what is owed: no more than that, and
-/// nothing of the other sign. What is owed elsewhere, as out of doors, may never get here.
-glm::dvec3 along(glm::dvec3 expected, glm::dvec3 owed) {
-    const glm::dvec3 none(0);
-    return glm::clamp(expected, glm::min(owed, none), glm::max(owed, none));
-}
 
 } // namespace
 
@@ -132,7 +125,7 @@ std::uint64_t IndirectLight::blocksKept() const {
     return count;
 }
 
-/// Begins a batch. What is sure to come later is sent along; too much is taken back in its turn.
+/// Begins a batch.
 void IndirectLight::load(Listing& listing) {
     shot_ = std::make_unique<Shot>();
     shot_->senders = listing.senders;
@@ -142,11 +135,15 @@ void IndirectLight::load(Listing& listing) {
     std::size_t coming = 0; // [bytes]
     for (std::uint32_t i = 0; i < listing.senders.size(); ++i) {
         const std::uint32_t s = listing.senders[i];
+        // The first time send at once what is sure to come later; too much is taken back in its
+        // turn.
         const bool fresh = !known_[s];
         const SenderLight owed = cellsOf(residuals_, s), colours = cellsOf(colours_, s);
         std::vector<glm::dvec3> light(owed.size());
-        for (std::size_t c = 0; c < light.size() && !listing.dark; ++c)
-            light[c] = owed[c] + colours[c] * (fresh ? expected : along(expected, owed[c]));
+        for (std::size_t c = 0; c < light.size() && !listing.dark; ++c) {
+            light[c] = owed[c];
+            if (fresh) light[c] += colours[c] * expected;
+        }
         shot_->fresh.push_back(fresh);
         shot_->light.push_back(std::move(light));
         shot_->build.push_back(!kept_[s]);
