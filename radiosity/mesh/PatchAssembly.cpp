@@ -7,12 +7,12 @@
 #include "radiosity/mesh/Emitters.h"
 #include "radiosity/mesh/NodeBlends.h"
 #include "radiosity/mesh/PatchGeometry.h"
+#include "radiosity/surface/SurfaceRays.h"
 
 #include <algorithm>
 #include <map>
 #include <numeric>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 
 namespace penumbra {
@@ -20,17 +20,6 @@ namespace penumbra {
 namespace {
 
 constexpr std::uint32_t kNone = Element::kNone;
-
-bool planar(const Tessellation& tessellation, const Cell& cell, glm::vec3 normal) {
-    const glm::vec3 origin = tessellation.outline[cell.firstCorner];
-    float reach = 0, depth = 0;
-    for (std::uint32_t i = 1; i < cell.cornerCount; ++i) {
-        const glm::vec3 d = tessellation.outline[cell.firstCorner + i] - origin;
-        reach = std::max(reach, glm::length(d));
-        depth = std::max(depth, std::abs(glm::dot(d, normal)));
-    }
-    return depth <= 1e-4f * reach;
-}
 
 /// Fills up the last block.
 template <class T>
@@ -66,50 +55,12 @@ void PatchAssembly::add(const SurfaceMesh& mesh, const Tessellation& tessellatio
                         bool far) {
     Range& elements = out_.objects[object.value].elements;
     if (elements.count == 0) elements.first = std::uint32_t(out_.elements.size());
-    addRays(mesh, tessellation, object);
+    addRays(mesh, tessellation, out_.rayMeshes[object.value]);
     const std::size_t before = cells_.size();
     addSheet(mesh, tessellation, object, false);
     addSheet(mesh, tessellation, object, true);
     for (std::size_t c = before; c < cells_.size(); ++c) cells_[c].far = far;
     elements.count = std::uint32_t(out_.elements.size()) - elements.first;
-}
-
-/// Flat faces block rays as the triangles of their cells, curved ones as their elements.
-void PatchAssembly::addRays(const SurfaceMesh& mesh, const Tessellation& tessellation,
-                            ObjectId object) {
-    RayMesh& rays = out_.rayMeshes[object.value];
-    std::vector<std::uint8_t> flat(tessellation.cells.size());
-    const auto add = [&](const SurfaceFace& face, std::array<std::uint32_t, 3> t) {
-        if (face.solid && !face.front) std::swap(t[1], t[2]); // inside out: its outside is its back
-        rays.triangles.push_back(t);
-        rays.solid.push_back(face.solid);
-    };
-    for (std::size_t c = 0; c < tessellation.cells.size(); ++c) {
-        const Cell& cell = tessellation.cells[c];
-        const SurfaceFace& face = mesh.faces[cell.face];
-        const glm::dvec3 normal = newellNormal(mesh.points, mesh.cornersOf(face));
-        flat[c] = !tessellation.smooth && glm::length(normal) > 0 &&
-                  planar(tessellation, cell, glm::vec3(glm::normalize(normal)));
-        if (!flat[c]) continue;
-        const auto base = std::uint32_t(rays.vertices.size());
-        for (std::uint32_t i = 0; i < cell.cornerCount; ++i)
-            rays.vertices.push_back(tessellation.outline[cell.firstCorner + i]);
-        for (std::uint32_t i = 2; i < cell.cornerCount; ++i)
-            add(face, {base, base + i - 1, base + i});
-    }
-    std::unordered_map<std::uint32_t, std::uint32_t> index;
-    const auto vertex = [&](std::uint32_t v) {
-        const auto [found, fresh] = index.try_emplace(v, std::uint32_t(rays.vertices.size()));
-        if (fresh) rays.vertices.push_back(tessellation.vertices[v].position);
-        return found->second;
-    };
-    for (const Facet& facet : tessellation.facets) {
-        if (flat[facet.cell]) continue;
-        const SurfaceFace& face = mesh.faces[tessellation.cells[facet.cell].face];
-        const auto& v = facet.vertices;
-        add(face, {vertex(v[0]), vertex(v[1]), vertex(v[2])});
-        if (v[2] != v[3]) add(face, {vertex(v[0]), vertex(v[2]), vertex(v[3])});
-    }
 }
 
 void PatchAssembly::addSheet(const SurfaceMesh& mesh, const Tessellation& tessellation,

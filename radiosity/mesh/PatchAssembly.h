@@ -64,7 +64,6 @@ private:
                   bool back);
     void addElements(const Tessellation& tessellation, std::uint32_t firstCell, ObjectId object,
                      bool back, bool textured);
-    void addRays(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object);
     std::uint32_t materialIndex(const Material& material, bool emits);
     std::vector<Group> groupCells();
     std::vector<Group> groupsInOrder();

@@ -35,7 +35,7 @@ inline float roundingAt(float magnitude) {
 
 /// How far receivers hover over their surface, at least [m]: a 4000th of a patch's edge a. A
 /// quadrilateral counts as flat, and is traced as two triangles, if its corners are off their plane
-/// by up to 1e-4 of its diagonal (PatchAssembly.cpp: planar()). Its corners then may be off by
+/// by up to 1e-4 of its diagonal (SurfaceRays.cpp: planar()). Its corners then may be off by
 /// twice that from a plane through three of them, and the triangles by a quarter of this, 0.7e-4 a,
 /// from the bilinear surface that the receivers lie on.
 inline float skinOf(float patchSize) {
