@@ -12,6 +12,7 @@
 
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
 #include <utility>
 
 namespace penumbra {
@@ -154,8 +155,10 @@ void checkNumbered(const std::string& pattern, const std::string& frames) {
     if (pattern.empty() || frames.empty()) return;
     const FrameRange range = frameRange(frames);
     if (range.first != range.last && pattern.find('#') == std::string::npos)
-        throw CLI::ValidationError(
-            pattern, "every frame would overwrite the one before: write frame.####.exr");
+        throw CLI::ValidationError(pattern,
+                                   "every frame would overwrite the one before: name it "
+                                   "frame.####" +
+                                       std::filesystem::path(pattern).extension().string());
 }
 
 void reportDiagnostics(const std::vector<Diagnostic>& diagnostics, bool verbose) {
@@ -218,6 +221,10 @@ SceneSolution::SceneSolution(const SolveSettings& settings)
     if (placed_.meshes.empty() && placed_.lights.empty())
         throw SceneFileError({settings.scene}, whyNothingToLight(loaded_.diagnostics));
     if (!settings.quiet) reportDiagnostics(loaded_.diagnostics, settings.verbose);
+    const bool asksTime = settings.frame || !settings.frames.empty();
+    if (asksTime && !loaded_.animation && !settings.quiet)
+        fmt::print(stderr, "{}: warning: nothing in it moves: its frames are all alike\n",
+                   settings.scene);
     const double start = steadySeconds();
     const RadiosityOptions resolved =
         timed("read", [&] { return resolvedOptions(settings, loaded_, options.time); });

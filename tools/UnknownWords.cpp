@@ -58,20 +58,7 @@ std::string aboutWord(const CLI::App& command, const std::string& called, const 
                        called, word, called);
 }
 
-} // namespace
-
-std::string nearestName(const std::string& word, const std::vector<std::string>& names) {
-    std::string nearest;
-    std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
-    for (const std::string& name : names) {
-        const std::size_t distance = editDistance(word, name);
-        if (distance >= least || distance >= name.size()) continue;
-        least = distance;
-        nearest = name;
-    }
-    return nearest;
-}
-
+/// Empty: they are all known.
 std::string aboutUnknownWords(const CLI::App& app, std::span<const char* const> words) {
     const std::vector<CLI::App*> chosen = app.get_subcommands();
     if (chosen.empty()) {
@@ -89,6 +76,40 @@ std::string aboutUnknownWords(const CLI::App& app, std::span<const char* const> 
                 std::find(unknown.begin(), unknown.end(), word) != unknown.end())
                 return aboutWord(command, called, word);
     return {};
+}
+
+/// What CLI11 says of a value that it can't read: "Could not convert: --frame = abc".
+std::string plainWords(const std::string& said) {
+    constexpr std::string_view kUnread = "Could not convert: ", kIs = " = ";
+    const std::size_t is = said.find(kIs);
+    if (!said.starts_with(kUnread) || is == std::string::npos) return said;
+    return fmt::format("{}: '{}' is not a number", said.substr(kUnread.size(), is - kUnread.size()),
+                       said.substr(is + kIs.size()));
+}
+
+} // namespace
+
+std::string nearestName(const std::string& word, const std::vector<std::string>& names) {
+    std::string nearest;
+    std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
+    for (const std::string& name : names) {
+        const std::size_t distance = editDistance(word, name);
+        if (distance >= least || distance >= name.size()) continue;
+        least = distance;
+        nearest = name;
+    }
+    return nearest;
+}
+
+std::string aboutRefusal(const CLI::App& app, std::span<const char* const> words,
+                         const CLI::ParseError& error) {
+    std::string unknown = aboutUnknownWords(app, words);
+    if (!unknown.empty()) return unknown;
+    const std::vector<CLI::App*> chosen = app.get_subcommands();
+    const std::string called =
+        chosen.empty() ? "penumbra" : "penumbra " + chosen.front()->get_name();
+    return fmt::format("{}: error: {} ({} --help says what it takes)", called,
+                       plainWords(error.what()), called);
 }
 
 } // namespace penumbra

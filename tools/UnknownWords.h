@@ -1,4 +1,4 @@
-// Words of the command line that mean nothing.
+// Command lines that are refused: words that mean nothing, values that can't be.
 #pragma once
 
 #include <span>
@@ -7,14 +7,16 @@
 
 namespace CLI {
 class App;
-}
+class ParseError;
+} // namespace CLI
 
 namespace penumbra {
 
-/// One line about the first word that names no command, no option of its command, and nothing else
-/// either, with the name that was probably meant; empty if there is none. To be asked when CLI11
-/// has refused the command line.
-std::string aboutUnknownWords(const CLI::App& app, std::span<const char* const> words);
+/// One line about why CLI11 has refused the command line: about the first word that names no
+/// command, no option of its command, and nothing else either, with the name that was probably
+/// meant; else about what CLI11 found.
+std::string aboutRefusal(const CLI::App& app, std::span<const char* const> words,
+                         const CLI::ParseError& error);
 
 /// The name that a mistyped word is nearest to; empty if none is near.
 std::string nearestName(const std::string& word, const std::vector<std::string>& names);

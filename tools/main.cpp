@@ -37,12 +37,8 @@ int run(int argc, char** argv) {
     } catch (const CLI::Success& success) { // --help, --version
         return app.exit(success);
     } catch (const CLI::ParseError& error) {
-        const std::string unknown = penumbra::aboutUnknownWords(
-            app, std::span<const char* const>(argv, std::size_t(argc)).subspan(1));
-        if (unknown.empty())
-            app.exit(error);
-        else
-            std::fprintf(stderr, "%s\n", unknown.c_str());
+        const auto words = std::span<const char* const>(argv, std::size_t(argc)).subspan(1);
+        std::fprintf(stderr, "%s\n", penumbra::aboutRefusal(app, words, error).c_str());
         return 2;
     }
     return 0;

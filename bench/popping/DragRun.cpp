@@ -104,6 +104,8 @@ private:
         for (int still = 0; still < 5;) {
             walk_.advance(kFrame);
             const bool news = light_->update(walk_, view());
+            if (light_->state().phase == RadiosityState::Phase::failed)
+                throw Error(script_.scene + ": its light could not be computed");
             still = news || !settled(SolutionState::exact) ? 0 : still + 1;
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }

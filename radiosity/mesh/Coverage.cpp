@@ -19,6 +19,21 @@ void makeUnique(std::vector<std::uint32_t>& items) {
     items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
+/// Vertices that are covered all round are in no patch: as Parting has it, where there are nodes.
+void noteCovered(PatchSet& set, const Fans& fans, std::span<const std::uint32_t> vertices) {
+    for (const std::uint32_t v : vertices) {
+        const auto isDrawn = [&](std::uint32_t corner) {
+            const std::uint32_t e = corner / 4;
+            return set.uncoveredElements[e].patch != Element::kNone && !set.covered[e] &&
+                   set.elements[e].vertices[corner % 4] == v;
+        };
+        const auto corners = fans.at(v);
+        const auto drawn = std::ranges::find_if(corners, isDrawn);
+        set.vertexCoordinates[v].patch =
+            drawn != corners.end() ? set.uncoveredElements[*drawn / 4].patch : Element::kNone;
+    }
+}
+
 } // namespace
 
 Coverage::Coverage(PatchSet& set, const RayScene& rays, const Progress& progress)
@@ -128,7 +143,10 @@ void Coverage::refresh(std::vector<std::uint32_t> elements, Change& change,
                 settleCorner(corner / 4, corner % 4, apart[i], change);
     makeUnique(change.vertices);
     makeUnique(change.patches);
-    if (parting_) change.parted = parting_->update(change.patches);
+    if (parting_)
+        change.parted = parting_->update(change.patches);
+    else
+        noteCovered(set_, fans_, vertices);
 }
 
 void Coverage::examine(const std::vector<std::uint32_t>& elements, const Progress& progress) {

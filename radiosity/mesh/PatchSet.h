@@ -290,12 +290,19 @@ struct PatchSet {
     /// only where there are no others; weights add up to 1.
     template <class Visit>
     void forEachReceiver(std::uint32_t vertex, const Visit& visit) const {
+        forEachReceiver(
+            vertex, [&](std::uint32_t v) { return isDrawnAsIs(v); }, visit);
+    }
+    /// \param counts whether a receiver does, as far as other things go
+    template <class Counts, class Visit>
+    void forEachReceiver(std::uint32_t vertex, const Counts& counts, const Visit& visit) const {
         if (!isBlended(vertex / kBlock)) return visit(vertex, 1.0f);
         const VertexBlend& blend = vertexBlend(vertex);
         std::array<float, 4> weights{};
         float sum = 0;
         for (std::size_t k = 0; k < 4; ++k)
-            if (isDrawnAsIs(blend.vertices[k])) sum += weights[k] = blend.weights[k];
+            if (blend.weights[k] > 0 && counts(blend.vertices[k]))
+                sum += weights[k] = blend.weights[k];
         if (!(sum > 0)) weights = blend.weights, sum = 1;
         for (std::size_t k = 0; k < 4; ++k)
             if (weights[k] > 0) visit(blend.vertices[k], weights[k] / sum);

@@ -30,7 +30,7 @@ constexpr std::array kHelp = std::to_array<HelpLine>({
     {"Edit", "Del", "remove what is selected"},
     {"Edit", "H  Shift+H", "hide it; show all that is hidden"},
     {"Edit", "Ctrl+D", "another one of it, beside it"},
-    {"Edit", "Ctrl+Z  Ctrl+Shift+Z", "undo, redo"},
+    {"Edit", "Ctrl+Z  Ctrl+Y", "undo, redo (also Ctrl+Shift+Z)"},
     {"Edit", "Esc", "put back what is being dragged; select nothing"},
     {"View", "[  ]", "darker, brighter (exposure)"},
     {"View", "\\", "automatic exposure, or fixed"},

@@ -70,9 +70,11 @@ void drawLightPanel(PanelState& state) {
         light.phase == Phase::solving && !light.stopped && light.solution == SolutionState::working;
     if ((working || light.phase == Phase::meshing) && !light.task.empty())
         ImGui::ProgressBar(float(light.progress), {-1, 0}, light.task.c_str());
-    ImGui::TextWrapped("still to compute: %zu pieces, %zu changes", light.dirtyBlocks,
-                       light.queued);
-    explain("A piece is the light of up to 64 points of a surface.");
+    if (light.dirtyBlocks > 0 || light.queued > 0) {
+        ImGui::TextWrapped("still to compute: %zu pieces, %zu changes", light.dirtyBlocks,
+                           light.queued);
+        explain("A piece is the direct light of up to 64 points of a surface.");
+    }
     if (light.age > 0) ImGui::Text("the light is %.1f s behind", light.age);
     drawCertificate(state);
     drawSizes(state);

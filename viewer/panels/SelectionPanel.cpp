@@ -90,12 +90,15 @@ void drawSelectionPanel(PanelState& state) {
         return;
     }
     const Selection selection = *walk.selection(); // edits may change it
-    ImGui::TextWrapped("%s", selection.path.c_str());
+    const bool whole = selection.objectPath.empty() || selection.objectPath == "/" ||
+                       selection.objectPath == selection.path;
+    ImGui::TextWrapped("%s", (whole ? selection.path : selection.objectPath).c_str());
+    if (!whole) ImGui::TextDisabled("clicked on: %s", selection.path.c_str());
     furnish(walk);
     editLights(walk, selection);
     if (selection.material) editPaint(walk, selection.material);
     explainLight(walk, selection);
-    ImGui::TextDisabled("Ctrl+Z undoes %zu changes, Ctrl+Y redoes %zu", walk.history().undoable(),
+    ImGui::TextDisabled("undo (Ctrl+Z): %zu, redo (Ctrl+Y): %zu", walk.history().undoable(),
                         walk.history().redoable());
 }
 

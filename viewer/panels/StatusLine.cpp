@@ -5,43 +5,55 @@
 
 #include <imgui.h>
 
+#include <cmath>
 #include <string>
+#include <vector>
 
 namespace penumbra {
 
 namespace {
 
 constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
-                                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
-                                    ImGuiWindowFlags_AlwaysAutoResize;
+                                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
+
+struct Words {
+    std::string text;
+    ImVec4 colour;
+};
+
+std::vector<Words> statusWords(const PanelState& state) {
+    const ImVec4& plain = ImGui::GetStyleColorVec4(ImGuiCol_Text);
+    const ImVec4& faint = ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled);
+    std::vector<Words> all;
+    all.push_back({!state.walk      ? "reading " + state.sceneName
+                   : state.noLights ? "no light here: shown by a headlight"
+                                    : lightWords(state.light),
+                   plain});
+    if (state.walk) all.push_back({kCameraModeNames[int(state.walk->rig().mode())], faint});
+    if (state.recording) all.push_back({"recording", {0.9f, 0.3f, 0.25f, 1}});
+    if (state.playing) all.push_back({"playing (P)", plain});
+    all.push_back({"? keys   N panels", faint});
+    return all;
+}
 
 } // namespace
 
 void drawStatusLine(PanelState& state) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const float em = ImGui::GetFontSize();
+    const float em = ImGui::GetFontSize(), gap = 2 * em;
+    const ImGuiStyle& style = ImGui::GetStyle();
+    // As wide as its words are now: what resizes itself is a picture late.
+    float width = 2 * style.WindowPadding.x - gap;
+    const std::vector<Words> all = statusWords(state);
+    for (const Words& words : all) width += gap + ImGui::CalcTextSize(words.text.c_str()).x;
+    ImGui::SetNextWindowSize({std::ceil(width), em + 2 * style.WindowPadding.y});
     ImGui::SetNextWindowBgAlpha(0.55f);
     ImGui::SetNextWindowPos({em / 2, display.y - em / 2}, ImGuiCond_Always, {0, 1});
-    if (ImGui::Begin("##status", nullptr, kPlain)) {
-        const std::string words = !state.walk      ? "reading " + state.sceneName
-                                  : state.noLights ? "no light here: shown by a headlight"
-                                                   : lightWords(state.light);
-        ImGui::TextUnformatted(words.c_str());
-        if (state.walk) {
-            ImGui::SameLine(0, 2 * em);
-            ImGui::TextDisabled("%s", kCameraModeNames[int(state.walk->rig().mode())]);
+    if (ImGui::Begin("##status", nullptr, kPlain))
+        for (const Words& words : all) {
+            if (&words != &all.front()) ImGui::SameLine(0, gap);
+            ImGui::TextColored(words.colour, "%s", words.text.c_str());
         }
-        if (state.recording) {
-            ImGui::SameLine(0, 2 * em);
-            ImGui::TextColored({0.9f, 0.3f, 0.25f, 1}, "recording");
-        }
-        if (state.playing) {
-            ImGui::SameLine(0, 2 * em);
-            ImGui::TextUnformatted("playing (P)");
-        }
-        ImGui::SameLine(0, 2 * em);
-        ImGui::TextDisabled("? keys   N panels");
-    }
     ImGui::End();
 
     while (!state.notices.empty() && state.notices.front().until < state.time)
@@ -49,7 +61,7 @@ void drawStatusLine(PanelState& state) {
     if (state.notices.empty()) return;
     ImGui::SetNextWindowBgAlpha(0.75f);
     ImGui::SetNextWindowPos({em / 2, display.y - 3 * em}, ImGuiCond_Always, {0, 1});
-    if (ImGui::Begin("##notices", nullptr, kPlain))
+    if (ImGui::Begin("##notices", nullptr, kPlain | ImGuiWindowFlags_AlwaysAutoResize))
         for (const Notice& notice : state.notices) ImGui::TextUnformatted(notice.text.c_str());
     ImGui::End();
 }

@@ -14,6 +14,14 @@
 
 namespace penumbra {
 
+namespace {
+
+bool before(const PreviewRows::Reached& a, const PreviewRows::Reached& b) {
+    return std::tie(a.object, a.block) < std::tie(b.object, b.block);
+}
+
+} // namespace
+
 void PreviewRows::require(const PreviewLighting& light) {
     using namespace std::chrono_literals;
     if (making_.valid()) { // one after the other
@@ -155,6 +163,7 @@ PreviewRows::Slot PreviewRows::makeSlot(const PreviewLighting& light, const Scen
         findContacts(slot, seconds);
     else
         behind_ = true;
+    slot.aside = stage_->receiversAside();
     return slot;
 }
 
@@ -275,9 +284,6 @@ void PreviewRows::findReached(const PreviewLighting& light, const View* view) {
 /// lit by must be known.
 void PreviewRows::findTouched(const PreviewLighting& light) {
     touched_.clear();
-    const auto before = [](const Reached& a, const Reached& b) {
-        return std::tie(a.object, a.block) < std::tie(b.object, b.block);
-    };
     std::vector<Reached> more;
     for (const TouchedCorner& corner : slots_.front().touched) {
         const PreviewSurface& surface = surfaces_[corner.object];
@@ -288,8 +294,13 @@ void PreviewRows::findTouched(const PreviewLighting& light) {
         more.push_back({corner.object, std::uint32_t(vertex / kBlock),
                         (1u << light.lights.size()) - 1, std::uint64_t(1) << vertex % kBlock});
     }
+    addReached(std::move(more));
+}
+
+/// Blocks that are reached already are so by more lights, or with more vertices.
+void PreviewRows::addReached(std::vector<Reached> more) {
     reached_.insert(reached_.end(), more.begin(), more.end());
-    std::sort(reached_.begin(), reached_.end(), before);
+    std::ranges::sort(reached_, before);
     std::size_t kept = 0;
     for (const Reached& at : reached_) {
         if (kept == 0 || before(reached_[kept - 1], at))
@@ -298,11 +309,12 @@ void PreviewRows::findTouched(const PreviewLighting& light) {
             reached_[kept - 1].lights |= at.lights, reached_[kept - 1].vertices |= at.vertices;
     }
     reached_.resize(kept);
-    for (Touched& touched : touched_) {
-        const Reached at{touched.object, std::uint32_t(touched.vertex / kBlock)};
-        touched.reached = std::size_t(
-            std::lower_bound(reached_.begin(), reached_.end(), at, before) - reached_.begin());
-    }
+}
+
+/// Of a vertex's block in reached().
+std::size_t PreviewRows::indexOf(std::uint32_t object, std::size_t vertex) const {
+    const Reached at{object, std::uint32_t(vertex / kBlock)};
+    return std::size_t(std::ranges::lower_bound(reached_, at, before) - reached_.begin());
 }
 
 /// The point at which a vertex is evaluated in a scene state, whatever light it carries.
@@ -353,6 +365,8 @@ void PreviewRows::prepare(const PreviewLighting& light, const ShownOf& shown, co
     chooseSlots(light, seconds);
     findReached(light, view);
     findTouched(light);
+    addSources();
+    for (Touched& touched : touched_) touched.reached = indexOf(touched.object, touched.vertex);
     ++frame_;
     // Now comes last: what all states have in common is traced as it was when it was lit.
     const double soon = std::isfinite(seconds) ? begun : seconds; // vertices carry it as well
@@ -364,6 +378,7 @@ void PreviewRows::prepare(const PreviewLighting& light, const ShownOf& shown, co
     unfinished_ |= anchors;
     guess(slots_.front());
     remember(slots_.front());
+    for (Slot& slot : slots_) blend(slot);
     traceTouched();
 }
 

@@ -33,6 +33,7 @@ class EmitterRowBuilder;
 /// Each vertex remembers the point at which radiosity evaluated it in a scene state; the preview
 /// evaluates it at the same point. For a vertex that represents a corner this is the point that
 /// was found for the corner then. Corners that something touches now are in a list of their own.
+/// Vertices that take their light from receivers around them do so here.
 /// Where what moves touches so much that finding it takes longer than rays may, such as a wall
 /// does, nothing is touched: radiosity's light has it when it comes.
 class PreviewRows {
@@ -80,9 +81,6 @@ public:
     /// Drops what is known.
     void forget();
     std::span<const Reached> reached() const { return reached_; }
-    /// Whether vertices of the block carry light of receivers beside them (see PatchSet).
-    bool isBlended(const Reached& at) const { return stage_->isBlended(at.object, at.block); }
-
     /// What is known of a light at the vertices of a block.
     struct Known {
         std::array<float, kBlock> factors{}; ///< F V
@@ -121,12 +119,14 @@ private:
         std::vector<Bounds> things; ///< boxes around what moves, one a thing [m, world]
         std::unordered_map<std::uint32_t, Pose> poses; ///< of objects that move
         std::vector<TouchedCorner> touched;
+        std::vector<std::uint32_t> aside;          ///< see PreviewScene::receiversAside()
         bool contacts = false;                     ///< touched has them all
         std::unordered_map<Key, Receiver> instead; ///< of vertices that are lit somewhere else
         Table table;
         /// What is known of what is reached, by index of reached() and light; null: not reached.
         std::vector<const Known*> found;
     };
+    class SeenShares;
     struct Task {
         const Slot* slot;
         const Reached* at;
@@ -163,6 +163,9 @@ private:
     void addReachedStandIns(const PreviewLighting& light, std::uint32_t object,
                             std::vector<Reached>& reached) const;
     void findTouched(const PreviewLighting& light);
+    void addReached(std::vector<Reached> more);
+    void addSources();
+    std::size_t indexOf(std::uint32_t object, std::size_t vertex) const;
     std::vector<unsigned> lightsInDoubt(const PreviewLighting& light, const Slot& slot) const;
     const RayScene& raysOf(const Slot& slot);
     std::vector<Task> tasksOf(const PreviewLighting& light, Slot& slot);
@@ -171,6 +174,8 @@ private:
     void trace(const PreviewLighting& light, Slot& slot, double until);
     void guess(Slot& now);
     void remember(Slot& now);
+    void blend(Slot& slot);
+    void blend(const Slot& slot, const Reached& at, std::size_t source, Known& known) const;
     void traceTouched();
     bool isClear(const Task& task, std::size_t vertex, const Receiver& receiver) const;
     void run(Task& task, EmitterRowBuilder& builder) const;
@@ -188,7 +193,7 @@ private:
     std::optional<Slot> awaited_; ///< of PreviewLighting::awaited, as far as it is known
     Table clear_;                 ///< where nothing that moves is in the way
     Table last_;                  ///< of earlier frames
-    Table guessed_;               ///< of now, where only some vertices are known
+    Table guessed_;               ///< of now, from what is known of other vertices
     std::uint32_t frame_ = 0;     ///< since forget()
     bool unfinished_ = false;
     bool contacts_ = true; ///< are found, of what moves now; else they are left to radiosity

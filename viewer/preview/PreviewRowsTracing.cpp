@@ -85,6 +85,7 @@ std::vector<unsigned> PreviewRows::lightsInDoubt(const PreviewLighting& light,
             const auto& [object, block, reaching, vertices] = reached_[i];
             const std::span<const Bounds> blocks = surfaces_[object].blocks();
             if (light.objects[object].moves || block >= blocks.size()) continue;
+            if (stage_->isBlended(object, block)) continue;
             const Bounds box = transformed(blocks[block], slot.of->objects[object].toWorld);
             lights[i] = lightsThrough(light, slot, stage_->withReceivers(box));
         }
@@ -126,6 +127,7 @@ std::vector<PreviewRows::Task> PreviewRows::tasksOf(const PreviewLighting& light
     slot.found.assign(reached_.size() * kMostPreviewed, nullptr);
     for (std::size_t i = 0; i < reached_.size(); ++i) {
         const Reached& at = reached_[i];
+        if (stage_->isBlended(at.object, at.block)) continue;
         const bool moves = light.objects[at.object].moves;
         const bool isStandIn = at.block >= surfaces_[at.object].blocks().size();
         const bool nowhere = isStandIn && !slot.contacts && &slot != &slots_.front();

@@ -5,6 +5,7 @@
 #include "radiosity/rays/Shaft.h"
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -15,6 +16,11 @@ PreviewScene::PreviewScene(PatchSet set)
       asideAs_(set_.objects.size()) {
     for (std::uint32_t o = 0; o < set_.objects.size(); ++o)
         asidePoses_.push_back({{o}, set_.objects[o].pose, set_.objects[o].present});
+    for (const VertexBlend& blend : set_.vertexBlends)
+        for (std::size_t k = 0; k < 4 && blend.weights[k] > 0; ++k)
+            receivers_.push_back(blend.vertices[k]);
+    std::ranges::sort(receivers_);
+    receivers_.erase(std::ranges::unique(receivers_).begin(), receivers_.end());
 }
 
 /// What has another pose than in `places`, which follow.
@@ -65,6 +71,13 @@ const RayScene& PreviewScene::raysAt(const SceneState& sceneState) {
     }
     if (changed) aside_.commit();
     return aside_;
+}
+
+std::vector<std::uint32_t> PreviewScene::receiversAside() const {
+    std::vector<std::uint32_t> aside;
+    std::ranges::copy_if(receivers_, std::back_inserter(aside),
+                         [&](std::uint32_t v) { return !set_.isDrawnAsIs(v); });
+    return aside;
 }
 
 Bounds PreviewScene::withReceivers(const Bounds& box) const {

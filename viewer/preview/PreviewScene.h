@@ -5,6 +5,7 @@
 #include "radiosity/mesh/PosedPatches.h"
 #include "viewer/preview/PreviewLighting.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -53,6 +54,18 @@ public:
         return block < own.count / PatchSet::kBlock &&
                set_.isBlended(own.first / PatchSet::kBlock + block);
     }
+    /// Receivers that count for a vertex only where there are no others, in the present poses:
+    /// things cover or touch them. Sorted, as aside of forEachReceiver().
+    std::vector<std::uint32_t> receiversAside() const;
+    /// Calls visit(vertex, weight) for the vertices of an object from which one takes its light.
+    template <class Visit>
+    void forEachReceiver(std::uint32_t object, std::size_t vertex,
+                         std::span<const std::uint32_t> aside, const Visit& visit) const {
+        const std::uint32_t first = firstVertex(object);
+        const auto counts = [&](std::uint32_t v) { return !std::ranges::binary_search(aside, v); };
+        set_.forEachReceiver(first + std::uint32_t(vertex), counts,
+                             [&](std::uint32_t v, float weight) { visit(v - first, weight); });
+    }
     /// The elements of an object when nothing touches it; their vertices are the set's.
     std::span<const Element> elements(std::uint32_t object) const;
     std::uint32_t firstVertex(std::uint32_t object) const {
@@ -68,9 +81,10 @@ private:
 
     PatchSet set_;
     PosedPatches posed_;
-    RayScene aside_;                     ///< of raysAt()
-    std::vector<ObjectPose> asidePoses_; ///< of what is in it, by object
-    ObjectStates poses_, asideAs_;       ///< what was asked for last
+    RayScene aside_;                       ///< of raysAt()
+    std::vector<ObjectPose> asidePoses_;   ///< of what is in it, by object
+    ObjectStates poses_, asideAs_;         ///< what was asked for last
+    std::vector<std::uint32_t> receivers_; ///< of blended vertices, sorted
     std::optional<double> secondsForAll_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <utility>
 
 namespace penumbra {
@@ -50,6 +51,20 @@ PreviewSurface::PreviewSurface(std::shared_ptr<const LitGeometry> geometry,
         coarse_.push_back(coarseBlock(std::span(data.positions).subspan(b * kBlock, kBlock),
                                       std::span(data.normals).subspan(b * kBlock, kBlock),
                                       used[b]));
+    findSources(stage, object);
+}
+
+void PreviewSurface::findSources(const PreviewScene& stage, std::uint32_t object) {
+    sources_.resize(blocks_.size());
+    for (std::uint32_t b = 0; b < blocks_.size(); ++b) {
+        if (!stage.isBlended(object, b)) continue;
+        std::map<std::uint32_t, std::uint64_t> from;
+        for (std::size_t i = 0; i < kBlock; ++i)
+            stage.forEachReceiver(object, b * kBlock + i, {}, [&](std::uint32_t v, float) {
+                from[v / std::uint32_t(kBlock)] |= std::uint64_t(1) << v % kBlock;
+            });
+        for (const auto& [block, vertices] : from) sources_[b].push_back({block, vertices});
+    }
 }
 
 /// Of a bent element it is enough that one corner's normal is turned there.

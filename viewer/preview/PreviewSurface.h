@@ -41,6 +41,12 @@ public:
     /// Boxes of blocks of the vertices from the start, empty ones left out [m, local].
     std::span<const Bounds> blocks() const { return blocks_; }
     std::span<const CoarseBlock> coarse() const { return coarse_; } ///< as blocks()
+    /// Vertices of a block from which those of a blended one take their light (see PatchSet).
+    struct Source {
+        std::uint32_t block = 0;
+        std::uint64_t vertices = 0; ///< a bit each
+    };
+    std::span<const Source> sourcesOf(std::uint32_t block) const { return sources_[block]; }
     /// Diagonal of an element's box, at most [m, local].
     float largestElement() const { return largestElement_; }
     /// Vertices from the start that have an element which does not turn its back on a point: one
@@ -63,6 +69,8 @@ public:
     Bounds elementBox(std::uint32_t corner) const;
 
 private:
+    void findSources(const PreviewScene& stage, std::uint32_t object);
+
     std::shared_ptr<const LitGeometry> geometry_;
     std::uint64_t topology_ = 0;
     std::size_t ownVertices_ = 0;
@@ -70,6 +78,7 @@ private:
     std::vector<std::uint32_t> firstEntry_;              ///< of each element, in the indices
     std::vector<Bounds> blocks_;
     std::vector<CoarseBlock> coarse_;
+    std::vector<std::vector<Source>> sources_; ///< as blocks(); none: a block has receivers
     float largestElement_ = 0;
     std::vector<StandIn> standIns_;
 };

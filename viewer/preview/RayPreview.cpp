@@ -61,15 +61,15 @@ void RayPreview::takeBack() {
 /// Factors of a light at a block, in the scene states of the anchors.
 RayPreview::Then RayPreview::thenOf(const PreviewLighting& light, std::size_t at,
                                     std::size_t source) const {
-    Then then{.blended = rows_.isBlended(rows_.reached()[at])};
+    Then then{};
     for (std::size_t a = 0; a < light.anchors.size(); ++a)
-        then.rows[a] = &rows_.known(a + 1, at, source);
+        then[a] = &rows_.known(a + 1, at, source);
     return then;
 }
 
 /// The formula of PreviewLighting for one light, over its exitance. There is no less light than
 /// none, and no more than without obstacles. Where rows of an anchor are missing, its light is what
-/// the vertex carries, unless that is not the light of that one point.
+/// the vertex carries.
 /// \param unoccluded asked for what the light gives then, if that matters
 template <class Unoccluded>
 float RayPreview::change(const PreviewLighting& light, const ShownLight& shown, const Then& then,
@@ -81,11 +81,11 @@ float RayPreview::change(const PreviewLighting& light, const ShownLight& shown, 
         const PreviewLighting::Anchor& anchor = light.anchors[a];
         const float share = glm::mix(anchor.rest, anchor.behind, shown.behind[vertex]);
         if (share == 0) continue;
-        complete &= then.rows[a]->of(vertex);
-        change += share * (now - then.rows[a]->factors[vertex % kBlock]);
+        complete &= then[a]->of(vertex);
+        change += share * (now - then[a]->factors[vertex % kBlock]);
     }
     const float known = shown.factors[vertex][source];
-    if (!complete && (known < 0 || then.blended)) return 0;
+    if (!complete && known < 0) return 0;
     if (!complete) change = now - known;
     if (known < 0) return change;
     if (change > 0) change = std::min(change, std::max(0.0f, unoccluded() - known));

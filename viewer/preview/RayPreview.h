@@ -52,10 +52,7 @@ private:
         SplitCorners corners;
         std::vector<Rgb> copies; ///< direct light
     };
-    struct Then {
-        std::array<const PreviewRows::Known*, 3> rows{}; ///< by anchor
-        bool blended = false; ///< what vertices carry is of several points
-    };
+    using Then = std::array<const PreviewRows::Known*, 3>; ///< by anchor
     Then thenOf(const PreviewLighting& light, std::size_t at, std::size_t source) const;
     template <class Unoccluded>
     static float change(const PreviewLighting& light, const ShownLight& shown, const Then& then,

@@ -52,6 +52,19 @@ void writeVertices(ByteWriter& out, const ObjectPart& part, std::uint32_t count)
     out.list(receivers);
 }
 
+void writeBlends(ByteWriter& out, const PatchSet& set, const ObjectPart& part,
+                 std::uint32_t count) {
+    std::vector<VertexBlend> blends;
+    for (std::uint32_t v = part.vertices.first; v < part.vertices.first + count; ++v) {
+        if (!set.isBlended(v / kBlock)) continue;
+        blends.push_back(set.vertexBlend(v));
+        VertexBlend& blend = blends.back();
+        for (std::size_t k = 0; k < 4; ++k)
+            blend.vertices[k] = blend.weights[k] > 0 ? blend.vertices[k] - part.vertices.first : 0;
+    }
+    out.list(blends);
+}
+
 void writeElements(ByteWriter& out, const PatchSet& set, std::uint32_t object,
                    std::span<const std::uint32_t> elements) {
     std::vector<std::array<std::uint32_t, 4>> corners;
@@ -127,6 +140,7 @@ std::vector<std::byte> describeMesh(const LitScene& scene, const SceneReplica& g
         out.put(std::uint32_t(isThere && part.present));
         const std::uint32_t blocks = (part.vertices.count + kBlock - 1) / kBlock;
         writeVertices(out, part, blocks * kBlock);
+        writeBlends(out, set, part, blocks * kBlock);
         writeElements(out, set, o, isThere ? elements[o] : std::vector<std::uint32_t>());
         writeRays(out, part, isThere ? set.rayMeshes[o] : RayMesh());
         writeEmitters(out, scene, graph, part);
@@ -171,6 +185,7 @@ std::optional<LitMeshObject> LitMeshReader::next() {
     object.positions = reader_.list<glm::vec3>();
     object.normals = reader_.list<glm::vec3>();
     object.receivers = reader_.list<glm::vec3>();
+    object.blends = reader_.list<VertexBlend>();
     object.elements = reader_.list<std::array<std::uint32_t, 4>>();
     object.elementMaterial = reader_.list<std::uint32_t>();
     object.elementPatch = reader_.list<std::uint32_t>();
@@ -200,6 +215,20 @@ bool sound(const RayMesh& rays) {
            });
 }
 
+/// Blended vertices take light from those before them.
+bool sound(std::span<const VertexBlend> blends, std::size_t vertices) {
+    if (blends.size() % kBlock != 0 || blends.size() > vertices) return false;
+    const auto isSound = [&](const VertexBlend& blend) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            const bool counts = blend.weights[k] > 0;
+            if (blend.vertices[k] >= (counts ? vertices - blends.size() : vertices)) return false;
+            if (!(blend.weights[k] >= 0 && blend.weights[k] <= 1)) return false;
+        }
+        return true;
+    };
+    return std::ranges::all_of(blends, isSound);
+}
+
 bool sound(const LitMeshEmitter& emitter) {
     return std::all_of(emitter.polygons.begin(), emitter.polygons.end(), [](const auto& polygon) {
         return polygon.size() >= 3 && std::all_of(polygon.begin(), polygon.end(), canBeTraced);
@@ -218,7 +247,8 @@ bool LitMeshReader::sound(const LitMeshObject& object) const {
         vertices == 0 || (object.firstBlock >= nextBlock_ && object.firstBlock <= blocks_ &&
                           vertices / kBlock <= blocks_ - object.firstBlock);
     return vertices % kBlock == 0 && place && object.normals.size() == vertices &&
-           object.receivers.size() == vertices && penumbra::sound(object.rays) &&
+           object.receivers.size() == vertices && penumbra::sound(object.blends, vertices) &&
+           penumbra::sound(object.rays) &&
            std::all_of(object.emitters.begin(), object.emitters.end(),
                        [](const LitMeshEmitter& emitter) { return penumbra::sound(emitter); }) &&
            object.elementMaterial.size() == object.elements.size() &&

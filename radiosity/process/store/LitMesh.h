@@ -35,6 +35,9 @@ struct LitMeshObject {
     std::uint32_t present = 0; ///< 0: was hidden when it was meshed
     std::vector<glm::vec3> positions, normals;
     std::vector<glm::vec3> receivers; ///< where vertices take their light, see Vertex
+    /// Of the last vertices, as many as these; the others receive light themselves. Of this
+    /// object's vertices.
+    std::vector<VertexBlend> blends;
     std::vector<std::array<std::uint32_t, 4>> elements; ///< see Element; of this object's vertices
     std::vector<std::uint32_t> elementMaterial;
     std::vector<std::uint32_t> elementPatch; ///< any number, the same for those of one patch;

@@ -26,6 +26,19 @@ void addVertices(const LitMeshObject& object, std::uint32_t index, PatchSet& set
     part.shape.vertices.assign(first, first + part.vertices.count);
 }
 
+void addBlends(const LitMeshObject& object, std::uint32_t index, PatchSet& set) {
+    const Range& own = set.objects[index].vertices;
+    set.blockBlends.resize(set.vertices.size() / kBlock, PatchCoordinate::kNone);
+    const auto count = std::uint32_t(object.blends.size() / kBlock);
+    for (std::uint32_t b = 0; b < count; ++b)
+        set.blockBlends[own.end() / kBlock - count + b] =
+            std::uint32_t(set.vertexBlends.size()) + b * kBlock;
+    for (VertexBlend blend : object.blends) {
+        for (std::uint32_t& v : blend.vertices) v += own.first;
+        set.vertexBlends.push_back(blend);
+    }
+}
+
 /// Patches are numbered anew: what an object calls its patches is its own affair.
 void addElements(const LitMeshObject& object, std::uint32_t index, PatchSet& set) {
     ObjectPart& part = set.objects[index];
@@ -65,6 +78,7 @@ void addObject(LitMeshObject object, PatchSet& set) {
     ObjectPart& part = set.objects.emplace_back();
     part.present = false; // until it is told where it stands
     addVertices(object, index, set);
+    addBlends(object, index, set);
     addElements(object, index, set);
     part.path = std::move(object.path);
     part.shape.rayVertices = object.rays.vertices;
@@ -94,6 +108,10 @@ std::optional<PatchSet> readPatches(std::span<const std::span<const std::byte>> 
     set.uncoveredElements = set.elements;
     set.covered.resize(set.elements.size());
     set.vertexCoordinates.resize(set.vertices.size());
+    for (const Element& element : set.elements)
+        for (const std::uint32_t v : element.vertices)
+            if (set.vertexCoordinates[v].patch == PatchCoordinate::kNone)
+                set.vertexCoordinates[v].patch = element.patch;
     set.firstPrivate = std::uint32_t(set.vertices.size());
     return set;
 }

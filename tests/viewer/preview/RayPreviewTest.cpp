@@ -1,6 +1,7 @@
 // Light brought up to date by rays, corner by corner, against radiosity of the scene as it is now.
 #include "viewer/preview/RayPreview.h"
 
+#include "tests/support/BallData.h"
 #include "tests/viewer/preview/PreviewScenes.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -65,6 +66,19 @@ struct GlowingRoom : PosedRoom {
         source = "/panels/mesh";
         settleAndShow();
         EXPECT_EQ(sceneState()->lights[0].size(), 2u) << "emitters";
+    }
+};
+
+/// The same with a ball of small triangles, most of whose vertices take the light of others.
+struct DenseRoom : PosedRoom {
+    DenseRoom(const glm::dmat4& place, const glm::dmat4& ballPlace) {
+        const auto mesh = std::make_shared<Mesh>("mesh", ballData(30, 0.4f));
+        const auto ball = objectOf("ball", {mesh});
+        ball->setMatrix(ballPlace);
+        room.node->add(ball);
+        room.box->setMatrix(place);
+        settleAndShow();
+        EXPECT_FALSE(room.node->patches()->vertexBlends.empty());
     }
 };
 
@@ -159,6 +173,24 @@ TEST(RayPreview, AMeshThatShinesTakesItsLightAlong) {
     const glm::dmat4 box = posed(0.3, 0.2, 0.3);
     GlowingRoom before(box, glm::translate(glm::dmat4(1.0), glm::dvec3(0.2, 0.3, 0)));
     GlowingRoom after(box, posed(-0.4, -0.3, 0.7));
+    EXPECT_EQ(broughtAmiss(before, after), 0u);
+}
+
+TEST(RayPreview, AShadowThatFallsOnADenseMeshIsThatOfItsReceivers) {
+    const glm::dmat4 ball = glm::translate(glm::dmat4(1.0), glm::dvec3(0.4, 0.1, 0.41));
+    const auto over = [](double x) {
+        return glm::translate(glm::dmat4(1.0), glm::dvec3(x, 0.1, 1.2));
+    };
+    DenseRoom before(over(-0.5), ball), after(over(0.3), ball);
+    EXPECT_EQ(broughtAmiss(before, after), 0u);
+}
+
+TEST(RayPreview, ADenseMeshIsLitWhereItIsPut) {
+    const glm::dmat4 box = posed(0.3, 0.2, 0.3);
+    const auto put = [](double x, double y) {
+        return glm::translate(glm::dmat4(1.0), glm::dvec3(x, y, 0.9));
+    };
+    DenseRoom before(box, put(0.2, 0.4)), after(box, put(-0.6, -0.3));
     EXPECT_EQ(broughtAmiss(before, after), 0u);
 }
 

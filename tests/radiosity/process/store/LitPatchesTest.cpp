@@ -3,6 +3,7 @@
 
 #include "radiosity/mesh/PosedPatches.h"
 #include "radiosity/transport/LitScene.h"
+#include "tests/support/BallData.h"
 #include "tests/support/LitNode.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -33,6 +34,15 @@ std::vector<Corner> litCorners(const PatchSet& set) {
     return corners;
 }
 
+/// Poses the objects of one set as those of another.
+void poseAs(const PatchSet& other, PatchSet& set) {
+    PosedPatches posed(set);
+    std::vector<PosedPatches::ObjectPose> wanted;
+    for (std::uint32_t o = 0; o < other.objects.size(); ++o)
+        wanted.push_back({{o}, other.objects[o].pose, other.objects[o].present});
+    posed.pose(wanted);
+}
+
 TEST(LitPatches, AreLitAndTouchedWhereTheWorkersAre) {
     LitRoom room;
     room.box->setMatrix(glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(0.3, 0.2, 0)), 0.4,
@@ -42,12 +52,7 @@ TEST(LitPatches, AreLitAndTouchedWhereTheWorkersAre) {
 
     std::optional<PatchSet> read = room.node->patches();
     ASSERT_TRUE(read.has_value());
-    PosedPatches posed(*read);
-    std::vector<PosedPatches::ObjectPose> wanted;
-    for (std::uint32_t o = 0; o < scene.patches().objects.size(); ++o)
-        wanted.push_back(
-            {{o}, scene.patches().objects[o].pose, scene.patches().objects[o].present});
-    posed.pose(wanted);
+    poseAs(scene.patches(), *read);
 
     EXPECT_EQ(litCorners(*read), litCorners(scene.patches()));
     EXPECT_GT(read->vertices.size(), read->firstPrivate) << "the box stands on the floor";
@@ -57,6 +62,34 @@ TEST(LitPatches, AreLitAndTouchedWhereTheWorkersAre) {
         EXPECT_EQ(read->rayMeshes[o].triangles, scene.patches().rayMeshes[o].triangles);
         EXPECT_EQ(read->rayMeshes[o].solid, scene.patches().rayMeshes[o].solid);
     }
+}
+
+/// Where each vertex of dense meshes takes its light from: vertex, receiver, weight.
+std::vector<std::tuple<std::uint32_t, std::uint32_t, float>> receiversOf(const PatchSet& set) {
+    std::vector<std::tuple<std::uint32_t, std::uint32_t, float>> all;
+    for (std::uint32_t v = 0; v < set.firstPrivate; ++v)
+        if (set.isBlended(v / PatchSet::kBlock))
+            set.forEachReceiver(
+                v, [&](std::uint32_t r, float weight) { all.emplace_back(v, r, weight); });
+    return all;
+}
+
+TEST(LitPatches, TakeLightFromTheSameReceivers) {
+    LitRoom room;
+    const auto ball = objectOf("ball", {std::make_shared<Mesh>("mesh", ballData(40, 0.4f))});
+    ball->setMatrix(glm::translate(glm::dmat4(1.0), glm::dvec3(0.5, 0.4, 0.2)));
+    room.node->add(ball);
+    ASSERT_TRUE(updateUntilSettled(*room.node));
+    const LitScene scene(room.node->placed(), room.options.meshing, room.options.solving);
+    std::optional<PatchSet> read = room.node->patches();
+    ASSERT_TRUE(read.has_value());
+    EXPECT_FALSE(read->vertexBlends.empty());
+    poseAs(scene.patches(), *read);
+    const auto ours = receiversOf(*read), theirs = receiversOf(scene.patches());
+    const auto [a, b] = std::ranges::mismatch(ours, theirs);
+    EXPECT_TRUE(a == ours.end() && b == theirs.end())
+        << "the floor covers some; not so at vertex "
+        << (a != ours.end() ? std::get<0>(*a) : PatchCoordinate::kNone);
 }
 
 TEST(LitPatches, AMeshThatShinesDoesSoFromTheWorkersEmitters) {
