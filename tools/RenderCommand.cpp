@@ -28,6 +28,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -112,7 +113,7 @@ private:
     FrameLayers draw(const View& view, const Lighting& light, const ToneMap& tone);
     void writeExrFile(const std::string& path, const FrameLayers& frame, const View& view);
     float middleGrey(const View& view, const Lighting& light);
-    /// The solution's, or what stands in for it where the scene has no lights.
+    /// The solution's, or what stands in for it where the scene has had no lights so far.
     Lighting lightFor(const View& view) const;
     void say(const std::string& line) const {
         if (!command_.solve.quiet) fmt::print(stderr, "{}\n", line);
@@ -120,6 +121,7 @@ private:
 
     const RenderCommand& command_;
     SceneSolution& solution_;
+    bool lit_ = false;           ///< there is light, or was: what goes out leaves the dark
     int height_ = 0;             ///< of the picture [pixels]
     std::set<std::string> said_; ///< warnings are said once, also while frames are played
 };
@@ -137,8 +139,7 @@ View FrameWriter::chooseView(const Shot& shot) {
 }
 
 Lighting FrameWriter::lightFor(const View& view) const {
-    return hasLights(solution_.placed()) ? solution_.lighting()
-                                         : fallbackLight(solution_.patches(), view);
+    return lit_ ? solution_.lighting() : fallbackLight(solution_.patches(), view);
 }
 
 float FrameWriter::middleGrey(const View& view, const Lighting& light) {
@@ -175,15 +176,33 @@ void FrameWriter::writeExrFile(const std::string& path, const FrameLayers& frame
     say(fmt::format("wrote {}: {} x {} pixels in cd/m^2", path, frame.width, frame.height));
 }
 
+/// Objects are numbered as the scene has them: what was meshed anew on the way keeps its number.
+void numberAsPlaced(FrameLayers& frame, const PatchSet& patches, const PlacedScene& placed) {
+    std::unordered_map<std::string_view, ObjectId> places;
+    for (std::uint32_t o = 0; o < placed.objects.size(); ++o)
+        places.emplace(placed.objects[o].path, ObjectId{o});
+    std::vector<ObjectId> numbers;
+    for (std::uint32_t o = 0; o < patches.objects.size(); ++o) {
+        const std::string& path = patches.objects[o].path;
+        const bool same = o < placed.objects.size() && placed.objects[o].path == path;
+        const auto found = places.find(path);
+        numbers.push_back(same || found == places.end() ? ObjectId{o} : found->second);
+    }
+    for (ObjectId& object : frame.objectId)
+        if (object.value < numbers.size()) object = numbers[object.value];
+}
+
 void FrameWriter::write(const Shot& shot, int number) {
     const View view = chooseView(shot);
+    lit_ |= hasLights(solution_.placed());
     const std::string output = numberedPath(shot.output, number);
     const std::string png = numberedPath(shot.png, number);
     const ToneStyle style = command_.display.tone.value_or(ToneStyle::agx);
     const Lighting light = lightFor(view);
     const float grey = png.empty() ? 1 : middleGrey(view, light);
-    const FrameLayers frame = solution_.timed(
+    FrameLayers frame = solution_.timed(
         "draw", [&] { return draw(view, light, png.empty() ? ToneMap() : toneMap(grey, style)); });
+    numberAsPlaced(frame, solution_.patches(), solution_.placed());
     solution_.progress().clear();
     if (!output.empty()) writeExrFile(output, frame, view);
     if (png.empty()) return;

@@ -251,8 +251,13 @@ void SceneSolution::mesh(const MeshingOptions& meshing) {
         }
     });
     progress_.clear();
-    if (!settings_.quiet && frames_.empty())
-        for (const std::string& warning : lit_->warnings())
+    sayWarnings();
+}
+
+/// What was noticed while meshing: each once, however many frames are played.
+void SceneSolution::sayWarnings() {
+    for (const std::string& warning : lit_->warnings())
+        if (said_.insert(warning).second && !settings_.quiet)
             std::fprintf(stderr, "%s: warning: %s\n", settings_.scene.c_str(), warning.c_str());
 }
 
@@ -302,6 +307,16 @@ SolveStatistics SceneSolution::statistics() const {
     return all;
 }
 
+LitScene::Followed SceneSolution::follow() {
+    try {
+        const LitScene::Followed followed = lit_->follow(placed_);
+        sayWarnings();
+        return followed;
+    } catch (const Error& error) {
+        throw SceneFileError({settings_.scene}, error.what());
+    }
+}
+
 void SceneSolution::show(double frame) {
     if (loaded_.animation) loaded_.animation->setTime(frame);
     placed_ = placeScene(*loaded_.scene);
@@ -312,7 +327,7 @@ void SceneSolution::show(double frame) {
         cost.rebuilt = true;
         mesh(sizesOf(patches()));
     } else {
-        const LitScene::Followed followed = lit_->follow(placed_);
+        const LitScene::Followed followed = follow();
         cost.rebuilt = followed.rebuilt;
         cost.edits = followed.change.objects.size() + followed.change.emitters.size() +
                      followed.change.colours;

@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -129,6 +130,8 @@ private:
     };
 
     void mesh(const MeshingOptions& meshing);
+    void sayWarnings();
+    LitScene::Followed follow();
     void light();
     void warnOfMemory();
 
@@ -140,8 +143,9 @@ private:
     PlacedScene placed_;
     std::unique_ptr<LitScene> lit_;
     Lighting lighting_;
-    bool memoryWarned_ = false; ///< once, whatever is played
-    SolveStatistics earlier_;   ///< costs alone: of solvers that were given up
+    bool memoryWarned_ = false;  ///< once, whatever is played
+    std::set<std::string> said_; ///< warnings, likewise
+    SolveStatistics earlier_;    ///< costs alone: of solvers that were given up
     std::vector<FrameCost> frames_;
 };
 

@@ -104,7 +104,7 @@ bool emits(const Surface& surface, const SurfaceFace& face) {
     return surface.light || surface.mesh.materialOf(face).emissive();
 }
 
-/// Decides which sides there are. Lights count even when they are dark.
+/// Decides which sides there are. Lights count even when they are dark, meshes when they shine.
 /// \param others lights that these surfaces do not have [m, world]
 void chooseAllSides(std::vector<Surface>& surfaces, std::span<const glm::vec3> others,
                     BuiltPatches& built) {
@@ -124,7 +124,9 @@ void chooseAllSides(std::vector<Surface>& surfaces, std::span<const glm::vec3> o
             const glm::dvec3 normal = newellNormal(surface.mesh.points, corners);
             const double size = std::sqrt(glm::length(normal));
             const glm::vec3 point = middle + glm::vec3(1e-3 * size * glm::normalize(normal));
-            built.enclosures.addLight(point, surface.object);
+            built.enclosures.addLight(point, surface.object,
+                                      surface.light ? nullptr
+                                                    : surface.mesh.data->materialOf(face.source));
             lights.push_back(set.objects[surface.object.value].pose.point(point));
         }
     }

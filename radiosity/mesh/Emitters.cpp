@@ -143,10 +143,13 @@ namespace {
 /// bulb, are one; large ones are cut, so that each is seen mildly by most of what it lights.
 class EmitterCollector {
 public:
-    /// \param emissiveArea of all of them [m^2]
-    EmitterCollector(double emissiveArea, float patchSize)
-        : small_(2 * patchSize),
-          large_(std::max(4 * patchSize, float(std::sqrt(emissiveArea / 32)))) {}
+    /// \param emissiveAreas of the polygons of each material [m^2]: others, that may shine or not,
+    /// cut none of them
+    EmitterCollector(const std::map<const Material*, double>& emissiveAreas, float patchSize)
+        : small_(2 * patchSize) {
+        for (const auto& [material, area] : emissiveAreas)
+            large_[material] = std::max(4 * patchSize, float(std::sqrt(area / 32)));
+    }
 
     std::vector<FaceEmitter> take() { return std::move(found_); }
 
@@ -154,8 +157,9 @@ public:
     void add(const Material& material, const std::vector<glm::vec3>& outline,
              std::span<const glm::vec2> uvs) {
         if (outline.size() != 4) return addPiece(material, outline, {uvs.begin(), uvs.end()});
+        const float large = large_.at(&material);
         const auto parts = [&](float a, float b) {
-            return std::max(1, int(std::ceil(std::max(a, b) / large_ - 1e-3f)));
+            return std::max(1, int(std::ceil(std::max(a, b) / large - 1e-3f)));
         };
         const auto& q = outline;
         const int nu = parts(glm::distance(q[0], q[1]), glm::distance(q[3], q[2]));
@@ -225,7 +229,8 @@ private:
         std::size_t emitter = 0, count = 0;
         Bounds bounds;
     };
-    float small_, large_; ///< [m]
+    float small_;                            ///< [m]
+    std::map<const Material*, float> large_; ///< [m]
     std::vector<FaceEmitter> found_;
     std::map<const Material*, Group> groups_;
 };
@@ -234,11 +239,12 @@ private:
 
 std::vector<FaceEmitter> faceEmitters(const SurfaceMesh& mesh, const Tessellation& tessellation,
                                       float patchSize) {
-    double area = 0;
+    std::map<const Material*, double> areas;
     for (const SurfaceFace& face : mesh.faces)
         if (mesh.materialOf(face).emissive())
-            area += 0.5 * glm::length(newellNormal(mesh.points, mesh.cornersOf(face)));
-    EmitterCollector collector(area, patchSize);
+            areas[&mesh.materialOf(face)] +=
+                0.5 * glm::length(newellNormal(mesh.points, mesh.cornersOf(face)));
+    EmitterCollector collector(areas, patchSize);
     if (!mesh.subdivided()) {
         for (const SurfaceFace& face : mesh.faces) {
             if (!mesh.materialOf(face).emissive()) continue;

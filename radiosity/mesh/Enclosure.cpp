@@ -1,6 +1,7 @@
 #include "radiosity/mesh/Enclosure.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace penumbra {
 
@@ -10,16 +11,19 @@ void Enclosures::addSurface(const SurfaceMesh& mesh, std::span<const SurfaceMesh
         closed_.push_back({object, std::move(part), false});
 }
 
-void Enclosures::addLight(glm::vec3 point, ObjectId object) {
-    lights_.push_back({object, point});
+void Enclosures::addLight(glm::vec3 point, ObjectId object,
+                          std::shared_ptr<const Material> material) {
+    lights_.push_back({object, point, std::move(material)});
 }
 
 std::vector<glm::vec3>
 Enclosures::lights(const std::function<const Pose*(ObjectId)>& poseOf) const {
     std::vector<glm::vec3> places;
-    for (const Light& light : lights_)
+    for (const Light& light : lights_) {
+        if (light.material && !light.material->emissive()) continue;
         if (const Pose* const pose = poseOf(light.object))
             places.push_back(pose->point(light.point));
+    }
     return places;
 }
 

@@ -3,10 +3,12 @@
 
 #include "radiosity/mesh/PatchSet.h"
 #include "radiosity/surface/SurfaceMesh.h"
+#include "scenegraph/Material.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -21,14 +23,16 @@ public:
     void addSurface(const SurfaceMesh& mesh, std::span<const SurfaceMesh* const> siblings,
                     ObjectId object);
     /// \param point a hair in front of an emitting face [m, stretched frame of its object]
-    void addLight(glm::vec3 point, ObjectId object);
+    /// \param material of a mesh: counts while it shines; null: of a light, which counts always
+    void addLight(glm::vec3 point, ObjectId object, std::shared_ptr<const Material> material);
 
     /// Decides for each closed surface whether it has a light inside, as the objects stand now.
-    /// Lights that are dark or hidden count as well, those that were removed do not.
+    /// Lights that are dark or hidden count as well, those that were removed do not; nor do meshes
+    /// whose material does not shine.
     /// \param others lights of objects that are not in the set [m, world]
     void decide(const PatchSet& set, std::span<const glm::vec3> others);
     /// Objects with a surface of which that is no longer so, now that some were moved or removed,
-    /// or came. Only what may stand in or around these is checked.
+    /// or came, or began or ceased to shine. Only what may stand in or around these is checked.
     std::vector<ObjectId> changed(const PatchSet& set, std::span<const ObjectId> objects) const;
 
     std::size_t litCount() const; ///< of closed surfaces, as it was decided
@@ -51,6 +55,7 @@ private:
     struct Light {
         ObjectId object;
         glm::vec3 point;
+        std::shared_ptr<const Material> material;
     };
     bool holds(const PatchSet& set, const Closed& closed, std::span<const glm::vec3> lights) const;
 

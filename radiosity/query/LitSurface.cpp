@@ -3,6 +3,10 @@
 #include "radiosity/rays/Margins.h"
 #include "scenegraph/LitGeometry.h"
 
+#include <algorithm>
+#include <numeric>
+#include <string>
+
 namespace penumbra {
 
 LitBranch::LitBranch(const PatchSet& patches, const Lighting& light) : Group("radiosity") {
@@ -33,7 +37,12 @@ LitBranch::LitBranch(const PatchSet& patches, const Lighting& light) : Group("ra
         add(0, 1, 2);
         if (!element.isTriangle()) add(0, 2, 3);
     }
-    for (std::size_t o = 0; o < objects; ++o) {
+    // By path: of faces in one place the first is seen, whatever was meshed anew before.
+    std::vector<std::size_t> order(objects);
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::ranges::stable_sort(
+        order, {}, [&](std::size_t o) -> const std::string& { return patches.objects[o].path; });
+    for (const std::size_t o : order) {
         if (data[o].indices.empty()) continue;
         add(std::make_shared<LitGeometry>(patches.objects[o].path, ObjectId{std::uint32_t(o)},
                                           std::move(data[o])));

@@ -19,6 +19,12 @@ namespace penumbra {
 namespace {
 
 constexpr std::uint32_t kBlock = PatchSet::kBlock;
+bool isDark(const PatchSet& set) {
+    return std::ranges::none_of(set.emitters, [&](const Emitter& emitter) {
+        return maxChannel(emitter.exitance) > 0 && set.objects[emitter.object.value].present;
+    });
+}
+
 } // namespace
 
 IndirectLight::IndirectLight(const PatchSet& set, const RayScene& rays, const DirectLight& direct,
@@ -183,6 +189,7 @@ void IndirectLight::apply(const SceneChange& change) {
     residualsChanged();
     if (change.colours || !change.parted.empty()) coloursChanged();
     reachStale_ |= !change.objects.empty() || !masks.empty() || !change.patches.empty();
+    if (isDark(set_)) restart(); // what is taken back leaves a rest of rounding
     if (change.objects.empty() && masks.empty() && change.senders.empty()) return;
     for (ObjectId object : change.objects) link(object);
     for (std::uint32_t p : change.senders) linkSender(p);

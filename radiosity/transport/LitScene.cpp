@@ -107,6 +107,20 @@ std::vector<ObjectId> LitScene::beginToShine(const PlacedScene& now) const {
     return numbersIn(now, objects);
 }
 
+/// Objects of the patch set with emitters that begin or cease to shine.
+std::vector<ObjectId> LitScene::goOnOrOff() const {
+    const PatchSet& set = patches();
+    std::vector<ObjectId> objects;
+    for (std::uint32_t e = 0; e < set.emitters.size(); ++e) {
+        const Material* const material = built().emitterSources[e].material;
+        if (!material || material->emissive() == (maxChannel(set.emitters[e].exitance) > 0))
+            continue;
+        if (objects.empty() || objects.back() != set.emitters[e].object)
+            objects.push_back(set.emitters[e].object);
+    }
+    return objects;
+}
+
 void LitScene::followColours(SceneChange& change) {
     PatchSet& set = meshed_->built.patches;
     const auto lightOf = [](const LightSource& source) {
@@ -195,18 +209,20 @@ std::vector<ObjectId> LitScene::followObjects(const PlacedScene& now, SceneChang
 }
 
 /// Takes in objects that are unknown, and where all of them are.
+/// \param toggled of the patch set: began or ceased to shine
 /// \param change of colours \return false: the scene is to be meshed anew
-bool LitScene::take(const PlacedScene& now, std::span<const ObjectId> unknown, SceneChange change,
-                    Followed& followed) {
+bool LitScene::take(const PlacedScene& now, std::span<const ObjectId> unknown,
+                    std::vector<ObjectId> toggled, SceneChange change, Followed& followed) {
     if (!unknown.empty() && !addObjects(now, unknown)) return false;
     followed.added |= !unknown.empty();
     const std::vector<ObjectId> replaced = followObjects(now, change);
+    toggled.insert(toggled.end(), replaced.begin(), replaced.end());
     solver().apply(change);
     followed.change.add(change);
     if (meshed_->posed.exhausted()) return false;
     const std::vector<ObjectId> open =
-        numbersIn(now, built().enclosures.changed(patches(), replaced)); // lights got in or out
-    return open.empty() || take(now, open, {}, followed);
+        numbersIn(now, built().enclosures.changed(patches(), toggled)); // lights got in or out
+    return open.empty() || take(now, open, {}, {}, followed);
 }
 
 /// What objects of the patch set are called in `now`, those that are there.
@@ -233,9 +249,10 @@ LitScene::Followed LitScene::follow(const PlacedScene& now) {
     std::vector<ObjectId> unknown = unknownObjects(now);
     for (const ObjectId object : beginToShine(now))
         if (std::ranges::find(unknown, object) == unknown.end()) unknown.push_back(object);
+    std::vector<ObjectId> toggled = goOnOrOff();
     SceneChange colours;
     followColours(colours);
-    if (!take(now, unknown, colours, followed)) {
+    if (!take(now, unknown, std::move(toggled), colours, followed)) {
         rebuild(now);
         followed = {true, false, {}};
     }

@@ -79,11 +79,12 @@ private:
     void rebuild(const PlacedScene& scene);
     std::vector<ObjectId> unknownObjects(const PlacedScene& now) const;
     std::vector<ObjectId> beginToShine(const PlacedScene& now) const;
+    std::vector<ObjectId> goOnOrOff() const;
     void followColours(SceneChange& change);
     bool addObjects(const PlacedScene& now, std::span<const ObjectId> objects);
     std::vector<ObjectId> followObjects(const PlacedScene& now, SceneChange& change);
-    bool take(const PlacedScene& now, std::span<const ObjectId> unknown, SceneChange change,
-              Followed& followed);
+    bool take(const PlacedScene& now, std::span<const ObjectId> unknown,
+              std::vector<ObjectId> toggled, SceneChange change, Followed& followed);
     std::vector<ObjectId> numbersIn(const PlacedScene& now,
                                     std::span<const ObjectId> objects) const;
 

@@ -287,6 +287,55 @@ TEST(Incremental, EqualsFromScratchWhenSomethingThatWasMeshedInTheDarkShinesAgai
     EXPECT_EQ(followed.differs(), "");
 }
 
+/// Direct and indirect light at all vertices that are drawn, summed.
+double lightIn(const LitScene& lit) {
+    const Lighting light = lit.solver().lighting();
+    double sum = 0;
+    for (const std::vector<Rgb>& part : {light.direct, light.indirect})
+        for (const Rgb& value : part) sum += double(maxChannel(value));
+    return sum;
+}
+
+TEST(Incremental, LeavesNothingOfLightThatWentOut) {
+    RoomsWithDoor rooms;
+    const MeshingOptions meshing{.patchSize = 0.5f, .elementSize = 0.25f};
+    LitScene lit(placeScene(rooms.scene), meshing, tight(0));
+    lit.solver().settle();
+    EXPECT_GT(lightIn(lit), 0);
+    for (const Rgb luminance : {Rgb(), Rgb(1)}) {
+        rooms.light->setLuminance(luminance);
+        rooms.box->setMatrix(moved(0.1, 0, 0) * rooms.box->matrix());
+        lit.follow(placeScene(rooms.scene));
+        lit.solver().settle();
+        LitScene scratch(placeScene(rooms.scene), meshing, tight(0));
+        scratch.solver().settle();
+        EXPECT_EQ(difference(lit, scratch), "");
+        EXPECT_EQ(lightIn(lit) > 0, luminance.r > 0);
+    }
+}
+
+TEST(Incremental, EqualsFromScratchWhereWhatShinesInABoxGoesDark) {
+    // The box is lit from within, and meshed on both sides, while it shines.
+    FollowedRoom followed(4);
+    const auto glow = paint(Rgb(0.5f), Rgb(5));
+    addBlock(followed, "glowing", moved(1, 1, 0.5), glow);
+    MeshData box = boxData({0.9f, 0.9f, 0.4f}, {1.5f, 1.5f, 1}, false);
+    box.doubleSided = true;
+    followed.room.scene().root->add(
+        objectOf("around", {std::make_shared<Mesh>("mesh", std::move(box))}));
+    followed.follow();
+    followed.lit.solver().settle();
+    const std::size_t patches = followed.lit.patches().patchCount();
+    glow->setEmission(Rgb());
+    followed.follow();
+    EXPECT_LT(followed.lit.patches().patchCount(), patches);
+    EXPECT_EQ(followed.differs(), "");
+    glow->setEmission(Rgb(5));
+    followed.follow();
+    EXPECT_EQ(followed.lit.patches().patchCount(), patches);
+    EXPECT_EQ(followed.differs(), "");
+}
+
 TEST(Incremental, EqualsFromScratchAfterAnEditThatWasRefused) {
     FollowedRoom followed(4);
     const auto near = addBlock(followed, "near", moved(1, 1, 0));

@@ -406,7 +406,7 @@ void Viewer::advance(double seconds) {
             pace_.touched(steadySeconds()); // or undone, or played
         else
             pace_.changed();
-        state_.noLights = !hasLights(walk_->placed());
+        state_.noLights = light_->dark();
         if (state_.noLights || !light_->complete()) preview_ = unlitLighting(walk_->placed());
     }
     if (watcher_.changed(state_.time)) reload();

@@ -99,6 +99,7 @@ bool WalkLight::update(const Walkthrough& walk, const View& view) {
     const glm::dmat4 seenFrom = view.worldToClip();
     if (std::exchange(seenFrom_, seenFrom) != seenFrom) node_->setCamera(view);
     node_->update();
+    hadLights_ |= !dark();
     chooseLights(walk);
     choosePreview();
     preview_->takeBack();

@@ -61,8 +61,9 @@ public:
     const Group& lit() const { return node_->lit(); }
     /// Whether all that is visible has light.
     bool complete() const;
-    /// Whether the scene has nothing to be lit by: all of it is listed as unlit.
-    bool dark() const { return !hasLights(node_->placed()); }
+    /// Whether the scene has had nothing to be lit by so far: all of it is listed as unlit. Lights
+    /// that go out leave the dark.
+    bool dark() const { return !hadLights_ && !hasLights(node_->placed()); }
 
     std::span<const LitObject> objects() const { return node_->objects(); }
     const PlacedScene& placed() const { return node_->placed(); }
@@ -102,6 +103,7 @@ private:
     RadiosityState::Phase phase_ = RadiosityState::Phase::off;
     SolutionState solution_ = SolutionState::working;
     std::size_t unlit_ = 0;
+    bool hadLights_ = false;
 };
 
 } // namespace penumbra

@@ -138,6 +138,20 @@ TEST(BuildPatches, MakesEmittersOfLightsAndOfGlowingFaces) {
     EXPECT_NEAR(area, 2, 1e-5);
 }
 
+TEST(BuildPatches, CutsWhatGlowsAlikeWhateverElseOfItsMeshGlows) {
+    const auto emittersOf = [](const std::shared_ptr<Material>& other) {
+        MeshData glowing = boxData({0, 0, 0}, {1, 1, 1}, false, paint(Rgb(0.5f), {2, 2, 2}));
+        glowing.materials.push_back(other);
+        glowing.faceMaterial = {0, 1, 1, 1, 1, 1};
+        const PatchSet set =
+            meshed(sceneOf({object("glow", glowing)}), {.patchSize = 0.04f}).patches;
+        return std::ranges::count(set.emitters, Rgb(2.0f * std::numbers::pi_v<float>),
+                                  &Emitter::exitance);
+    };
+    EXPECT_GT(emittersOf(paint(Rgb(0.5f))), 4);
+    EXPECT_EQ(emittersOf(paint(Rgb(0.5f))), emittersOf(paint(Rgb(0.5f), {3, 3, 3})));
+}
+
 TEST(BuildPatches, WarnsOnceOfFacesLeftOutAndOfDarkness) {
     MeshData floor = floorData(0, 1, 0, 1, 0);
     for (int i = 0; i < 3; ++i) {
