@@ -51,17 +51,17 @@ bool UsdTracks::empty() const {
 }
 
 void UsdTracks::addTransform(std::shared_ptr<Transform> node, const UsdPrim& prim,
-                             const glm::dmat4& parentToWorld) {
-    if (changes(prim, "xformOp:")) transforms_.push_back({std::move(node), &prim, parentToWorld});
+                             const UsdFrame& parent) {
+    if (changes(prim, "xformOp:")) transforms_.push_back({std::move(node), &prim, parent});
 }
 
 void UsdTracks::addSwitch(std::shared_ptr<Switch> node, const UsdPrim& prim) {
     switches_.push_back({std::move(node), &prim});
 }
 
-void UsdTracks::addLight(const NodePtr& node, const UsdPrim& prim, const glm::dmat4& toWorld) {
-    if (!changes(prim, "inputs:")) return;
-    LightTrack track{std::dynamic_pointer_cast<Light>(node), nullptr, &prim, toWorld};
+void UsdTracks::addLight(const NodePtr& node, const UsdPrim& prim, const UsdFrame& frame) {
+    if (!changes(prim, "inputs:") && !frame.moves()) return;
+    LightTrack track{std::dynamic_pointer_cast<Light>(node), nullptr, &prim, frame};
     if (const auto mesh = std::dynamic_pointer_cast<Mesh>(node)) track.tube = mesh->materialOf(0);
     lights_.push_back(std::move(track));
 }
@@ -83,7 +83,7 @@ void UsdTracks::setTime(double timeCode) {
         const UsdLocalTransform local =
             usdLocalTransform(UsdAttributes(*track.prim, timeCode), ignored);
         const glm::dmat4 matrix =
-            local.resetsStack ? relativeToParent(local, track.parentToWorld) : local.matrix;
+            local.resetsStack ? relativeToParent(local, track.parent.toWorld()) : local.matrix;
         if (matrix != track.node->matrix()) track.node->setMatrix(matrix);
     }
     for (const SwitchTrack& track : switches_) {
@@ -92,8 +92,9 @@ void UsdTracks::setTime(double timeCode) {
     }
     for (const LightTrack& track : lights_) {
         const UsdAttributes attributes(*track.prim, timeCode);
-        const Rgb luminance =
-            usdLightLuminance(attributes, usdLightArea(attributes, track.toWorld), ignored);
+        const bool sized = attributes.flag("inputs:normalize", false);
+        const double area = sized ? usdLightArea(attributes, track.frame.toWorld()) : 1;
+        const Rgb luminance = usdLightLuminance(attributes, area, ignored);
         if (track.light && track.light->luminance() != luminance)
             track.light->setLuminance(luminance);
         if (track.tube && track.tube->emission() != luminance) track.tube->setEmission(luminance);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/usd/scene/UsdAnimation.h"
+#include "io/usd/scene/UsdFrame.h"
 #include "io/usd/shade/UsdMaterial.h"
 #include "io/usd/stage/UsdAttributes.h"
 #include "io/usd/stage/UsdStage.h"
@@ -27,13 +28,13 @@ public:
     void setTime(double timeCode) override;
     bool empty() const;
 
-    /// Each remembers a node if its prim changes with time. Frames as in makeUsdLight().
-    void addTransform(std::shared_ptr<Transform> node, const UsdPrim& prim,
-                      const glm::dmat4& parentToWorld);
+    /// Each remembers a node if its prim changes with time. Those above it come first.
+    void addTransform(std::shared_ptr<Transform> node, const UsdPrim& prim, const UsdFrame& parent);
     /// \param node hides what `prim` became; always remembered
     void addSwitch(std::shared_ptr<Switch> node, const UsdPrim& prim);
-    /// \param node a Light, or the Mesh that represents a CylinderLight
-    void addLight(const NodePtr& node, const UsdPrim& prim, const glm::dmat4& toWorld);
+    /// Also if only its frame moves: what a light of a given flux sends depends on its size in the
+    /// world. \param node a Light, or the Mesh that represents a CylinderLight
+    void addLight(const NodePtr& node, const UsdPrim& prim, const UsdFrame& frame);
     void addCamera(std::shared_ptr<Camera> node, const UsdPrim& prim);
     /// The materials that were made, those that change.
     void addMaterials(const UsdMaterials& materials);
@@ -42,13 +43,13 @@ private:
     struct TransformTrack {
         std::shared_ptr<Transform> node;
         const UsdPrim* prim;
-        glm::dmat4 parentToWorld;
+        UsdFrame parent;
     };
     struct LightTrack {
         std::shared_ptr<Light> light;   ///< or
         std::shared_ptr<Material> tube; ///< the material of a CylinderLight's mesh
         const UsdPrim* prim;
-        glm::dmat4 toWorld;
+        UsdFrame frame;
     };
     struct SwitchTrack {
         std::shared_ptr<Switch> node;
