@@ -257,8 +257,10 @@ private:
         const UsdPrim& prim = attributes.prim();
         UsdLocalTransform local;
         if (isXformable(prim.typeName)) local = usdLocalTransform(attributes, warnings_);
+        // What leaves a moving parent behind stands still, but moves in the parent's frame.
+        const bool moves = local.animated || (local.resetsStack && parent.frame.moves());
         const bool object =
-            local.animated || comesAndGoes(prim) || attributes.flag("penumbra:movable", false);
+            moves || comesAndGoes(prim) || attributes.flag("penumbra:movable", false);
         const bool structure = prim.typeName == "Xform";
         if (!structure && !local.authored && !object &&
             !(prototypesOpen_ == 0 && isShape(prim.typeName) && objects_.needsTransform(prim)))
@@ -267,8 +269,8 @@ private:
         auto transform = std::make_shared<Transform>(comesAndGoes(prim) ? "" : prim.name);
         transform->setMatrix(local.matrix);
         transform->setBeginsObject(object);
-        place.frame = parent.frame.below(transform, local.animated);
-        tracks_.addTransform(transform, prim, parent.frame);
+        place.frame = parent.frame.below(transform, moves);
+        if (moves) tracks_.addTransform(transform, prim, parent.frame);
         addresses_.transforms.push_back({transform, prim.path, local.animated, false});
         return transform;
     }

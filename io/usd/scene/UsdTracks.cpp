@@ -52,7 +52,7 @@ bool UsdTracks::empty() const {
 
 void UsdTracks::addTransform(std::shared_ptr<Transform> node, const UsdPrim& prim,
                              const UsdFrame& parent) {
-    if (changes(prim, "xformOp:")) transforms_.push_back({std::move(node), &prim, parent});
+    transforms_.push_back({std::move(node), &prim, parent});
 }
 
 void UsdTracks::addSwitch(std::shared_ptr<Switch> node, const UsdPrim& prim) {

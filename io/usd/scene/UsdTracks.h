@@ -28,13 +28,16 @@ public:
     void setTime(double timeCode) override;
     bool empty() const;
 
-    /// Each remembers a node if its prim changes with time. Those above it come first.
+    /// Remembers a node whose matrix changes with time, after those above it.
+    /// \param parent what is left behind by `!resetXformStack!`
     void addTransform(std::shared_ptr<Transform> node, const UsdPrim& prim, const UsdFrame& parent);
     /// \param node hides what `prim` became; always remembered
     void addSwitch(std::shared_ptr<Switch> node, const UsdPrim& prim);
-    /// Also if only its frame moves: what a light of a given flux sends depends on its size in the
-    /// world. \param node a Light, or the Mesh that represents a CylinderLight
+    /// Remembers a light if its prim changes with time or its frame moves: what a light of a given
+    /// flux sends depends on its size in the world. \param node a Light, or the Mesh that
+    /// represents a CylinderLight
     void addLight(const NodePtr& node, const UsdPrim& prim, const UsdFrame& frame);
+    /// Remembers a camera if its prim changes with time.
     void addCamera(std::shared_ptr<Camera> node, const UsdPrim& prim);
     /// The materials that were made, those that change.
     void addMaterials(const UsdMaterials& materials);

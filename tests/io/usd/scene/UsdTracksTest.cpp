@@ -1,6 +1,8 @@
 // A scene that is played to a time is the scene that is loaded at that time.
 #include "tests/io/usd/UsdTestFiles.h"
 
+#include "scenegraph/Transform.h"
+
 #include <gtest/gtest.h>
 
 namespace penumbra {
@@ -72,6 +74,60 @@ TEST(UsdTracks, ANormalizedLightIsAsLoadedWhereverWhatResizesItIs) {
                                               "[\"xformOp:translate\"]\n") +
                              " }\n}\n");
     }
+}
+
+namespace {
+
+const std::string kGoes = " double3 xformOp:translate.timeSamples = { 1: (0, 0, 0), 2: (1, 0, .3), "
+                          "4: (0, 1, 0) }\n"
+                          " float3 xformOp:rotateXYZ.timeSamples = { 1: (0, 0, 0), 4: (10, 50, 9) "
+                          "}\n"
+                          " uniform token[] xformOpOrder = [\"xformOp:translate\", "
+                          "\"xformOp:rotateXYZ\"]\n";
+
+/// A prim below a moving one, which it leaves behind.
+std::string leavesAMovingParent(const std::string& translate, const std::string& below) {
+    return "def Xform \"goes\"\n{\n" + kGoes + " def Xform \"child\"\n {\n  double3 " + translate +
+           "\n  uniform token[] xformOpOrder = [\"!resetXformStack!\", \"xformOp:translate\"]\n" +
+           below + " }\n}\n";
+}
+
+const char* const kStands = "xformOp:translate = (2, 1, 0)";
+const char* const kWalks = "xformOp:translate.timeSamples = { 1: (2, 1, 0), 3: (2.5, 1, 0) }";
+
+} // namespace
+
+TEST(UsdTracks, WhatResetsTheStackStandsStillBelowAMovingParent) {
+    const LoadedScene loaded = loadText("(metersPerUnit = 1\n startTimeCode = 1)\n" +
+                                        leavesAMovingParent(kStands, "def Cube \"c\"\n{\n}\n"));
+    loaded.animation->setTime(2);
+    const glm::dvec4 at = nodesByPath(*loaded.scene).at("/goes/child/c").toWorld[3];
+    EXPECT_NEAR(glm::length(at - glm::dvec4(2, 1, 0, 1)), 0, 1e-12);
+}
+
+TEST(UsdTracks, WhatResetsTheStackBelowAMovingParentIsAsLoaded) {
+    const std::string cube = "def Cube \"c\"\n{\n}\n";
+    const std::string follows = "def Cube \"d\"\n{\n" + kGoes + "}\n";
+    for (const char* translate : {kStands, kWalks}) {
+        expectPlayedAsLoaded(leavesAMovingParent(translate, cube + follows));
+        expectPlayedAsLoaded(leavesAMovingParent(translate, sizedLight("SphereLight", kGrows)));
+        expectPlayedAsLoaded(leavesAMovingParent(translate, leavesAMovingParent(kWalks, cube)));
+        expectPlayedAsLoaded(
+            "def PointInstancer \"many\"\n{\n" + kGoes +
+            " int[] protoIndices = [0, 0]\n"
+            " point3f[] positions = [(0, 0, 0), (5, 0, 0)]\n"
+            " rel prototypes = </many/child>\n def Cube \"child\"\n {\n  double3 " +
+            translate +
+            "\n  uniform token[] xformOpOrder = [\"!resetXformStack!\", "
+            "\"xformOp:translate\"]\n }\n}\n");
+    }
+}
+
+TEST(UsdTracks, WhatLeavesAMovingParentBehindIsAnObjectOfItsOwn) {
+    const LoadedScene loaded =
+        loadText("(metersPerUnit = 1)\n" + leavesAMovingParent(kStands, "def Cube \"c\"\n{\n}\n"));
+    const auto nodes = nodesByPath(*loaded.scene);
+    EXPECT_TRUE(dynamic_cast<const Transform&>(*nodes.at("/goes/child").node).beginsObject());
 }
 
 } // namespace penumbra
