@@ -77,8 +77,15 @@ void UsdTracks::addMaterials(const UsdMaterials& materials) {
                 materials_.push_back({surface.material, path});
 }
 
+void UsdTracks::warnOfSamples(UsdTime loaded, Diagnostics& diagnostics) const {
+    UsdSampleCheck check(loaded, diagnostics);
+    for (const TransformTrack& track : transforms_) checkUsdTransform(*track.prim, check);
+    for (const LightTrack& track : lights_) checkUsdLight(*track.prim, check);
+    for (const CameraTrack& track : cameras_) checkUsdLens(*track.prim, check);
+}
+
 void UsdTracks::setTime(double timeCode) {
-    Diagnostics ignored; // all was reported when the scene was loaded
+    Diagnostics ignored; // all was reported by the load and by warnOfSamples()
     for (const TransformTrack& track : transforms_) {
         const UsdLocalTransform local =
             usdLocalTransform(UsdAttributes(*track.prim, timeCode), ignored);

@@ -27,6 +27,8 @@ public:
         : stage_(std::move(stage)), textures_(std::move(textures)) {}
     void setTime(double timeCode) override;
     bool empty() const;
+    /// Warns of samples that can't be used. \param loaded when the scene was read; that is reported
+    void warnOfSamples(UsdTime loaded, Diagnostics& diagnostics) const;
 
     /// Remembers a node whose matrix changes with time, after those above it.
     /// \param parent what is left behind by `!resetXformStack!`

@@ -3,7 +3,10 @@
 
 #include "scenegraph/Transform.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <chrono>
 
 namespace penumbra {
 
@@ -128,6 +131,103 @@ TEST(UsdTracks, WhatLeavesAMovingParentBehindIsAnObjectOfItsOwn) {
         loadText("(metersPerUnit = 1)\n" + leavesAMovingParent(kStands, "def Cube \"c\"\n{\n}\n"));
     const auto nodes = nodesByPath(*loaded.scene);
     EXPECT_TRUE(dynamic_cast<const Transform&>(*nodes.at("/goes/child").node).beginsObject());
+}
+
+namespace {
+
+/// Lines of the scene's warnings, from `line:column` on.
+std::vector<std::string> warningsOf(const std::string& body, const LoadOptions& options = {}) {
+    std::vector<std::string> lines;
+    for (const Diagnostic& d :
+         loadText("(metersPerUnit = 1\n startTimeCode = 1)\n" + body, options).diagnostics) {
+        const std::string line = d.line();
+        lines.push_back(line.substr(line.find(".usda:") + 6));
+    }
+    return lines;
+}
+
+std::string cubeWith(const std::string& op, const std::string& samples,
+                     const std::string& prefix = "") {
+    return "def Cube \"c\"\n{\n float3 xformOp:" + op + ".timeSamples = { " + samples +
+           " }\n uniform token[] xformOpOrder = [\"" + prefix + "xformOp:" + op + "\"]\n}\n";
+}
+
+} // namespace
+
+TEST(UsdTracks, ASampleThatCanNotBeUsedIsReportedWhenTheSceneIsLoaded) {
+    using testing::ElementsAre;
+    const std::string beyond = "transform op skipped: its value is not finite, or beyond 1e7";
+    EXPECT_THAT(warningsOf(cubeWith("translate", "1: (0, 0, 0), 2: (2e7, 0, 0), 2.5: (1, 0, 0), "
+                                                 "4: (0, inf, 0), 5: (0, 0, 0)")),
+                ElementsAre("6:2: warning: at time code 2: " + beyond,
+                            "6:2: warning: at time code 4: " + beyond));
+    EXPECT_THAT(warningsOf(cubeWith("scale", "1: (1, 1, 1), 3: (nan, 1, 1)")),
+                ElementsAre("6:2: warning: at time code 3: " + beyond));
+    EXPECT_THAT(
+        warningsOf(cubeWith("scale", "1: (1, 1, 1), 3: (0, 1, 1)", "!invert!")),
+        ElementsAre("6:2: warning: at time code 3: transform op skipped: its matrix is not finite "
+                    "or can't be inverted"));
+    EXPECT_THAT(warningsOf("def SphereLight \"l\"\n{\n float inputs:intensity.timeSamples = "
+                           "{ 1: 5, 2: -5, 3: nan }\n}\n"),
+                ElementsAre("6:2: warning: at time code 2: a light whose luminance is negative or "
+                            "not finite sends none",
+                            "6:2: warning: at time code 3: a light whose luminance is negative or "
+                            "not finite sends none"));
+    EXPECT_THAT(
+        warningsOf("def Camera \"eye\"\n{\n float focalLength.timeSamples = { 1: 50, 2: inf }\n}\n"
+                   "def Cube \"c\"\n{\n}\n"),
+        ElementsAre("6:2: warning: at time code 2: a number of a lens ignored: not finite"));
+}
+
+TEST(UsdTracks, ASampleThatTheLoadHasReadIsReportedOnce) {
+    const std::string body = cubeWith("translate", "1: (0, 0, 0), 2: (2e7, 0, 0), 3: (0, 0, 0)");
+    for (const double time : {1.0, 2.0, 3.0, 7.0})
+        EXPECT_EQ(warningsOf(body, {.time = time}).size(), 1u) << time;
+    const std::string end = cubeWith("translate", "1: (0, 0, 0), 2: (2e7, 0, 0)");
+    EXPECT_EQ(warningsOf(end, {.time = 9}).size(), 1u) << "the last sample holds";
+}
+
+TEST(UsdTracks, ASampleThatManyPrimsShareIsReportedOnceAndInTheirTime) {
+    const std::string later = " (references = </c> (offset = 10))";
+    const auto lines = warningsOf(
+        "def Cube \"a\"" + later + "\n{\n}\ndef Cube \"b\"" + later + "\n{\n}\nover " +
+        cubeWith("translate", "1: (0, 0, 0), 2: (2e7, 0, 0)").substr(std::string("def ").size()));
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_NE(lines[0].find("at time code 12: transform op skipped"), std::string::npos)
+        << lines[0];
+    EXPECT_EQ(lines[0].find("times"), std::string::npos) << lines[0];
+}
+
+TEST(UsdTracks, WhatALightIgnoresFromATimeOnIsReportedOnce) {
+    const auto cone = [](const char* samples) {
+        return warningsOf("def SphereLight \"l\"\n{\n float inputs:shaping:cone:angle.timeSamples "
+                          "= { " +
+                          std::string(samples) + " }\n}\n");
+    };
+    EXPECT_THAT(cone("1: 90, 2: 50, 3: 40"),
+                testing::ElementsAre("6:2: warning: at time code 2: shaping of a light ignored"));
+    EXPECT_THAT(cone("1: 50, 2: 40"),
+                testing::ElementsAre("6:2: warning: shaping of a light ignored"));
+}
+
+TEST(UsdTracks, ManySamplesOfManyOpsAreGoneThroughOnce) {
+    // Each op has times of its own: reading all of them at each time would be a thousand times the
+    // samples that there are.
+    std::string ops, order;
+    for (int op = 0; op < 1000; ++op) {
+        const std::string name = "xformOp:translateX:o" + std::to_string(op);
+        ops += " double " + name + ".timeSamples = { ";
+        for (int i = 0; i < 100; ++i)
+            ops += std::to_string(i) + "." + std::to_string(op + 1000) + ": 1e8, ";
+        ops += "}\n";
+        order += "\"" + name + "\", ";
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_FALSE(warningsOf("def Cube \"c\"\n{\n" + ops + " uniform token[] xformOpOrder = [" +
+                            order + "]\n}\n")
+                     .empty());
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    EXPECT_LT(took.count(), 60); // well below one; the rest is for sanitizers
 }
 
 } // namespace penumbra
