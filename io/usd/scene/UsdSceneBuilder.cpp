@@ -328,7 +328,7 @@ private:
                                                 " left out: a Mesh or an emissive material shines");
         const auto make = [&] {
             return makeUsdMesh(name, stage_, attributes, makeUsdGprim(attributes, warnings_),
-                               place.inherited, materials_, std::nullopt, warnings_);
+                               place.inherited, materials_, nullptr, warnings_);
         };
         const std::string key = usdGprimKey(attributes);
         if (!name.empty() || !prim.children.empty() || key.empty() || place.inherited.displayColour)
@@ -343,13 +343,16 @@ private:
         if (UsdStage::animated(prim, "points"))
             warnings_.warn(attributes.location("points"), "animated points are held");
         UsdPolygons polygons = readUsdPolygons(attributes, warnings_);
-        std::optional<Rgb> light;
-        if (UsdStage::hasApi(prim, "MeshLightAPI")) {
-            const double area = areaOf(polygons, glm::dmat3(place.frame.toWorld()));
-            light = usdLightLuminance(attributes, area, warnings_);
-        }
-        return makeUsdMesh(name, stage_, attributes, std::move(polygons), place.inherited,
-                           materials_, light, warnings_);
+        if (!UsdStage::hasApi(prim, "MeshLightAPI"))
+            return makeUsdMesh(name, stage_, attributes, std::move(polygons), place.inherited,
+                               materials_, nullptr, warnings_);
+        const double area = areaOf(polygons, glm::dmat3(place.frame.toWorld()));
+        UsdMeshLight light;
+        NodePtr mesh = makeUsdMesh(name, stage_, attributes, polygons, place.inherited, materials_,
+                                   &light, warnings_);
+        light.set(usdLightLuminance(attributes, area, warnings_));
+        if (mesh) tracks_.addMeshLight(std::move(light), prim, place.frame, std::move(polygons));
+        return mesh;
     }
 
     bool hasChildren(const UsdPrim& prim) const {

@@ -3,6 +3,7 @@
 
 #include "io/usd/scene/UsdAnimation.h"
 #include "io/usd/scene/UsdFrame.h"
+#include "io/usd/scene/UsdMesh.h"
 #include "io/usd/shade/UsdMaterial.h"
 #include "io/usd/stage/UsdAttributes.h"
 #include "io/usd/stage/UsdStage.h"
@@ -39,6 +40,9 @@ public:
     /// flux sends depends on its size in the world. \param node a Light, or the Mesh that
     /// represents a CylinderLight
     void addLight(const NodePtr& node, const UsdPrim& prim, const UsdFrame& frame);
+    /// Remembers the light of a mesh, in case that also its materials change.
+    void addMeshLight(UsdMeshLight light, const UsdPrim& prim, const UsdFrame& frame,
+                      UsdPolygons polygons);
     /// Remembers a camera if its prim changes with time.
     void addCamera(std::shared_ptr<Camera> node, const UsdPrim& prim);
     /// The materials that were made, those that change.
@@ -56,6 +60,13 @@ private:
         const UsdPrim* prim;
         UsdFrame frame;
     };
+    struct MeshLightTrack {
+        UsdMeshLight light;
+        const UsdPrim* prim;
+        UsdFrame frame;
+        UsdPolygons polygons; ///< of the load: points are held
+        bool changes;         ///< by itself
+    };
     struct SwitchTrack {
         std::shared_ptr<Switch> node;
         const UsdPrim* prim;
@@ -69,11 +80,16 @@ private:
         std::string path;
     };
 
+    void setTransforms(double timeCode);
+    void setLights(double timeCode);
+    void setMaterials(double timeCode);
+
     std::shared_ptr<const UsdStage> stage_; // the prims live in it
     std::shared_ptr<UsdTextures> textures_;
     std::vector<TransformTrack> transforms_;
     std::vector<SwitchTrack> switches_;
     std::vector<LightTrack> lights_;
+    std::vector<MeshLightTrack> meshLights_;
     std::vector<CameraTrack> cameras_;
     std::vector<MaterialTrack> materials_;
 };

@@ -79,6 +79,29 @@ TEST(UsdTracks, ANormalizedLightIsAsLoadedWhereverWhatResizesItIs) {
     }
 }
 
+TEST(UsdTracks, AMeshThatIsALightIsAsLoaded) {
+    const auto mesh = [](const std::string& body) {
+        return "def Mesh \"m\" (apiSchemas = [\"MeshLightAPI\"])\n{\n" + body +
+               " point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 2, 0), (0, 2, 0)]\n"
+               " int[] faceVertexCounts = [4]\n int[] faceVertexIndices = [0, 1, 2, 3]\n"
+               " rel material:binding = </M>\n}\n"
+               "def Cube \"c\"\n{\n rel material:binding = </M>\n}\n";
+    };
+    const auto material = [](const std::string& input) {
+        return "def Material \"M\"\n{\n token outputs:surface.connect = </M/S.outputs:surface>\n"
+               " def Shader \"S\"\n {\n  uniform token info:id = \"UsdPreviewSurface\"\n" +
+               input + " }\n}\n";
+    };
+    const std::string still = material("");
+    const std::string brightens = " float inputs:intensity.timeSamples = { 1: 5, 3: 9 }\n";
+    expectPlayedAsLoaded(mesh(" bool inputs:normalize = 1\n" + kGrows) + still);
+    expectPlayedAsLoaded(mesh(brightens) + still);
+    const std::string samples = ".timeSamples = { 1: (.1, .2, .3), 4: (.5, .4, .3) }\n";
+    for (const char* colour : {"diffuseColor", "emissiveColor"})
+        expectPlayedAsLoaded(mesh(brightens) +
+                             material("  color3f inputs:" + std::string(colour) + samples));
+}
+
 namespace {
 
 const std::string kGoes = " double3 xformOp:translate.timeSamples = { 1: (0, 0, 0), 2: (1, 0, .3), "
