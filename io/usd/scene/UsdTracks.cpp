@@ -83,7 +83,7 @@ void UsdTracks::addMaterials(const UsdMaterials& materials) {
     for (const auto& [path, surface] : materials.made())
         if (const UsdPrim* prim = stage_->find(path))
             if (surface.material && anythingChangesBelow(*stage_, *prim))
-                materials_.push_back({surface.material, path});
+                materials_.push_back({surface.material, path, surface.shader});
 }
 
 void UsdTracks::warnOfSamples(UsdTime loaded, Diagnostics& diagnostics) const {
@@ -92,6 +92,9 @@ void UsdTracks::warnOfSamples(UsdTime loaded, Diagnostics& diagnostics) const {
     for (const LightTrack& track : lights_) checkUsdLight(*track.prim, check);
     for (const MeshLightTrack& track : meshLights_) checkUsdLight(*track.prim, check);
     for (const CameraTrack& track : cameras_) checkUsdLens(*track.prim, check);
+    for (const MaterialTrack& track : materials_)
+        if (const UsdPrim* shader = stage_->find(track.shader))
+            checkUsdShader(*stage_, *shader, check);
 }
 
 // All diagnostics below were reported by the load and by warnOfSamples().

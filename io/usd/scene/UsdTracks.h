@@ -77,7 +77,7 @@ private:
     };
     struct MaterialTrack {
         std::shared_ptr<Material> material;
-        std::string path;
+        std::string path, shader; ///< of its prims
     };
 
     void setTransforms(double timeCode);

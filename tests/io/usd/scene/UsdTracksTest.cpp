@@ -200,6 +200,15 @@ TEST(UsdTracks, ASampleThatCanNotBeUsedIsReportedWhenTheSceneIsLoaded) {
         warningsOf("def Camera \"eye\"\n{\n float focalLength.timeSamples = { 1: 50, 2: inf }\n}\n"
                    "def Cube \"c\"\n{\n}\n"),
         ElementsAre("6:2: warning: at time code 2: a number of a lens ignored: not finite"));
+    EXPECT_THAT(warningsOf("def Cube \"c\"\n{\n rel material:binding = </M>\n}\n"
+                           "def Material \"M\"\n{\n"
+                           " token outputs:surface.connect = </M/S.outputs:surface>\n"
+                           " def Shader \"S\"\n {\n"
+                           "  uniform token info:id = \"UsdPreviewSurface\"\n"
+                           "  color3f inputs:diffuseColor.timeSamples = { 1: (1, 1, 1), 2: (nan, "
+                           "1, 1) }\n }\n}\n"),
+                ElementsAre("14:3: warning: at time code 2: a number of a material ignored: not "
+                            "finite"));
 }
 
 TEST(UsdTracks, ASampleThatTheLoadHasReadIsReportedOnce) {
