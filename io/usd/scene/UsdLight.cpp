@@ -83,10 +83,7 @@ void warnOfIgnoredInputs(const UsdAttributes& light, Diagnostics& diagnostics) {
             warn(name, "light filters and linking ignored");
 }
 
-} // namespace
-
-Rgb usdLightLuminance(const UsdAttributes& light, double area, Diagnostics& diagnostics) {
-    warnOfIgnoredInputs(light, diagnostics);
+Rgb luminanceOf(const UsdAttributes& light, double area, Diagnostics& diagnostics) {
     double factor = light.number("inputs:intensity", 1) *
                     std::exp2(light.number("inputs:exposure", 0)) *
                     light.number("inputs:diffuse", 1);
@@ -105,6 +102,31 @@ Rgb usdLightLuminance(const UsdAttributes& light, double area, Diagnostics& diag
         diagnostics.warn(light.location("inputs:intensity"),
                          "a light whose luminance is negative or not finite sends none");
     return luminance;
+}
+
+} // namespace
+
+Rgb usdLightLuminance(const UsdAttributes& light, double area, Diagnostics& diagnostics) {
+    warnOfIgnoredInputs(light, diagnostics);
+    return luminanceOf(light, area, diagnostics);
+}
+
+// What a light ignores is reported once, a sample that gives no light each time.
+void checkUsdLight(const UsdPrim& light, UsdSampleCheck& check) {
+    constexpr std::array<std::string_view, 7> kIgnored{
+        "inputs:texture:file",  "inputs:shaping:ies:file",
+        "inputs:shaping:focus", "inputs:shaping:cone:angle",
+        "inputs:shadow:enable", "treatAsPoint",
+        "treatAsLine"};
+    constexpr std::array<std::string_view, 6> kFactors{"inputs:intensity",
+                                                       "inputs:exposure",
+                                                       "inputs:diffuse",
+                                                       "inputs:color",
+                                                       "inputs:enableColorTemperature",
+                                                       "inputs:colorTemperature"};
+    check.firsts(light, kIgnored, "ignored", warnOfIgnoredInputs);
+    check.each(light, kFactors, "luminance",
+               [](const UsdAttributes& at, Diagnostics& found) { luminanceOf(at, 1, found); });
 }
 
 namespace {

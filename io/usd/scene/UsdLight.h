@@ -4,6 +4,7 @@
 #include "base/Rgb.h"
 #include "io/usd/layer/UsdDiagnostic.h"
 #include "io/usd/stage/UsdAttributes.h"
+#include "io/usd/stage/UsdSampleCheck.h"
 #include "scenegraph/Node.h"
 
 #include <glm/glm.hpp>
@@ -26,6 +27,9 @@ Rgb blackbodyColour(double kelvin);
 /// Warns of inputs that are ignored (shaping, textures, light linking, old names). Never negative
 /// and always finite.
 Rgb usdLightLuminance(const UsdAttributes& light, double area, Diagnostics& diagnostics);
+
+/// Warns of what can't be used at other times than that of the load.
+void checkUsdLight(const UsdPrim& light, UsdSampleCheck& check);
 
 /// Area of a light's emitting surface in the world, scene units squared; 0 if a size is not
 /// positive. \param toWorld local frame to world, column vectors, scene units; any scale and shear

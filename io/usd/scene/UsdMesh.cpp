@@ -165,14 +165,8 @@ void paintSubsets(const UsdStage& stage, const UsdAttributes& prim, const UsdInh
     }
 }
 
-// Copies that send the light, too; the originals may be on other meshes that are no light.
-void addLight(std::vector<std::shared_ptr<Material>>& table, Rgb luminance) {
-    for (auto& material : table) {
-        auto glowing = std::make_shared<Material>(material->name(), material->textures());
-        glowing->setReflectance(material->reflectance());
-        glowing->setEmission(material->emissive() ? luminance * material->emission() : luminance);
-        material = std::move(glowing);
-    }
+UsdMeshLight::Paint glowing(const std::shared_ptr<Material>& plain) {
+    return {plain, std::make_shared<Material>(plain->name(), plain->textures())};
 }
 
 UsdCorners cornersOf(const UsdPolygons& polygons) {
@@ -227,9 +221,18 @@ void addTexCoords(const UsdAttributes& prim, const UsdMaterials& materials,
 
 } // namespace
 
+void UsdMeshLight::set(Rgb luminance) const {
+    for (const auto& [plain, glowing] : paints) {
+        const Rgb reflectance = plain->reflectance();
+        const Rgb emission = plain->emissive() ? luminance * plain->emission() : luminance;
+        if (glowing->reflectance() != reflectance) glowing->setReflectance(reflectance);
+        if (glowing->emission() != emission) glowing->setEmission(emission);
+    }
+}
+
 NodePtr makeUsdMesh(const std::string& name, const UsdStage& stage, const UsdAttributes& prim,
                     UsdPolygons polygons, const UsdInherited& inherited, UsdMaterials& materials,
-                    const std::optional<Rgb>& lightOf, Diagnostics& diagnostics) {
+                    UsdMeshLight* light, Diagnostics& diagnostics) {
     Painter painter(prim, polygons, materials, diagnostics);
     painter.paintAll(inherited);
     paintSubsets(stage, prim, inherited, materials, painter, diagnostics);
@@ -247,7 +250,11 @@ NodePtr makeUsdMesh(const std::string& name, const UsdStage& stage, const UsdAtt
     if (data.materials.size() > 1)
         for (const std::size_t f : faceOf) data.faceMaterial.push_back(faceMaterial[f]);
     addTexCoords(prim, materials, corners, faceOf, data, diagnostics);
-    if (lightOf) addLight(data.materials, *lightOf);
+    if (light)
+        for (auto& material : data.materials) {
+            light->paints.push_back(glowing(material));
+            material = light->paints.back().glowing;
+        }
     return std::make_shared<Mesh>(name, std::move(data));
 }
 

@@ -4,7 +4,10 @@
 #include "io/usd/scene/UsdPolygons.h"
 #include "io/usd/shade/UsdMaterial.h"
 
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace penumbra {
 
@@ -16,6 +19,19 @@ struct UsdInherited {
     bool operator==(const UsdInherited&) const = default;
 };
 
+/// The light of a mesh (MeshLightAPI), added to its materials.
+struct UsdMeshLight {
+    struct Paint {
+        std::shared_ptr<Material> plain;   ///< may be on other meshes that are no light
+        std::shared_ptr<Material> glowing; ///< a copy that sends the light, too
+    };
+    std::vector<Paint> paints;
+
+    /// Paints again if a plain material or the luminance [nit] has changed. A material's own glow
+    /// tints the light, if there is one.
+    void set(Rgb luminance) const;
+};
+
 /// Makes the mesh of a gprim; null, with a warning, if no face is left. Each face takes the first
 /// of
 ///
@@ -24,13 +40,11 @@ struct UsdInherited {
 /// 3. primvars:displayColor: constant, uniform, or the mean of the face's corners,
 /// 4. the neutral material.
 ///
-/// \param name     of the node
-/// \param lightOf  luminance to add if the mesh is a light (MeshLightAPI): the material's own glow
-/// tints it,
-///                 if there is one
+/// \param name  of the node
+/// \param light null if it is none; gets its paints, which send nothing yet
 NodePtr makeUsdMesh(const std::string& name, const UsdStage& stage, const UsdAttributes& prim,
                     UsdPolygons polygons, const UsdInherited& inherited, UsdMaterials& materials,
-                    const std::optional<Rgb>& lightOf, Diagnostics& diagnostics);
+                    UsdMeshLight* light, Diagnostics& diagnostics);
 
 /// The prim's own displayColor if it is constant: what it hands down to its descendants.
 std::optional<Rgb> usdConstantColour(const UsdAttributes& prim);

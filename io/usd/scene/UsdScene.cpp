@@ -179,6 +179,8 @@ LoadedScene loadUsdScene(const std::filesystem::path& file, const LoadOptions& o
         stage->diagnostics().warn({stage->rootLayer().file, 0, 0},
                                   "nothing in it has a shape that can be shown, or gives light: " +
                                       contentsOf(*stage));
+    // Last: thousands of bad samples leave no room for other warnings.
+    tracks->warnOfSamples(time, stage->diagnostics());
     loaded.diagnostics = stage->diagnostics().take();
     return loaded;
 }

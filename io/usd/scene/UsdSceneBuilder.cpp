@@ -1,6 +1,7 @@
 #include "io/usd/scene/UsdSceneBuilder.h"
 
 #include "io/usd/scene/UsdCamera.h"
+#include "io/usd/scene/UsdFrame.h"
 #include "io/usd/scene/UsdGprims.h"
 #include "io/usd/scene/UsdInstances.h"
 #include "io/usd/scene/UsdLight.h"
@@ -57,7 +58,7 @@ bool isShape(std::string_view type) {
 // What a prim hands down to those below it.
 struct Place {
     std::shared_ptr<Group> container; // takes the children's nodes; null: nothing below is loaded
-    glm::dmat4 toWorld{1.0};          // column vectors, scene units
+    UsdFrame frame;
     UsdInherited inherited;
     bool drawn = true; // purpose
     // The outermost instance whose contents another one, `original`, had before; 0: none.
@@ -112,7 +113,7 @@ private:
         const bool shares = transform || hasChildren(prim); // its path, with what holds it
         const NodePtr leaf =
             place.drawn ? makeLeaf(shares ? std::string() : prim.name, attributes, place) : nullptr;
-        if (leaf && isUsdAreaLight(prim.typeName)) tracks_.addLight(leaf, prim, place.toWorld);
+        if (leaf && isUsdAreaLight(prim.typeName)) tracks_.addLight(leaf, prim, place.frame);
         if (const auto camera = std::dynamic_pointer_cast<Camera>(leaf))
             tracks_.addCamera(camera, prim);
         if (leaf) noteLeaf(leaf, prim);
@@ -136,7 +137,7 @@ private:
         if (!place.container || !place.drawn) return;
         std::vector<const Prototype*> prototypes;
         for (const std::string& path : UsdStage::targets(prim, "prototypes"))
-            prototypes.push_back(&prototypeAt(path, instancer, place.toWorld));
+            prototypes.push_back(&prototypeAt(path, instancer, place.frame));
         std::size_t leftOut = 0;
         for (const UsdInstance& one : readUsdInstances(instancer, prototypes.size(), warnings_)) {
             const Prototype& prototype = *prototypes[one.prototype];
@@ -161,7 +162,7 @@ private:
 
     // Made once for all that repeat it, in the frame above it: there it inherits, too.
     const Prototype& prototypeAt(const std::string& path, const UsdAttributes& instancer,
-                                 const glm::dmat4& toWorld) {
+                                 const UsdFrame& frame) {
         constexpr int kMostOpen = 16; // instancers within prototypes within instancers
         const auto [found, fresh] = prototypes_.try_emplace(path);
         Prototype& prototype = found->second;
@@ -172,7 +173,7 @@ private:
         const UsdPrim* const prim = stage_.find(path);
         const bool deep = prototypesOpen_ >= kMostOpen;
         if (prim && !deep)
-            makePrototype(prototype, std::uint32_t(prim - stage_.prims().data()), toWorld);
+            makePrototype(prototype, std::uint32_t(prim - stage_.prims().data()), frame);
         else
             warnings_.warn(instancer.location("prototypes"),
                            deep ? "PointInstancers nested too deeply: left out"
@@ -181,11 +182,11 @@ private:
         return prototype;
     }
 
-    void makePrototype(Prototype& prototype, std::uint32_t root, const glm::dmat4& toWorld) {
+    void makePrototype(Prototype& prototype, std::uint32_t root, const UsdFrame& frame) {
         Place above = inheritedAt(stage_.prims()[root].parent);
         const auto holder = std::make_shared<Group>("");
         above.container = holder;
-        above.toWorld = toWorld;
+        above.frame = frame;
         auto outerPlaces = std::exchange(places_, {{stage_.prims()[root].parent, above}});
         const std::size_t outerSize = std::exchange(size_, 0);
         const std::uint32_t outerRoot = std::exchange(prototypeRoot_, root);
@@ -227,7 +228,7 @@ private:
 
     Place handedDownTo(const UsdAttributes& attributes, const Place& parent) {
         Place place;
-        place.toWorld = parent.toWorld;
+        place.frame = parent.frame;
         place.inherited = parent.inherited;
         place.drawn = parent.drawn;
         place.copy = parent.copy;
@@ -256,18 +257,20 @@ private:
         const UsdPrim& prim = attributes.prim();
         UsdLocalTransform local;
         if (isXformable(prim.typeName)) local = usdLocalTransform(attributes, warnings_);
+        // What leaves a moving parent behind stands still, but moves in the parent's frame.
+        const bool moves = local.animated || (local.resetsStack && parent.frame.moves());
         const bool object =
-            local.animated || comesAndGoes(prim) || attributes.flag("penumbra:movable", false);
+            moves || comesAndGoes(prim) || attributes.flag("penumbra:movable", false);
         const bool structure = prim.typeName == "Xform";
         if (!structure && !local.authored && !object &&
             !(prototypesOpen_ == 0 && isShape(prim.typeName) && objects_.needsTransform(prim)))
             return nullptr;
-        if (local.resetsStack) local.matrix = relativeToParent(local, parent.toWorld);
+        if (local.resetsStack) local.matrix = relativeToParent(local, parent.frame.toWorld());
         auto transform = std::make_shared<Transform>(comesAndGoes(prim) ? "" : prim.name);
         transform->setMatrix(local.matrix);
         transform->setBeginsObject(object);
-        place.toWorld = parent.toWorld * local.matrix;
-        tracks_.addTransform(transform, prim, parent.toWorld);
+        place.frame = parent.frame.below(transform, moves);
+        if (moves) tracks_.addTransform(transform, prim, parent.frame);
         addresses_.transforms.push_back({transform, prim.path, local.animated, false});
         return transform;
     }
@@ -287,7 +290,8 @@ private:
         const std::string& type = prim.typeName;
         warnOfHeldSizes(attributes);
         if (type == "Mesh" || isUsdGprim(type)) return makeShape(name, attributes, place);
-        if (isUsdAreaLight(type)) return makeUsdLight(name, attributes, place.toWorld, warnings_);
+        if (isUsdAreaLight(type))
+            return makeUsdLight(name, attributes, place.frame.toWorld(), warnings_);
         if (type == "Camera") return std::make_shared<Camera>(name, usdLens(attributes, warnings_));
         if (isUsdLightWithoutArea(type) || isUnsupportedShape(type))
             warnings_.warn(prim.location(), type + " not supported yet: left out");
@@ -324,7 +328,7 @@ private:
                                                 " left out: a Mesh or an emissive material shines");
         const auto make = [&] {
             return makeUsdMesh(name, stage_, attributes, makeUsdGprim(attributes, warnings_),
-                               place.inherited, materials_, std::nullopt, warnings_);
+                               place.inherited, materials_, nullptr, warnings_);
         };
         const std::string key = usdGprimKey(attributes);
         if (!name.empty() || !prim.children.empty() || key.empty() || place.inherited.displayColour)
@@ -339,13 +343,16 @@ private:
         if (UsdStage::animated(prim, "points"))
             warnings_.warn(attributes.location("points"), "animated points are held");
         UsdPolygons polygons = readUsdPolygons(attributes, warnings_);
-        std::optional<Rgb> light;
-        if (UsdStage::hasApi(prim, "MeshLightAPI")) {
-            const double area = areaOf(polygons, glm::dmat3(place.toWorld));
-            light = usdLightLuminance(attributes, area, warnings_);
-        }
-        return makeUsdMesh(name, stage_, attributes, std::move(polygons), place.inherited,
-                           materials_, light, warnings_);
+        if (!UsdStage::hasApi(prim, "MeshLightAPI"))
+            return makeUsdMesh(name, stage_, attributes, std::move(polygons), place.inherited,
+                               materials_, nullptr, warnings_);
+        const double area = areaOf(polygons, glm::dmat3(place.frame.toWorld()));
+        UsdMeshLight light;
+        NodePtr mesh = makeUsdMesh(name, stage_, attributes, polygons, place.inherited, materials_,
+                                   &light, warnings_);
+        light.set(usdLightLuminance(attributes, area, warnings_));
+        if (mesh) tracks_.addMeshLight(std::move(light), prim, place.frame, std::move(polygons));
+        return mesh;
     }
 
     bool hasChildren(const UsdPrim& prim) const {
@@ -386,7 +393,7 @@ private:
         if (box.empty()) return;
         glm::dmat4 toMetres(metersPerUnit_);
         toMetres[3][3] = 1;
-        objects_.addShape(index, transformed(box, toMetres * place.toWorld));
+        objects_.addShape(index, transformed(box, toMetres * place.frame.toWorld()));
     }
 
     // Where a leaf comes from; its paint is noted when all materials are known.

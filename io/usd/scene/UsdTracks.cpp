@@ -5,7 +5,9 @@
 #include "io/usd/scene/UsdXform.h"
 #include "scenegraph/Mesh.h"
 
+#include <algorithm>
 #include <string_view>
+#include <utility>
 
 namespace penumbra {
 
@@ -47,23 +49,30 @@ bool usdHidden(const UsdAttributes& attributes) {
 
 bool UsdTracks::empty() const {
     return transforms_.empty() && switches_.empty() && lights_.empty() && cameras_.empty() &&
-           materials_.empty();
+           materials_.empty() &&
+           std::ranges::none_of(meshLights_, [](const auto& track) { return track.changes; });
 }
 
 void UsdTracks::addTransform(std::shared_ptr<Transform> node, const UsdPrim& prim,
-                             const glm::dmat4& parentToWorld) {
-    if (changes(prim, "xformOp:")) transforms_.push_back({std::move(node), &prim, parentToWorld});
+                             const UsdFrame& parent) {
+    transforms_.push_back({std::move(node), &prim, parent});
 }
 
 void UsdTracks::addSwitch(std::shared_ptr<Switch> node, const UsdPrim& prim) {
     switches_.push_back({std::move(node), &prim});
 }
 
-void UsdTracks::addLight(const NodePtr& node, const UsdPrim& prim, const glm::dmat4& toWorld) {
-    if (!changes(prim, "inputs:")) return;
-    LightTrack track{std::dynamic_pointer_cast<Light>(node), nullptr, &prim, toWorld};
+void UsdTracks::addLight(const NodePtr& node, const UsdPrim& prim, const UsdFrame& frame) {
+    if (!changes(prim, "inputs:") && !frame.moves()) return;
+    LightTrack track{std::dynamic_pointer_cast<Light>(node), nullptr, &prim, frame};
     if (const auto mesh = std::dynamic_pointer_cast<Mesh>(node)) track.tube = mesh->materialOf(0);
     lights_.push_back(std::move(track));
+}
+
+void UsdTracks::addMeshLight(UsdMeshLight light, const UsdPrim& prim, const UsdFrame& frame,
+                             UsdPolygons polygons) {
+    meshLights_.push_back(
+        {std::move(light), &prim, frame, std::move(polygons), changes(prim, "inputs:")});
 }
 
 void UsdTracks::addCamera(std::shared_ptr<Camera> node, const UsdPrim& prim) {
@@ -74,36 +83,71 @@ void UsdTracks::addMaterials(const UsdMaterials& materials) {
     for (const auto& [path, surface] : materials.made())
         if (const UsdPrim* prim = stage_->find(path))
             if (surface.material && anythingChangesBelow(*stage_, *prim))
-                materials_.push_back({surface.material, path});
+                materials_.push_back({surface.material, path, surface.shader});
 }
 
+void UsdTracks::warnOfSamples(UsdTime loaded, Diagnostics& diagnostics) const {
+    UsdSampleCheck check(loaded, diagnostics);
+    for (const TransformTrack& track : transforms_) checkUsdTransform(*track.prim, check);
+    for (const LightTrack& track : lights_) checkUsdLight(*track.prim, check);
+    for (const MeshLightTrack& track : meshLights_) checkUsdLight(*track.prim, check);
+    for (const CameraTrack& track : cameras_) checkUsdLens(*track.prim, check);
+    for (const MaterialTrack& track : materials_)
+        if (const UsdPrim* shader = stage_->find(track.shader))
+            checkUsdShader(*stage_, *shader, check);
+}
+
+// All diagnostics below were reported by the load and by warnOfSamples().
 void UsdTracks::setTime(double timeCode) {
-    Diagnostics ignored; // all was reported when the scene was loaded
-    for (const TransformTrack& track : transforms_) {
-        const UsdLocalTransform local =
-            usdLocalTransform(UsdAttributes(*track.prim, timeCode), ignored);
-        const glm::dmat4 matrix =
-            local.resetsStack ? relativeToParent(local, track.parentToWorld) : local.matrix;
-        if (matrix != track.node->matrix()) track.node->setMatrix(matrix);
-    }
+    Diagnostics reported;
+    setTransforms(timeCode);
     for (const SwitchTrack& track : switches_) {
         const bool visible = !usdHidden(UsdAttributes(*track.prim, timeCode));
         if (visible != track.node->visible()) track.node->setVisible(visible);
     }
-    for (const LightTrack& track : lights_) {
-        const UsdAttributes attributes(*track.prim, timeCode);
-        const Rgb luminance =
-            usdLightLuminance(attributes, usdLightArea(attributes, track.toWorld), ignored);
-        if (track.light && track.light->luminance() != luminance)
-            track.light->setLuminance(luminance);
-        if (track.tube && track.tube->emission() != luminance) track.tube->setEmission(luminance);
-    }
     for (const CameraTrack& track : cameras_) {
-        const Lens lens = usdLens(UsdAttributes(*track.prim, timeCode), ignored);
+        const Lens lens = usdLens(UsdAttributes(*track.prim, timeCode), reported);
         if (!equal(lens, track.node->lens())) track.node->setLens(lens);
     }
+    setMaterials(timeCode);
+    setLights(timeCode); // of meshes: once their materials and frames are as they will be
+}
+
+void UsdTracks::setTransforms(double timeCode) {
+    Diagnostics reported;
+    for (const TransformTrack& track : transforms_) {
+        const UsdLocalTransform local =
+            usdLocalTransform(UsdAttributes(*track.prim, timeCode), reported);
+        const glm::dmat4 matrix =
+            local.resetsStack ? relativeToParent(local, track.parent.toWorld()) : local.matrix;
+        if (matrix != track.node->matrix()) track.node->setMatrix(matrix);
+    }
+}
+
+void UsdTracks::setLights(double timeCode) {
+    Diagnostics reported;
+    const auto luminance = [&](const UsdPrim& prim, const auto& area) {
+        const UsdAttributes attributes(prim, timeCode);
+        const bool sized = attributes.flag("inputs:normalize", false);
+        return usdLightLuminance(attributes, sized ? area(attributes) : 1, reported);
+    };
+    for (const LightTrack& track : lights_) {
+        const Rgb now = luminance(*track.prim, [&](const UsdAttributes& attributes) {
+            return usdLightArea(attributes, track.frame.toWorld());
+        });
+        if (track.light && track.light->luminance() != now) track.light->setLuminance(now);
+        if (track.tube && track.tube->emission() != now) track.tube->setEmission(now);
+    }
+    for (const MeshLightTrack& track : meshLights_)
+        track.light.set(luminance(*track.prim, [&](const UsdAttributes&) {
+            return areaOf(track.polygons, glm::dmat3(track.frame.toWorld()));
+        }));
+}
+
+void UsdTracks::setMaterials(double timeCode) {
     if (materials_.empty()) return;
-    UsdMaterials now(*stage_, timeCode, ignored, textures_.get());
+    Diagnostics reported;
+    UsdMaterials now(*stage_, timeCode, reported, textures_.get());
     for (const MaterialTrack& track : materials_) {
         const UsdSurface& surface = now.at(track.path);
         if (!surface.material) continue;

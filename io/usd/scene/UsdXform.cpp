@@ -140,6 +140,17 @@ std::optional<glm::dmat4> evaluate(const UsdAttributes& prim, const std::string&
     return matrix;
 }
 
+struct Op {
+    explicit Op(const std::string& entry) : inverted(entry.starts_with(kInvert)) {
+        attribute = inverted ? entry.substr(kInvert.size()) : entry;
+    }
+    bool inverted;
+    std::string attribute;
+};
+
+constexpr const char* kNoMatrix =
+    "transform op skipped: its matrix is not finite or can't be inverted";
+
 } // namespace
 
 UsdLocalTransform usdLocalTransform(const UsdAttributes& prim, Diagnostics& diagnostics) {
@@ -151,20 +162,36 @@ UsdLocalTransform usdLocalTransform(const UsdAttributes& prim, Diagnostics& diag
             result.resetsStack = true;
             continue;
         }
-        const bool inverted = entry.starts_with(kInvert);
-        const std::string attribute = inverted ? entry.substr(kInvert.size()) : entry;
-        result.animated = result.animated || UsdStage::animated(prim.prim(), attribute);
-        auto matrix = evaluate(prim, attribute, diagnostics);
+        const Op op(entry);
+        result.animated = result.animated || UsdStage::animated(prim.prim(), op.attribute);
+        auto matrix = evaluate(prim, op.attribute, diagnostics);
         if (!matrix) continue;
-        if (inverted) matrix = glm::inverse(*matrix);
+        if (op.inverted) matrix = glm::inverse(*matrix);
         const glm::dmat4 product = result.matrix * *matrix;
         if (finite(product))
             result.matrix = product;
         else
-            diagnostics.warn(prim.location(attribute),
-                             "transform op skipped: its matrix is not finite or can't be inverted");
+            diagnostics.warn(prim.location(op.attribute), kNoMatrix);
     }
     return result;
+}
+
+void checkUsdTransform(const UsdPrim& prim, UsdSampleCheck& check) {
+    for (const std::string& entry : UsdAttributes(prim, std::nullopt).texts("xformOpOrder")) {
+        if (entry == kReset) continue;
+        const Op op(entry);
+        const std::string_view name = op.attribute;
+        check.each(prim, {&name, 1}, "op", [&](const UsdAttributes& at, Diagnostics& found) {
+            evaluate(at, op.attribute, found);
+        });
+        if (!op.inverted) continue;
+        check.each(prim, {&name, 1}, "inverse", [&](const UsdAttributes& at, Diagnostics& found) {
+            Diagnostics reported; // by the op itself
+            const auto matrix = evaluate(at, op.attribute, reported);
+            if (matrix && !finite(glm::inverse(*matrix)))
+                found.warn(at.location(op.attribute), kNoMatrix);
+        });
+    }
 }
 
 glm::dmat4 relativeToParent(const UsdLocalTransform& local, const glm::dmat4& parentToWorld) {

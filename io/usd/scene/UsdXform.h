@@ -3,6 +3,7 @@
 
 #include "io/usd/layer/UsdDiagnostic.h"
 #include "io/usd/stage/UsdAttributes.h"
+#include "io/usd/stage/UsdSampleCheck.h"
 
 #include <glm/glm.hpp>
 
@@ -25,6 +26,9 @@ struct UsdLocalTransform {
 /// that can't be used (missing attribute, singular matrix to be inverted, values that aren't
 /// finite) are skipped with a warning.
 UsdLocalTransform usdLocalTransform(const UsdAttributes& prim, Diagnostics& diagnostics);
+
+/// Warns of ops that can't be used at other times than that of the load.
+void checkUsdTransform(const UsdPrim& prim, UsdSampleCheck& check);
 
 /// The matrix that gives a prim its own transform whatever its parent's is: inverse(parent) *
 /// local. Without the parent's inverse (a flattened parent) it is the local one.

@@ -14,6 +14,13 @@ float finiteOrZero(double v) {
     return std::isfinite(v) ? float(v) : 0.0f;
 }
 
+void warnOfNumbers(const UsdAttributes& source, const std::string& attribute,
+                   Diagnostics& diagnostics) {
+    const std::vector<double> numbers = source.numbers(attribute);
+    if (!std::ranges::all_of(numbers, [](double v) { return std::isfinite(v); }))
+        diagnostics.warn(source.location(attribute), "a number of a material ignored: not finite");
+}
+
 } // namespace
 
 const UsdSurface& UsdMaterials::at(const std::string& path) {
@@ -102,7 +109,9 @@ UsdMaterials::Input UsdMaterials::input(const UsdPrim& shader, const std::string
     case UsdSource::Kind::value:
         break;
     }
-    return {UsdAttributes(*source.prim, time_).numbers(source.attribute), false};
+    const UsdAttributes attributes(*source.prim, time_);
+    warnOfNumbers(attributes, source.attribute, diagnostics_);
+    return {attributes.numbers(source.attribute), false};
 }
 
 // Of shaders' outputs only the colours of textures are understood: where these can't be used, their
@@ -164,6 +173,20 @@ std::string UsdMaterials::primvarOf(const Material& material) const {
         return entry.second.material.get() == &material;
     });
     return found == surfaces_.end() ? std::string() : found->second.primvar;
+}
+
+void checkUsdShader(const UsdStage& stage, const UsdPrim& shader, UsdSampleCheck& check) {
+    for (const char* name :
+         {"inputs:diffuseColor", "inputs:emissiveColor", "inputs:metallic", "inputs:opacity",
+          "inputs:opacityThreshold", "inputs:useSpecularWorkflow"}) {
+        const UsdSource source = usdSourceOf(stage, shader, name);
+        if (source.kind != UsdSource::Kind::value) continue;
+        const std::string_view attribute = source.attribute;
+        check.each(*source.prim, {&attribute, 1}, "material",
+                   [&](const UsdAttributes& at, Diagnostics& found) {
+                       warnOfNumbers(at, source.attribute, found);
+                   });
+    }
 }
 
 UsdBinding usdMaterialBinding(const UsdPrim& prim, Diagnostics& diagnostics) {

@@ -4,6 +4,7 @@
 #include "io/usd/layer/UsdDiagnostic.h"
 #include "io/usd/shade/UsdTextures.h"
 #include "io/usd/stage/UsdAttributes.h"
+#include "io/usd/stage/UsdSampleCheck.h"
 #include "scenegraph/Material.h"
 
 #include <memory>
@@ -77,6 +78,9 @@ private:
     std::unordered_map<std::string, UsdSurface> surfaces_;
     std::shared_ptr<Material> neutral_;
 };
+
+/// Warns of what can't be used of a UsdPreviewSurface at other times than that of the load.
+void checkUsdShader(const UsdStage& stage, const UsdPrim& shader, UsdSampleCheck& check);
 
 /// The material that a prim itself is bound to: `material:binding:full`, else `material:binding`.
 struct UsdBinding {

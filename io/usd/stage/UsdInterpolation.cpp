@@ -86,6 +86,17 @@ UsdResolved UsdStage::value(const UsdPrim& prim, std::string_view attribute, Usd
     return UsdResolved(&earliest->samples.front().value);
 }
 
+UsdSamples UsdStage::samples(const UsdPrim& prim, std::string_view attribute) {
+    UsdSamples result;
+    eachUsdDeclaration(prim, attribute,
+                       [&](const UsdProperty& property, const UsdOpinion& opinion) {
+                           if (property.samples.empty()) return !property.value.empty();
+                           result = {&property, opinion.offset};
+                           return true;
+                       });
+    return result;
+}
+
 bool UsdStage::animated(const UsdPrim& prim, std::string_view attribute) {
     bool changes = false;
     eachUsdDeclaration(prim, attribute, [&](const UsdProperty& property, const UsdOpinion&) {

@@ -52,10 +52,18 @@ public:
     explicit operator bool() const { return stored_ || !made_.empty(); }
     const UsdValue& operator*() const { return stored_ ? *stored_ : made_; }
     const UsdValue* operator->() const { return &**this; }
+    /// As it lies in a layer; null if it was interpolated.
+    const UsdValue* stored() const { return stored_; }
 
 private:
     const UsdValue* stored_ = nullptr; // lives in a layer
     UsdValue made_;
+};
+
+/// Time samples as one layer has them.
+struct UsdSamples {
+    const UsdProperty* property = nullptr; ///< null: none
+    UsdLayerOffset offset;                 ///< the layer's times to the stage's
 };
 
 /// The composed scene: a root layer and all that it brings by sublayers, inherits, variants,
@@ -85,6 +93,8 @@ public:
     /// interpolated linearly (quaternions along the great circle), everything else is held; beyond
     /// the ends the last sample holds. A block (`None`) is no value.
     static UsdResolved value(const UsdPrim& prim, std::string_view attribute, UsdTime time);
+    /// The samples that decide the value of an attribute at all time codes.
+    static UsdSamples samples(const UsdPrim& prim, std::string_view attribute);
     /// Whether some layer's samples make it change with time.
     static bool animated(const UsdPrim& prim, std::string_view attribute);
     /// The strongest declaration of a property, or null.
