@@ -314,28 +314,6 @@ TEST(Incremental, LeavesNothingOfLightThatWentOut) {
     }
 }
 
-TEST(Incremental, EqualsFromScratchWhereWhatShinesInABoxGoesDark) {
-    // The box is lit from within, and meshed on both sides, while it shines.
-    FollowedRoom followed(4);
-    const auto glow = paint(Rgb(0.5f), Rgb(5));
-    addBlock(followed, "glowing", moved(1, 1, 0.5), glow);
-    MeshData box = boxData({0.9f, 0.9f, 0.4f}, {1.5f, 1.5f, 1}, false);
-    box.doubleSided = true;
-    followed.room.scene().root->add(
-        objectOf("around", {std::make_shared<Mesh>("mesh", std::move(box))}));
-    followed.follow();
-    followed.lit.solver().settle();
-    const std::size_t patches = followed.lit.patches().patchCount();
-    glow->setEmission(Rgb());
-    followed.follow();
-    EXPECT_LT(followed.lit.patches().patchCount(), patches);
-    EXPECT_EQ(followed.differs(), "");
-    glow->setEmission(Rgb(5));
-    followed.follow();
-    EXPECT_EQ(followed.lit.patches().patchCount(), patches);
-    EXPECT_EQ(followed.differs(), "");
-}
-
 TEST(Incremental, EqualsFromScratchAfterAnEditThatWasRefused) {
     FollowedRoom followed(4);
     const auto near = addBlock(followed, "near", moved(1, 1, 0));

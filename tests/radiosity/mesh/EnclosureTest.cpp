@@ -77,6 +77,26 @@ TEST(Enclosure, ALightAndTheBoxAroundItAreMovedTogetherWithoutMeshing) {
     EXPECT_FALSE(lit.follow(placeScene(things.scene)).rebuilt);
 }
 
+TEST(Enclosure, ABoxAroundAMeshThatShinesIsSolidWhileThatIsDark) {
+    BoxAndLight things;
+    const auto glow = paint(Rgb(0.5f), Rgb(5));
+    const auto ball = objectOf(
+        "ball",
+        {std::make_shared<Mesh>("mesh", boxData(glm::vec3(-0.1f), glm::vec3(0.1f), false, glow))});
+    ball->setMatrix(things.box->matrix());
+    things.scene.root->add(ball);
+    LitScene lit(placeScene(things.scene), kCoarse, {.directOnly = true});
+    const std::size_t lightInside = lit.patches().patchCount();
+    for (const float emission : {0.0f, 5.0f, 0.0f}) {
+        glow->setEmission(Rgb(emission));
+        EXPECT_FALSE(lit.follow(placeScene(things.scene)).rebuilt);
+        const LitScene scratch(placeScene(things.scene), sizesOf(lit.patches()),
+                               {.directOnly = true});
+        EXPECT_EQ(lit.patches().patchCount(), scratch.patches().patchCount());
+        EXPECT_EQ(lit.patches().patchCount() < lightInside, emission == 0);
+    }
+}
+
 TEST(Enclosure, ADarkLightInABoxCountsAsWell) {
     BoxAndLight things;
     std::dynamic_pointer_cast<Light>(things.light->children()[0])->setLuminance(Rgb());
