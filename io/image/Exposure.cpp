@@ -9,15 +9,12 @@ namespace penumbra {
 
 namespace {
 
-/// What is less is no light, but a rest of rounding [cd/m^2]: far below what an eye sees.
-constexpr float kDark = 1e-9f;
-
-/// Logarithms of the luminances that are light, ascending, the extremes cut off.
+/// Logarithms of the luminances that have one, ascending, the extremes cut off.
 std::vector<double> sortedLogarithms(std::span<const float> luminances) {
     std::vector<double> logs;
     logs.reserve(luminances.size());
     for (const float y : luminances)
-        if (y > kDark && std::isfinite(y)) logs.push_back(std::log2(double(y)));
+        if (y > 0 && std::isfinite(y)) logs.push_back(std::log2(double(y)));
     std::ranges::sort(logs);
     const std::ptrdiff_t cut = std::ptrdiff_t(logs.size()) / 100;
     return {logs.begin() + cut, logs.end() - cut};
