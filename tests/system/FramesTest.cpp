@@ -1,6 +1,8 @@
 // Playing a file's animation: numbered results, what each frame costs, the same light as alone.
 #include "Program.h"
 
+#include "tests/support/Command.h"
+
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -200,6 +202,62 @@ TEST_F(Frames, FromScratchForgetEverythingEachTime) {
     }
     EXPECT_EQ(stats.at("solve").at("rays"), rays) << "of all frames, as those of updates are";
     EXPECT_EQ(stats.at("solve").at("shots"), shots);
+}
+
+TEST_F(Frames, ThatFadeLeaveTheDark) {
+    // A light that is a mesh: no headlight stands in for it once it is out.
+    std::string fading = smallRoom();
+    replace(fading, "RectLight", "CylinderLight");
+    replace(fading, "inputs:intensity = 100", "inputs:intensity.timeSamples = { 1: 100, 2: 0 }");
+    room = here.write("room.usda", fading);
+    const Outcome outcome = run("render", {"--width", "32", "--height", "18", "--frames", "1:2",
+                                           "-o", here.path("a#.exr")});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto brightest = [&](const std::string& file) {
+        return outputOf("oiiotool " + here.path(file) + " --ch G --printstats");
+    };
+    if (brightest("a1.exr").empty()) GTEST_SKIP() << "oiiotool is not here";
+    EXPECT_THAT(brightest("a1.exr"), testing::Not(HasSubstr("Stats Max: 0.000000")));
+    EXPECT_THAT(brightest("a2.exr"), HasSubstr("Stats Max: 0.000000"));
+}
+
+/// The box has a scale at frame 2, and is as it was at frame 3.
+std::string growingRoom(const std::string& scale) {
+    std::string growing = smallRoom();
+    replace(growing, "double size = 0.6",
+            "double size = 0.6\n    float3 xformOp:scale.timeSamples = { 1: (1, 1, 1), 2: " +
+                scale + ", 3: (1, 1, 1) }");
+    replace(growing, "[\"xformOp:translate\"]", "[\"xformOp:translate\", \"xformOp:scale\"]");
+    return growing;
+}
+
+TEST_F(Frames, KeepTheNumbersOfObjects) {
+    room = here.write("room.usda", growingRoom("(1.5, 1, 1)"));
+    const Outcome outcome = run("render", {"--width", "64", "--height", "36", "--frames", "1:3",
+                                           "--direct-only", "-o", here.path("a#.exr")});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    if (outputOf("command -v oiiotool").empty()) GTEST_SKIP() << "oiiotool is not here";
+    EXPECT_THAT(outputOf("oiiotool --diff " + here.path("a1.exr") + " " + here.path("a3.exr")),
+                HasSubstr("PASS"))
+        << "all layers, numbers of objects among them";
+}
+
+TEST_F(Frames, ThatCantBeMeshedAreRefusedWithTheFile) {
+    room = here.write("room.usda", growingRoom("(9e6, 9e6, 1)"));
+    const Outcome outcome = run("solve", {"--frames", "1:2", "--direct-only"});
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("room.usda: error: "));
+}
+
+TEST_F(Frames, OfASceneWithoutAnimationAreSaidToBeAlike) {
+    const std::string still = here.write("still.usda", smallRoom());
+    for (const char* option : {"--frames", "--frame"}) {
+        const Outcome outcome =
+            runPenumbra({"solve", still, "--direct-only", "--samples", "1", option,
+                         option == std::string("--frame") ? "2" : "1:2"});
+        EXPECT_EQ(outcome.exitCode, 0);
+        EXPECT_THAT(outcome.err, HasSubstr("nothing in it moves"));
+    }
 }
 
 } // namespace
