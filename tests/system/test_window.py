@@ -374,6 +374,7 @@ def furnishing(display):
     check(share > 1.3, f"Shift+H shows it: {share:.2f}")
     for _ in range(3):
         display.hands("key", "ctrl+z")
+    view.rest()  # all three have been noticed
     view.lit()
     check(differing(still, view.exr(), 0.01) < 0.001, "undone, the light is as it was")
     display.hands("click", 1)
