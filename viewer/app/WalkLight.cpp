@@ -16,7 +16,7 @@ WalkLight::WalkLight(const Walkthrough& walk, const RadiosityOptions& options,
       node_(std::make_shared<RadiosityNode>("lit", options, std::move(link))), blend_(blend),
       by_(blend.by), choice_(blend.software, blend.inTime), samples_(options.solving.samples),
       slice_(blend.slice), mostLights_(blend.lights), trigger_(options.trigger),
-      policy_(options.solving.policy) {
+      policy_(options.solving.policy), hadLights_(hasLights(walk.placed())) {
     node_->add(walk.scene().root);
     choosePreview();
 }
@@ -99,7 +99,7 @@ bool WalkLight::update(const Walkthrough& walk, const View& view) {
     const glm::dmat4 seenFrom = view.worldToClip();
     if (std::exchange(seenFrom_, seenFrom) != seenFrom) node_->setCamera(view);
     node_->update();
-    hadLights_ |= !dark();
+    hadLights_ |= hasLights(walk.placed());
     chooseLights(walk);
     choosePreview();
     preview_->takeBack();
@@ -123,7 +123,8 @@ bool WalkLight::complete() const {
 }
 
 DrawList WalkLight::listVisible(const Frustum& frustum) const {
-    if (dark()) return penumbra::listVisible(scene_, frustum);
+    const bool begun = !node_->placed().objects.empty();
+    if (dark() || !begun) return penumbra::listVisible(scene_, frustum);
     DrawList list = penumbra::listVisible(node_->lit(), frustum);
     for (DrawItem& item : list.items) item.shown = blend_.shown(*item.geometry);
     if (complete()) return list;

@@ -63,7 +63,7 @@ public:
     bool complete() const;
     /// Whether the scene has had nothing to be lit by so far: all of it is listed as unlit. Lights
     /// that go out leave the dark.
-    bool dark() const { return !hadLights_ && !hasLights(node_->placed()); }
+    bool dark() const { return !hadLights_; }
 
     std::span<const LitObject> objects() const { return node_->objects(); }
     const PlacedScene& placed() const { return node_->placed(); }

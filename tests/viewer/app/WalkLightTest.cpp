@@ -117,6 +117,27 @@ TEST_F(WalkLightTest, FirstEverythingIsListedUnlitAndThenLitAndNothingTwice) {
     EXPECT_EQ(after.items.size(), 3u);
 }
 
+TEST_F(WalkLightTest, WhatGoesDarkLeavesTheDarkAndNoHeadlight) {
+    std::string fading = kRoom; // a light that is a mesh
+    const auto replace = [&](const std::string& from, const std::string& to) {
+        fading.replace(fading.find(from), from.size(), to);
+    };
+    replace("RectLight", "CylinderLight");
+    replace("inputs:intensity = 100", "inputs:intensity.timeSamples = { 1: 100, 2: 0 }");
+    folder.write("fading.usda", fading);
+    Walkthrough walk(load(file("fading.usda")));
+    WalkLight light(walk, coarse(), makeThreadLink());
+    EXPECT_FALSE(light.dark());
+    walk.loaded().animation->setTime(2);
+    walk.followScene();
+    light.update(walk, viewOf(walk));
+    EXPECT_FALSE(light.dark());
+    replace("1: 100", "1: 0");
+    folder.write("dark.usda", fading);
+    const Walkthrough never(load(file("dark.usda")));
+    EXPECT_TRUE(WalkLight(never, coarse(), makeThreadLink()).dark());
+}
+
 TEST_F(WalkLightTest, WhatIsInTheHandIsHeldBackUntilItIsLetGo) {
     Walkthrough walk(load(file()));
     WalkLight light(walk, coarse(Trigger::implicit), makeThreadLink());
