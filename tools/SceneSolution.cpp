@@ -309,7 +309,7 @@ SolveStatistics SceneSolution::statistics() const {
 
 LitScene::Followed SceneSolution::follow() {
     try {
-        const LitScene::Followed followed = lit_->follow(placed_);
+        LitScene::Followed followed = lit_->follow(placed_);
         sayWarnings();
         return followed;
     } catch (const Error& error) {
