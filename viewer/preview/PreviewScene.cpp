@@ -20,7 +20,7 @@ PreviewScene::PreviewScene(PatchSet set)
         for (std::size_t k = 0; k < 4 && blend.weights[k] > 0; ++k)
             receivers_.push_back(blend.vertices[k]);
     std::ranges::sort(receivers_);
-    receivers_.erase(std::ranges::unique(receivers_).begin(), receivers_.end());
+    receivers_.erase(std::unique(receivers_.begin(), receivers_.end()), receivers_.end());
 }
 
 /// What has another pose than in `places`, which follow.
