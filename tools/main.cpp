@@ -1,7 +1,7 @@
 #include "base/MemoryError.h"
 #include "io/image/UnfinishedFile.h"
 #include "tools/Commands.h"
-#include "tools/UnknownWords.h"
+#include "tools/RefusedCommandLine.h"
 
 #include <CLI/CLI.hpp>
 

@@ -145,7 +145,7 @@ void Coverage::refresh(std::vector<std::uint32_t> elements, Change& change,
     makeUnique(change.patches);
     if (parting_)
         change.parted = parting_->update(change.patches);
-    else if (set_.nodes.empty())
+    else if (set_.nodes.empty()) // else it is about to be made
         noteCovered(set_, fans_, vertices);
 }
 

@@ -1,4 +1,5 @@
 // H_direct at vertices, from the rows; its means over patches and their cells.
+#include "radiosity/rows/SeenShare.h"
 #include "radiosity/schedule/WorkCosts.h"
 #include "radiosity/transport/DirectLight.h"
 
@@ -63,15 +64,12 @@ std::array<float, kBlock> DirectLight::factors(std::uint32_t emitter, std::uint3
     SeenShares shares(row, emitters_[emitter], receivers_);
     for (std::uint32_t r = 0; r < kBlock; ++r) {
         const std::uint32_t v = block * kBlock + r;
-        float seen = 0, known = 0;
+        SeenShare seen;
         set_.forEachReceiver(v, [&](std::uint32_t receiver, float weight) {
-            const float share = shares.at(receiver);
-            if (share < 0) return;
-            known += weight;
-            seen += weight * share;
+            seen.add(weight, shares.at(receiver));
         });
-        if (seen > 0)
-            factors[r] = seen / known * emitters_[emitter].formFactor(set_.vertices[v].receiver);
+        if (seen.mean() > 0)
+            factors[r] = seen.mean() * emitters_[emitter].formFactor(set_.vertices[v].receiver);
     }
     return factors;
 }

@@ -21,9 +21,10 @@ namespace penumbra {
 /// Everything that is computed from a scene graph: patches, rays, what covers what, and light.
 ///
 /// Objects that are moved, hidden, shown, removed or added, of another scale or other meshes,
-/// lights that get into something closed or out of it, materials that begin to shine, and colours
-/// and luminances that change are taken in by follow() at a cost that goes with the change. The
-/// scene is meshed anew where there is no room for what comes (Additions.h), which is seldom.
+/// lights that get into something closed or out of it, materials that begin to shine or cease to,
+/// and colours and luminances that change are taken in by follow() at a cost that goes with the
+/// change. The scene is meshed anew where there is no room for what comes (Additions.h), which is
+/// seldom.
 class LitScene {
 public:
     /// Meshes; solves nothing yet. Keeps meshes and lights alive until the next follow(), if they

@@ -3,6 +3,7 @@
 // own.
 #include "base/Bits.h"
 #include "base/Parallel.h"
+#include "radiosity/rows/SeenShare.h"
 #include "viewer/preview/PreviewRows.h"
 
 #include <algorithm>
@@ -94,20 +95,16 @@ void PreviewRows::blend(const Slot& slot, const Reached& at, std::size_t source,
     for (const std::size_t i : bitsOf(at.vertices & ~known.vertices)) {
         const std::size_t vertex = at.block * kBlock + i;
         if (slot.instead.contains(keyOf(at.object, vertex))) continue;
-        float seen = 0, weights = 0; // not a number where a receiver is not known
+        SeenShare seen;
         stage_->forEachReceiver(at.object, vertex, slot.aside, [&](std::uint32_t v, float weight) {
-            const float share = shares.at(v);
-            if (share < 0) return;
-            weights += weight;
-            seen += weight * share;
+            seen.add(weight, shares.at(v));
         });
-        if (std::isnan(seen)) continue;
+        if (std::isnan(seen.mean())) continue; // a receiver is not known
         known.vertices |= std::uint64_t(1) << i;
         known.factors[i] = 0;
-        if (seen > 0)
-            known.factors[i] =
-                seen / weights *
-                unoccluded(slot.senders[source], ownReceiver(slot, at.object, vertex));
+        if (seen.mean() > 0)
+            known.factors[i] = seen.mean() * unoccluded(slot.senders[source],
+                                                        ownReceiver(slot, at.object, vertex));
     }
 }
 

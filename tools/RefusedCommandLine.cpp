@@ -1,4 +1,4 @@
-#include "tools/UnknownWords.h"
+#include "tools/RefusedCommandLine.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -24,6 +24,19 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
         }
     }
     return row.back();
+}
+
+/// The name that a mistyped word is nearest to; empty if none is near.
+std::string nearestName(const std::string& word, const std::vector<std::string>& names) {
+    std::string nearest;
+    std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
+    for (const std::string& name : names) {
+        const std::size_t distance = editDistance(word, name);
+        if (distance >= least || distance >= name.size()) continue;
+        least = distance;
+        nearest = name;
+    }
+    return nearest;
 }
 
 std::string hint(const std::string& word, const std::vector<std::string>& names) {
@@ -88,18 +101,6 @@ std::string plainWords(const std::string& said) {
 }
 
 } // namespace
-
-std::string nearestName(const std::string& word, const std::vector<std::string>& names) {
-    std::string nearest;
-    std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
-    for (const std::string& name : names) {
-        const std::size_t distance = editDistance(word, name);
-        if (distance >= least || distance >= name.size()) continue;
-        least = distance;
-        nearest = name;
-    }
-    return nearest;
-}
 
 std::string aboutRefusal(const CLI::App& app, std::span<const char* const> words,
                          const CLI::ParseError& error) {

@@ -3,7 +3,6 @@
 
 #include <span>
 #include <string>
-#include <vector>
 
 namespace CLI {
 class App;
@@ -17,8 +16,5 @@ namespace penumbra {
 /// meant; else about what CLI11 found.
 std::string aboutRefusal(const CLI::App& app, std::span<const char* const> words,
                          const CLI::ParseError& error);
-
-/// The name that a mistyped word is nearest to; empty if none is near.
-std::string nearestName(const std::string& word, const std::vector<std::string>& names);
 
 } // namespace penumbra
