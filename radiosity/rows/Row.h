@@ -156,18 +156,19 @@ public:
                 visit(std::countr_zero(left), at<float>(factor), at<float>(factor));
             return;
         }
-        const std::uint64_t seen = at<std::uint64_t>(kSeen);
-        std::size_t share = visibilities();
-        for (std::uint64_t left = present; left != 0; left &= left - 1, factor += 4) {
+        constexpr float kAll = 1;
+        const std::byte* const wholly = reinterpret_cast<const std::byte*>(&kAll);
+        const std::byte* share = bytes_.get() + visibilities();
+        for (std::uint64_t left = at<std::uint64_t>(kSeen); left != 0; left &= left - 1) {
+            const std::uint64_t before = (left & (~left + 1)) - 1; // receivers
             const int receiver = std::countr_zero(left);
-            if (!(seen >> receiver & 1)) continue;
-            const float formFactor = at<float>(factor);
-            float value = formFactor;
-            if (!(visible >> receiver & 1)) {
-                value *= at<float>(share);
-                share += 4;
-            }
-            visit(receiver, formFactor, value);
+            const float formFactor =
+                at<float>(factor + 4 * std::size_t(std::popcount(present & before)));
+            const bool whole = visible >> receiver & 1;
+            float visibility; // without a branch, which nothing could foresee
+            std::memcpy(&visibility, whole ? wholly : share, sizeof visibility);
+            share += whole ? 0 : sizeof visibility;
+            visit(receiver, formFactor, formFactor * visibility);
         }
     }
 

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -40,49 +41,76 @@ inline glm::dvec3 meanOf(SenderLight light) {
     return sum / double(light.size());
 }
 
-/// Mean over kUpTo + 1 parts.
-/// \param upTo how much the first, the first two, ... are, of 255
-template <std::size_t kUpTo, class Part>
-glm::dvec3 meanOfParts(const std::uint8_t* upTo, const Part& part) {
-    glm::dvec3 sum(0);
-    int before = 0;
-    for (std::size_t k = 0; k < kUpTo; ++k) {
-        sum += double(upTo[k] - before) * part(k);
-        before = upTo[k];
+/// What leaves a sender, as its entries read it: what an entry sees is a mean over cells.
+class SentLight {
+public:
+    explicit SentLight(SenderLight light) : first_(light[0]) {
+        if (light.size() == 1) return;
+        const bool cluster = light.size() == kClusterCells;
+        const auto quarter = [&](std::size_t q) {
+            return cluster ? wide(light[kSenderCells + q]) : Wide{};
+        };
+        for (std::size_t k = 0; k < kSenderCells; ++k) {
+            cells_[k] = wide(light[k]) + quarter(k / 4);
+            alone_[k] = wide(light[k]) + quarter(3);
+        }
+        for (std::size_t k = 0; k < cellSteps_.size(); ++k)
+            cellSteps_[k] = (cells_[k] - cells_[k + 1]) * kShare;
+        for (std::size_t q = 0; q < quarterSteps_.size(); ++q)
+            quarterSteps_[q] = (quarter(q) - quarter(q + 1)) * kShare;
     }
-    return (sum + double(255 - before) * part(kUpTo)) * (1.0 / 255);
-}
 
-/// What an entry sees of a sender: a mean over its cells.
-inline glm::dvec3 seenLight(SenderLight light, RowBlock::Shares shares) {
-    if (shares.bytes.empty()) return light[0];
-    const std::uint8_t* const bytes = shares.bytes.data();
-    const bool cluster = light.size() == kClusterCells;
-    const auto quarter = [&](std::size_t q) {
-        return cluster ? light[kSenderCells + q] : glm::dvec3(0);
-    };
-    const std::uint8_t which = bytes[0];
-    switch (shares.samples) {
-    case 1:
-        return light[which] + (cluster ? meanOfParts<3>(bytes + 1, quarter) : glm::dvec3(0));
-    case 4:
-        return meanOfParts<3>(bytes + 1, [&](std::size_t q) {
-            return light[4 * q + (which >> 2 * q & 3)] + quarter(q);
-        });
-    default:
-        return meanOfParts<15>(bytes, [&](std::size_t k) { return light[k] + quarter(k / 4); });
+    const glm::dvec3& first() const { return first_; } ///< of a sender that sends evenly, all
+
+    /// What an entry sees. With u_k how much the first k + 1 cells are, and u_15 = 1, the mean
+    /// sum (u_k - u_(k-1)) cell_k is cell_15 + sum u_k (cell_k - cell_(k+1)). \pre there are cells
+    glm::dvec3 seen(RowBlock::Shares shares) const {
+        const std::uint8_t* const bytes = shares.bytes.data();
+        if (shares.samples == 1) {
+            Wide sum = alone_[bytes[0]];
+            if (shares.bytes.size() > 1)
+                for (std::size_t q = 0; q < quarterSteps_.size(); ++q)
+                    sum += double(bytes[1 + q]) * quarterSteps_[q];
+            return narrow(sum);
+        }
+        if (shares.samples == 4) {
+            std::array<Wide, 4> cell;
+            for (std::size_t q = 0; q < 4; ++q) cell[q] = cells_[4 * q + (bytes[0] >> 2 * q & 3)];
+            Wide sum{};
+            for (std::size_t q = 0; q < 3; ++q)
+                sum += double(bytes[1 + q]) * (cell[q] - cell[q + 1]);
+            return narrow(cell[3] + sum * kShare);
+        }
+        Wide sum = cells_.back();
+        for (std::size_t k = 0; k < cellSteps_.size(); ++k) sum += double(bytes[k]) * cellSteps_[k];
+        return narrow(sum);
     }
-}
+
+private:
+    /// Red, green, blue and nothing, in one register (an extension of GCC and Clang): this is
+    /// where relaxation spends its time.
+    using Wide [[gnu::vector_size(4 * sizeof(double))]] = double;
+    static constexpr double kShare = 1.0 / 255;
+
+    static Wide wide(glm::dvec3 v) { return Wide{v.x, v.y, v.z, 0}; }
+    static glm::dvec3 narrow(const Wide& v) { return {v[0], v[1], v[2]}; }
+
+    glm::dvec3 first_;
+    std::array<Wide, kSenderCells> cells_, alone_; ///< with their own quarter; with the last one
+    std::array<Wide, kSenderCells - 1> cellSteps_; ///< from cell to cell, by 255
+    std::array<Wide, 3> quarterSteps_;             ///< likewise, of a cluster
+};
 
 /// Calls visit(receiver, form factor times visibility, what that makes of `light`).
 template <class Visit>
-void forEachReceived(const RowBlock& block, SenderLight light, const Visit& visit) {
+void forEachReceived(const RowBlock& block, const SentLight& light, const Visit& visit) {
     if (block.sharing() == RowBlock::Sharing::even) {
-        block.forEach([&](int r, float factor) { visit(r, factor, double(factor) * light[0]); });
+        block.forEach(
+            [&](int r, float factor) { visit(r, factor, double(factor) * light.first()); });
         return;
     }
     block.forEachShared([&](int r, float factor, RowBlock::Shares shares) {
-        visit(r, factor, double(factor) * seenLight(light, shares));
+        visit(r, factor, double(factor) * light.seen(shares));
     });
 }
 

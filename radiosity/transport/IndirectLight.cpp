@@ -52,7 +52,7 @@ void IndirectLight::growSenders() {
     updates_.grow();
     sendersReached_.resize(count);
     sent_.resize(senders_.cellCount()), residuals_.resize(senders_.cellCount());
-    known_.resize(count), kept_.resize(count);
+    known_.resize(count), kept_.resize(count), expects_.resize(count, 1);
 }
 
 void IndirectLight::add(std::span<const ObjectId> objects) {
@@ -159,15 +159,15 @@ void IndirectLight::receiveAgain() {
     parallelFor(blockCount(), 16, [&](std::size_t first, std::size_t last) {
         for (std::uint32_t s = 0; s < senders_.count(); ++s) {
             const Row& row = table_[s];
+            const SentLight sent(cellsOf(std::as_const(sent_), s));
             std::size_t slot = known_[s] ? row.slotFrom(std::uint32_t(first)) : row.size();
             for (; slot < row.size() && row.blockAt(slot) < last; ++slot) {
                 const std::size_t node = row.blockAt(slot) * kBlock;
                 const RowBlock& block = row.begin()[std::ptrdiff_t(slot)];
-                forEachReceived(block, cellsOf(sent_, s),
-                                [&](int r, float factor, glm::dvec3 light) {
-                                    nodes_[node + std::size_t(r)] += light;
-                                    rowSums_[node + std::size_t(r)] += factor;
-                                });
+                forEachReceived(block, sent, [&](int r, float factor, glm::dvec3 light) {
+                    nodes_[node + std::size_t(r)] += light;
+                    rowSums_[node + std::size_t(r)] += factor;
+                });
             }
         }
     });
@@ -175,6 +175,7 @@ void IndirectLight::receiveAgain() {
 
 void IndirectLight::apply(const SceneChange& change) {
     described_ = false;
+    std::ranges::fill(expects_, std::uint8_t(1));
     directStale_ = true;
     for (ObjectId object : change.objects) {
         senders_.place(object);
@@ -230,6 +231,7 @@ void IndirectLight::markRows(std::span<const std::uint32_t> senders) {
 
 void IndirectLight::invalidate(const Bounds& region) {
     described_ = false;
+    std::ranges::fill(expects_, std::uint8_t(1));
     residualsChanged();
     if (rowsMissing_) restart();
     updates_.add({}, {}, {region});
@@ -256,6 +258,7 @@ void IndirectLight::restart() {
     std::fill(rowSums_.begin(), rowSums_.end(), 0.0);
     std::fill(sent_.begin(), sent_.end(), glm::dvec3(0));
     std::fill(known_.begin(), known_.end(), std::uint8_t(0));
+    std::ranges::fill(expects_, std::uint8_t(1));
     for (std::uint32_t s = 0; s < senders_.count(); ++s) updates_.dirty().setPower(s, 0);
     rowsMissing_ = completed_ = false;
 }
@@ -310,12 +313,13 @@ void IndirectLight::forgetSome(std::size_t effort) {
 /// Takes back what a row has sent, and drops it. \pre it is kept, and nothing is on its way
 void IndirectLight::forget(std::uint32_t sender) {
     const Row& row = table_[sender];
+    const SentLight sent(cellsOf(std::as_const(sent_), sender));
     std::size_t bytes = 0;
     for (std::size_t slot = 0; slot < row.size(); ++slot) {
         const RowBlock& block = row.begin()[std::ptrdiff_t(slot)];
         const std::size_t node = row.blockAt(slot) * kBlock;
         bytes += block.bytes();
-        forEachReceived(block, cellsOf(sent_, sender), [&](int r, float factor, glm::dvec3 light) {
+        forEachReceived(block, sent, [&](int r, float factor, glm::dvec3 light) {
             nodes_[node + std::size_t(r)] -= light;
             if (known_[sender]) rowSums_[node + std::size_t(r)] -= double(factor);
         });
@@ -323,6 +327,7 @@ void IndirectLight::forget(std::uint32_t sender) {
     rowBytes_ -= std::min(rowBytes_, bytes);
     table_.clear(sender);
     kept_[sender] = known_[sender] = 0;
+    expects_[sender] = 1;
     std::ranges::fill(cellsOf(sent_, sender), glm::dvec3(0));
     updates_.drop(sender);
     updates_.dirty().setPower(sender, 0);
@@ -349,8 +354,9 @@ int IndirectLight::updateBlock(RowBuilder& builder, const DirtyBlock& item,
     constexpr std::uint64_t kAll = ~std::uint64_t(0);
     RowBlock& block = table_[item.row][item.block];
     const Arrived arrived = arrivedAt(item.row, item.block);
+    const SentLight sent(arrived.light);
     std::array<NodeDelta, kBlock> nodes{};
-    forEachReceived(block, arrived.light, [&](int r, float factor, glm::dvec3 light) {
+    forEachReceived(block, sent, [&](int r, float factor, glm::dvec3 light) {
         nodes[std::size_t(r)] = {0, -double(factor), -light};
     });
     ReceiverBlock receivers = receiversOf(item.row, item.block);
@@ -363,7 +369,7 @@ int IndirectLight::updateBlock(RowBuilder& builder, const DirtyBlock& item,
     const int changed = builder.patches.update(senders_.sender(item.row), receivers,
                                                by.valid() ? kAll : item.anew, moved, block);
     if (changed == 0) return 0;
-    forEachReceived(block, arrived.light, [&](int r, float factor, glm::dvec3 light) {
+    forEachReceived(block, sent, [&](int r, float factor, glm::dvec3 light) {
         nodes[std::size_t(r)].factor += double(factor);
         nodes[std::size_t(r)].light += light;
     });

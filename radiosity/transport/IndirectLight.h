@@ -105,6 +105,7 @@ private:
     struct Shot {
         std::vector<std::uint32_t> senders;
         std::vector<std::vector<glm::dvec3>> light; ///< what cells of each send [lm/m^2]
+        std::vector<SentLight> sent;                ///< the same, as entries read it
         std::vector<std::uint8_t> fresh, build;     ///< first time; row is not there
         bool dark = false;                          ///< nothing is sent, only rows are built
         std::vector<std::vector<Link>> receivers;   ///< a block each
@@ -262,6 +263,7 @@ private:
     std::vector<glm::dvec3> colours_;         ///< reflectances, likewise
     std::vector<glm::dvec3> reflectedDirect_; ///< of direct light, unless directStale_ [lm/m^2]
     std::vector<std::uint8_t> known_;         ///< rows that are part of rowSums_
+    std::vector<std::uint8_t> expects_;       ///< 1: has not shot since an edit, see load()
     std::vector<std::uint8_t> kept_;          ///< rows that are in the table
     bool rowsMissing_ = false;                ///< some of those were not kept
     bool completed_ = false; ///< all rows were known at one time; few are not since

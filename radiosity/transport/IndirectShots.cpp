@@ -2,8 +2,8 @@
 // After [Cohen1988] (progressive refinement) in the form of Southwell's relaxation (Gortler, Cohen
 // & Slusallek, IEEE CG&A 14(6), 1994). Departures: senders shoot in batches of a fixed size, so
 // that receivers can be worked on side by side; a patch receives at its middle and its corners; its
-// first shot sends more than it owes, by what the ambient estimate says will come (Shao & Badler
-// 1993, Xu & Fussell 1994 call this overshooting).
+// first shot after an edit sends more than it owes, by what the ambient estimate says will come
+// (Shao & Badler 1993, Xu & Fussell 1994 call this overshooting).
 #include "radiosity/transport/IndirectLight.h"
 
 #include "radiosity/rows/RowRoom.h"
@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::uint32_t kBlock = PatchSet::kBlock;
 /// Senders shot at a time: a share of them all, for choosing them goes through all.
-constexpr std::size_t kLeastBatch = 32, kMostBatch = 1024, kBatchShare = 32;
+constexpr std::size_t kLeastBatch = 32, kMostBatch = 4096, kBatchShare = 16;
 
 } // namespace
 
@@ -135,16 +135,18 @@ void IndirectLight::load(Listing& listing) {
     std::size_t coming = 0; // [bytes]
     for (std::uint32_t i = 0; i < listing.senders.size(); ++i) {
         const std::uint32_t s = listing.senders[i];
-        // The first time send at once what is sure to come later; too much is taken back in its
-        // turn.
+        // The first time since an edit send at once what is sure to come later; too much is taken
+        // back in its turn, and if it were sent every time, some would be to and fro.
         const bool fresh = !known_[s];
         const SenderLight owed = cellsOf(residuals_, s), colours = cellsOf(colours_, s);
         std::vector<glm::dvec3> light(owed.size());
         for (std::size_t c = 0; c < light.size() && !listing.dark; ++c) {
             light[c] = owed[c];
-            if (fresh) light[c] += colours[c] * expected;
+            if (expects_[s]) light[c] += colours[c] * expected;
         }
+        expects_[s] = 0;
         shot_->fresh.push_back(fresh);
+        shot_->sent.emplace_back(light);
         shot_->light.push_back(std::move(light));
         shot_->build.push_back(!kept_[s]);
         if (kept_[s]) continue;
@@ -233,7 +235,7 @@ void IndirectLight::buildBlock(std::uint32_t s, std::uint32_t b, PatchRowBuilder
 /// \param i index into the senders of the batch
 void IndirectLight::serveLink(std::uint32_t i, std::uint32_t b, const RowBlock& block) {
     const bool fresh = shot_->fresh[i];
-    forEachReceived(block, shot_->light[i], [&](int r, float factor, glm::dvec3 light) {
+    forEachReceived(block, shot_->sent[i], [&](int r, float factor, glm::dvec3 light) {
         nodes_[b * kBlock + std::size_t(r)] += light;
         if (fresh) rowSums_[b * kBlock + std::size_t(r)] += factor;
     });

@@ -21,13 +21,13 @@ std::vector<glm::dvec3> numbered(std::size_t count) {
 
 TEST(SenderLight, OfOneSampleIsThatOfItsCell) {
     const std::array<std::uint8_t, 1> shares{6};
-    EXPECT_EQ(seenLight(numbered(kCells), {shares, 1}), glm::dvec3(7, 1, 0));
+    EXPECT_EQ(SentLight(numbered(kCells)).seen({shares, 1}), glm::dvec3(7, 1, 0));
 }
 
 TEST(SenderLight, OfFourSamplesIsThatOfTheSampledCellOfEachQuarter) {
     // Cells 1, 4, 10 and 15; the first and the last are seen, one to four.
     const std::array<std::uint8_t, 4> shares{0b11100001, 51, 51, 51};
-    const glm::dvec3 light = seenLight(numbered(kCells), {shares, 4});
+    const glm::dvec3 light = SentLight(numbered(kCells)).seen({shares, 4});
     EXPECT_NEAR(light.x, 0.2 * 2 + 0.8 * 16, 1e-12);
     EXPECT_NEAR(light.y, 1, 1e-12);
 }
@@ -36,7 +36,7 @@ TEST(SenderLight, OfSixteenSamplesIsTheMeanOverTheCellsThatAreSeen) {
     std::array<std::uint8_t, 15> shares{}; // cells 3 and 4 alike, no other
     for (std::size_t k = 3; k < shares.size(); ++k) shares[k] = k == 3 ? 102 : 204;
     shares[14] = 255;
-    const glm::dvec3 light = seenLight(numbered(kCells), {shares, 16});
+    const glm::dvec3 light = SentLight(numbered(kCells)).seen({shares, 16});
     EXPECT_NEAR(light.x, 0.4 * 4 + 0.4 * 5 + 0.2 * 15, 1e-12);
     EXPECT_NEAR(light.y, 1, 1e-12);
 }
@@ -46,17 +46,17 @@ TEST(SenderLight, OfAClusterIsTheMeanOverItsQuartersAndHowMuchMoreLeavesTheSampl
     std::vector<glm::dvec3> light = numbered(kClusterCells);
     for (std::size_t q = 0; q < 4; ++q) light[kSenderCells + q] = {100.0 * double(q + 1), 0, 0};
     const std::array<std::uint8_t, 4> one{6, 51, 102, 204};
-    EXPECT_NEAR(seenLight(light, {one, 1}).x, 0.2 * 100 + 0.2 * 200 + 0.4 * 300 + 0.2 * 400 + 7,
-                1e-12);
+    EXPECT_NEAR(SentLight(light).seen({one, 1}).x,
+                0.2 * 100 + 0.2 * 200 + 0.4 * 300 + 0.2 * 400 + 7, 1e-12);
     const std::array<std::uint8_t, 4> four{0b11100001, 51, 51, 51};
-    EXPECT_NEAR(seenLight(light, {four, 4}).x, 0.2 * 102 + 0.8 * 416, 1e-12);
+    EXPECT_NEAR(SentLight(light).seen({four, 4}).x, 0.2 * 102 + 0.8 * 416, 1e-12);
     std::array<std::uint8_t, 15> all{}; // cell 9 alone
     for (std::size_t k = 9; k < all.size(); ++k) all[k] = 255;
-    EXPECT_NEAR(seenLight(light, {all, 16}).x, 310, 1e-12);
+    EXPECT_NEAR(SentLight(light).seen({all, 16}).x, 310, 1e-12);
 }
 
 TEST(SenderLight, OfASenderThatSendsEvenlyIsItsOwn) {
-    EXPECT_EQ(seenLight(numbered(1), {}), glm::dvec3(1, 1, 0));
+    EXPECT_EQ(SentLight(numbered(1)).first(), glm::dvec3(1, 1, 0));
 }
 
 TEST(SenderLight, ReachesTheReceiversOfABlockByTheirShares) {
@@ -69,7 +69,7 @@ TEST(SenderLight, ReachesTheReceiversOfABlockByTheirShares) {
     RowBlock block;
     block.assign(drafts);
     std::vector<std::pair<int, double>> received;
-    forEachReceived(block, numbered(kCells), [&](int r, float factor, glm::dvec3 light) {
+    forEachReceived(block, SentLight(numbered(kCells)), [&](int r, float factor, glm::dvec3 light) {
         received.emplace_back(r, light.x / double(factor));
     });
     const std::vector<std::pair<int, double>> expected{{0, 6}, {2, 8}};
