@@ -3,6 +3,8 @@
 #include "base/Error.h"
 
 #include <cerrno>
+#include <filesystem>
+#include <system_error>
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -83,8 +85,14 @@ std::string reasonOf(int errorNumber, FileUse use) {
 }
 
 void failToUse(const std::string& path, int errorNumber, FileUse use) {
+    std::string reason = reasonOf(errorNumber, use);
+    std::error_code unknown;
+    if (use == FileUse::write && errorNumber == ENOENT &&
+        std::filesystem::is_directory(std::filesystem::absolute(path, unknown).parent_path(),
+                                      unknown))
+        reason = "its folder takes no files (choose another place)"; // such as /proc
     throw Error(path + ": error: can't " + (use == FileUse::read ? "read" : "write") + ": " +
-                reasonOf(errorNumber, use));
+                reason);
 }
 
 std::string whyUnreadable(const std::string& path) {

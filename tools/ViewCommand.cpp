@@ -1,3 +1,5 @@
+#include "base/Error.h"
+#include "base/SystemError.h"
 #include "tools/Commands.h"
 #include "tools/DisplayOptions.h"
 #include "tools/OutputFiles.h"
@@ -21,9 +23,12 @@ struct ViewCommand {
 };
 
 void run(ViewCommand& command) {
-    checkOutputs({command.solve.scene}, {command.viewer.record});
+    const std::string& scene = command.solve.scene;
+    if (const std::string why = scene.empty() ? "" : whyUnreadable(scene); !why.empty())
+        throw Error(scene + ": error: can't read: " + why); // before a window opens, or can't
+    checkOutputs({scene}, {command.viewer.record});
     ViewerOptions& options = command.viewer;
-    options.scene = command.solve.scene;
+    options.scene = scene;
     options.frame = command.solve.frame;
     options.allowOutside = command.solve.allowOutside;
     options.light.solving = command.solve.solver;

@@ -1,6 +1,7 @@
 // What leaves a sender of indirect light, and what of it arrives.
 #pragma once
 
+#include "base/Wide.h"
 #include "radiosity/rows/Row.h"
 
 #include <glm/glm.hpp>
@@ -87,9 +88,7 @@ public:
     }
 
 private:
-    /// Red, green, blue and nothing, in one register (an extension of GCC and Clang): this is
-    /// where relaxation spends its time.
-    using Wide [[gnu::vector_size(4 * sizeof(double))]] = double;
+    using Wide = Double4; ///< red, green, blue and nothing: relaxation spends its time here
     static constexpr double kShare = 1.0 / 255;
 
     static Wide wide(glm::dvec3 v) { return Wide{v.x, v.y, v.z, 0}; }

@@ -1,10 +1,12 @@
 #include "radiosity/transport/DetailGather.h"
 
 #include "base/Parallel.h"
+#include "base/Wide.h"
 #include "radiosity/mesh/Interpolation.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <unordered_map>
 #include <utility>
@@ -16,6 +18,11 @@ namespace {
 constexpr int kRays = DetailHits::kRays;
 constexpr float kMostOfFar = 5; ///< of what nodes receive: what a far ray counts for
 constexpr int kSweeps = 10;     ///< light goes from gathering vertex to gathering vertex
+/// So many take all that gathers; from then on what changed by less than this share, of what is
+/// drawn of it, in the last one that took it is left as it is. Most is, and light in a few deep
+/// slits needs many sweeps.
+constexpr int kFullSweeps = 3;
+constexpr double kSettled = 1e-3;
 
 double smoothstep(double low, double high, double x) {
     const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
@@ -40,6 +47,11 @@ Rgb toRgb(glm::dvec3 v) {
     return {float(v.x), float(v.y), float(v.z)};
 }
 
+/// \param drawn what `now` is part of [lux]
+bool isSettled(Rgb was, Rgb now, Rgb drawn) {
+    return double(maxChannel(absolute(now - was))) < kSettled * double(maxChannel(drawn));
+}
+
 } // namespace
 
 /// Sweeps under way. Each takes four rounds, of blended vertices, elements, nodes and vertices; of
@@ -49,8 +61,11 @@ struct DetailGather::Sweep {
     std::vector<Rgb> indirect;
     std::vector<glm::dvec3> nodeIndirect;
     Sent sent;
+    std::vector<std::uint8_t> settledVertices, settledNodes; ///< 1: see kFullSweeps
     int round = -1; ///< -1: vertices are interpolated; 4 i + k: round k of sweep i
     std::size_t next = 0;
+
+    bool isFull() const { return round < 4 * kFullSweeps; }
 };
 
 DetailGather::DetailGather(const PatchSet& patches, NodeHits& nodes)
@@ -119,6 +134,8 @@ void DetailGather::beginSweeps(std::span<const Rgb> direct, std::vector<glm::dve
     sweep_->sent.direct.resize(patches_.elements.size());
     sweep_->sent.nodes.resize(patches_.nodes.size());
     sweep_->sent.far.resize(patches_.nodes.size());
+    sweep_->settledVertices.assign(direct.size(), 0);
+    sweep_->settledNodes.assign(patches_.nodes.size(), 0);
     sweep_->sent.current = true;
     sweep_->round = -1;
     sweep_->next = 0;
@@ -220,8 +237,11 @@ void DetailGather::sendElements(Sweep& sweep, std::size_t first, std::size_t las
 void DetailGather::gatherNodes(Sweep& sweep, std::size_t first, std::size_t last) const {
     Sent& sent = sweep.sent;
     for (std::size_t n = first; n < last; ++n) {
-        sent.nodes[n] = gathered(sent, hits_.nodes().hits(n), false);
+        if (!sweep.isFull() && sweep.settledNodes[n] != 0) continue;
+        const glm::dvec3 was =
+            std::exchange(sent.nodes[n], gathered(sent, hits_.nodes().hits(n), false));
         sent.far[n] = brightestFar(sent, n);
+        sweep.settledNodes[n] = isSettled(toRgb(was), toRgb(sent.nodes[n]), toRgb(sent.nodes[n]));
     }
 }
 
@@ -240,31 +260,35 @@ float DetailGather::brightestFar(const Sent& sent, std::size_t node) const {
 
 void DetailGather::gatherVertices(Sweep& sweep, std::size_t first, std::size_t last) const {
     for (std::size_t group = first; group < last; ++group)
-        for (const auto& gatherer : hits_.gatherers(group))
-            if (gatherer.weighs())
-                sweep.indirect[gatherer.vertex] =
-                    received(sweep.sent, group, gatherer, sweep.nodeIndirect);
+        for (const auto& gatherer : hits_.gatherers(group)) {
+            const std::uint32_t v = gatherer.vertex;
+            if (!gatherer.weighs() || (!sweep.isFull() && sweep.settledVertices[v] != 0)) continue;
+            const Rgb was = std::exchange(
+                sweep.indirect[v], received(sweep.sent, group, gatherer, sweep.nodeIndirect));
+            sweep.settledVertices[v] =
+                isSettled(was, sweep.indirect[v], sweep.direct[v] + sweep.indirect[v]);
+        }
 }
 
 glm::dvec3 DetailGather::gathered(const Sent& sent, std::span<const std::uint32_t> hits, bool slit,
                                   std::uint64_t bounded, float most) const {
-    glm::dvec3 sum(0), returned(0);
+    Double4 sum{}; // red, green, blue, luminance
+    glm::dvec3 returned(0);
     Light brightest;
     float second = 0; // brightest [lm/m^2]
     for (std::size_t i = 0; i < hits.size(); ++i) {
-        const std::uint32_t hit = hits[i];
-        if (hit == Element::kNone) continue;
-        const std::uint32_t element = hit & ~DetailRays::kAcross;
-        if (element == DetailHits::kGone) continue; // until it is found what the ray meets now
-        const bool returns = slit && isAcross(hit);
+        const std::uint32_t element = hits[i] & ~DetailRays::kAcross;
+        // None, or it is not known as yet what the ray meets now.
+        if (element >= sent.all.size()) continue;
+        const bool returns = slit && isAcross(hits[i]);
         if (returns) {
             const Rgb rho = elementReflectance(patches_, element);
             returned += glm::dvec3(rho.r, rho.g, rho.b);
         }
         Light light = returns ? sent.direct[element] : sent.all[element];
-        if ((bounded >> i & 1) && light.luminance > most)
+        if (light.luminance > most && (bounded >> i & 1))
             light = {most / light.luminance * light.colour, most};
-        sum += glm::dvec3(light.colour.r, light.colour.g, light.colour.b);
+        sum += __builtin_convertvector(std::bit_cast<Float4>(light), Double4);
         if (light.luminance > brightest.luminance)
             second = brightest.luminance, brightest = light;
         else
@@ -274,7 +298,8 @@ glm::dvec3 DetailGather::gathered(const Sent& sent, std::span<const std::uint32_
     // It is dimmed, not replaced, or which of two alike is the brighter would decide on the colour.
     const float more = brightest.luminance - second;
     const Rgb excess = more > 0 ? more / brightest.luminance * brightest.colour : Rgb();
-    return (sum - glm::dvec3(excess.r, excess.g, excess.b)) / (double(kRays) - returned);
+    return (glm::dvec3(sum[0], sum[1], sum[2]) - glm::dvec3(excess.r, excess.g, excess.b)) /
+           (double(kRays) - returned);
 }
 
 /// What a node gathers, its far rays bounded: where none finds as much, what the sweeps gathered.

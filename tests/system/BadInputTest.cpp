@@ -49,6 +49,13 @@ TEST_F(BadInput, AMissingFileIsNamed) {
     EXPECT_EQ(lineCount(outcome.err), 1u);
 }
 
+TEST_F(BadInput, OfAWindowIsNamedBeforeOneIsOpened) {
+    const Outcome outcome = runPenumbra({"view", here.path("none.usda")});
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("none.usda: error: can't read: there is no such file"));
+    EXPECT_EQ(lineCount(outcome.err), 1u);
+}
+
 TEST_F(BadInput, AFolderInsteadOfAFileIsToldApart) {
     std::filesystem::create_directory(here.path("folder.usda"));
     const Outcome outcome = solve(here.path("folder.usda"));

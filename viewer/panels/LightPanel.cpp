@@ -61,7 +61,7 @@ void drawLightPanel(PanelState& state) {
         state.policy = PolicyKind(policy);
     explain("The result is the same; what is right first is not.");
     if (light.held > 0) {
-        ImGui::Text("%zu changes wait", light.held);
+        ImGui::Text("%zu change%s", light.held, light.held == 1 ? " waits" : "s wait");
         ImGui::SameLine();
         if (ImGui::SmallButton("update now")) state.wantsUpdate = true;
     }
@@ -71,8 +71,9 @@ void drawLightPanel(PanelState& state) {
     if ((working || light.phase == Phase::meshing) && !light.task.empty())
         ImGui::ProgressBar(float(light.progress), {-1, 0}, light.task.c_str());
     if (light.dirtyBlocks > 0 || light.queued > 0) {
-        ImGui::TextWrapped("still to compute: %zu pieces, %zu changes", light.dirtyBlocks,
-                           light.queued);
+        ImGui::TextWrapped("still to compute: %zu piece%s, %zu change%s", light.dirtyBlocks,
+                           light.dirtyBlocks == 1 ? "" : "s", light.queued,
+                           light.queued == 1 ? "" : "s");
         explain("A piece is the direct light of up to 64 points of a surface.");
     }
     if (light.age > 0) ImGui::Text("the light is %.1f s behind", light.age);

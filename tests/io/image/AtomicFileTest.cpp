@@ -72,6 +72,11 @@ TEST(AtomicFile, SaysThatTheFolderIsMissing) {
         "/nonexistent/a.txt: error: can't write: its folder does not exist (create it first)");
 }
 
+TEST(AtomicFile, SaysThatTheFolderTakesNoFiles) {
+    EXPECT_EQ(errorOf("/proc/a.txt", "x"),
+              "/proc/a.txt: error: can't write: its folder takes no files (choose another place)");
+}
+
 TEST(AtomicFile, SaysThatTheFolderMayNotBeWritten) {
     if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
     const TemporaryFolder folder;
