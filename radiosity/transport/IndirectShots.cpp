@@ -136,7 +136,7 @@ void IndirectLight::load(Listing& listing) {
     for (std::uint32_t i = 0; i < listing.senders.size(); ++i) {
         const std::uint32_t s = listing.senders[i];
         // The first time since an edit send at once what is sure to come later; too much is taken
-        // back in its turn, and if it were sent every time, some would be to and fro.
+        // back in its turn: sent every time, some of it would go to and fro.
         const bool fresh = !known_[s];
         const SenderLight owed = cellsOf(residuals_, s), colours = cellsOf(colours_, s);
         std::vector<glm::dvec3> light(owed.size());
