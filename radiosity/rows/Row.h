@@ -193,6 +193,7 @@ public:
 
     /// Bits: receivers that have an entry.
     std::uint64_t present() const { return bytes_ ? at<std::uint64_t>(0) : 0; }
+    bool empty() const { return !bytes_; } ///< there are no entries
     int entryCount() const { return std::popcount(present()); }
     /// Has the processor load what is read first: blocks lie all over memory.
     void prefetch() const {

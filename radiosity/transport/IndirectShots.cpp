@@ -88,6 +88,7 @@ void IndirectLight::choose(std::vector<std::uint32_t> senders, bool dark) {
 }
 
 /// Lists the receivers of some more senders. Nothing else knows of a batch until that is done.
+/// Blocks without entries, as all that a wall hides, are left out: none of these receives.
 void IndirectLight::list(std::size_t effort) {
     constexpr std::size_t kBlocksARay = 64, kFind = 64; // of a row that is there; without one
     Listing& listing = *listing_;
@@ -99,7 +100,8 @@ void IndirectLight::list(std::size_t effort) {
         };
         if (kept_[s]) {
             const Row& row = table_[s];
-            for (std::size_t slot = 0; slot < row.size(); ++slot) toServe(row.blockAt(slot), slot);
+            for (std::size_t slot = 0; slot < row.size(); ++slot)
+                if (!row.begin()[std::ptrdiff_t(slot)].empty()) toServe(row.blockAt(slot), slot);
             cost += 1 + row.size() / kBlocksARay;
             continue;
         }
