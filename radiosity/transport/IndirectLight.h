@@ -80,7 +80,8 @@ public:
     double meanRadiosity() const { return meanRadiosity_; }
     std::uint64_t shots() const { return shots_; }
     std::uint64_t blocksServed() const { return served_; } ///< by shots
-    std::uint64_t blocksKept() const;                      ///< of all rows; goes through them
+    /// Of all rows, that have entries; goes through them.
+    std::uint64_t blocksKept() const;
 
     const IndirectSenders& senders() const { return senders_; }
     const RowTable& rows() const { return table_; } ///< one a sender
@@ -188,7 +189,8 @@ private:
     std::vector<std::uint8_t> staleSenders(bool all, std::span<const double> dirtyDirect);
     void updateResiduals();
     void updatePatch(std::uint32_t index);
-    void bound();
+    void sumPatch(std::uint32_t index);
+    void bound(std::span<const std::uint8_t> stale);
     void coloursChanged();
     glm::dvec3 node(std::uint32_t index) const;
     bool isWhole(std::uint32_t index) const;
@@ -245,13 +247,21 @@ private:
         double toAny = 0, most = 0;
     };
     std::vector<Owed> owed_;
-    /// Bounds of what a patch owes, and what it sends in the mean [lm/m^2].
+    /// Of patches: bounds of what they owe, and what they send in the mean [lm/m^2].
     struct PatchBound {
+        /// Over those that are not far, and those that are (see Patch).
+        struct Sums {
+            double area = 0, reflectingArea = 0, radiosity = 0;
+            glm::dvec3 owed{0}, reflected{0};
+            void add(const Sums& other);
+        };
         double dirtyDirect = 0, dirty = 0, both = 0;
-        std::array<double, 2> area{}, radiosity{}; ///< of what is not far, and far (see Patch)
+        std::array<Sums, 2> sums;
         void add(const PatchBound& other);
     };
     std::vector<PatchBound> patchBounds_;
+    std::vector<PatchBound> groupBounds_; ///< of some patches each, added up
+    PatchBound bounds_;                   ///< of all
     /// Since the residuals were known: blocks that received of a batch (1), who sent; or anything.
     std::vector<std::uint8_t> servedBlocks_;
     std::vector<std::uint32_t> servers_;

@@ -174,14 +174,19 @@ void IndirectLight::noteBatch(const Shot& shot) {
     servers_.insert(servers_.end(), shot.senders.begin(), shot.senders.end());
 }
 
+void IndirectLight::PatchBound::Sums::add(const Sums& other) {
+    area += other.area;
+    reflectingArea += other.reflectingArea;
+    radiosity += other.radiosity;
+    owed += other.owed;
+    reflected += other.reflected;
+}
+
 void IndirectLight::PatchBound::add(const PatchBound& other) {
     dirtyDirect = std::max(dirtyDirect, other.dirtyDirect);
     dirty = std::max(dirty, other.dirty);
     both = std::max(both, other.both);
-    for (std::size_t k = 0; k < area.size(); ++k) {
-        area[k] += other.area[k];
-        radiosity[k] += other.radiosity[k];
-    }
+    for (std::size_t k = 0; k < sums.size(); ++k) sums[k].add(other.sums[k]);
 }
 
 /// Senders (1) whose residuals are not what they were.
@@ -250,9 +255,10 @@ void IndirectLight::updateResiduals() {
                 cells.size() == kClusterCells
                     ? largest(cells.first(kSenderCells)) + largest(cells.subspan(kSenderCells))
                     : owed_[s].most;
+            if (s < senders_.patchCount()) sumPatch(s);
         }
     });
-    bound();
+    bound(stale);
 }
 
 /// What a patch sends if nothing is owed any more, and what it may still be wrong by.
@@ -274,29 +280,46 @@ void IndirectLight::updatePatch(std::uint32_t index) {
         bound.both = std::max(bound.both, largest(cells[c] - sent[c]) + bound.dirty);
     if (rho <= 0) return;
     const Patch& patch = set_.patches[index];
-    bound.area[patch.far] = patch.area;
-    bound.radiosity[patch.far] = patch.area * largest(meanOf(cells));
+    bound.sums[patch.far].reflectingArea = patch.area;
+    bound.sums[patch.far].radiosity = patch.area * largest(meanOf(cells));
 }
 
-/// What all of the light may still be wrong by.
-void IndirectLight::bound() {
-    constexpr std::size_t kGrain = 512; // patches that are summed up first
-    PatchBound all;
-    for (std::size_t first = 0; first < patchBounds_.size(); first += kGrain) {
-        PatchBound some;
-        for (std::size_t p = first; p < std::min(first + kGrain, patchBounds_.size()); ++p)
-            some.add(patchBounds_[p]);
-        all.add(some);
+/// Adds what the ambient term is made of. \pre its residual is known
+void IndirectLight::sumPatch(std::uint32_t index) {
+    if (!set_.parts.used.empty() && !set_.parts.used[index]) return;
+    const Patch& patch = set_.patches[index];
+    PatchBound::Sums& sums = patchBounds_[index].sums[patch.far];
+    sums.area = patch.area;
+    sums.owed = double(patch.area) * meanOf(cellsOf(std::as_const(residuals_), index));
+    sums.reflected = double(patch.area) * toDouble(patchReflectance(set_, index));
+}
+
+/// What all of the light may still be wrong by. \param stale senders (1) that are not what they
+/// were
+void IndirectLight::bound(std::span<const std::uint8_t> stale) {
+    constexpr std::size_t kBoundGroup = 64; // patches that are added up first
+    groupBounds_.resize((patchBounds_.size() + kBoundGroup - 1) / kBoundGroup);
+    bounds_ = {};
+    for (std::size_t g = 0; g < groupBounds_.size(); ++g) {
+        const std::size_t first = g * kBoundGroup;
+        const std::size_t count = std::min(kBoundGroup, patchBounds_.size() - first);
+        if (std::ranges::find(stale.subspan(first, count), 1) != stale.begin() + first + count) {
+            groupBounds_[g] = {};
+            for (std::size_t i = 0; i < count; ++i) groupBounds_[g].add(patchBounds_[first + i]);
+        }
+        bounds_.add(groupBounds_[g]);
     }
     most_ = 0;
     for (const Owed& owed : owed_) most_ = std::max(most_, owed.most);
     // What a cluster sends is a quarter's mean, plus a cell's direct light, minus that quarter's.
+    double both = bounds_.both;
     for (std::uint32_t s = senders_.patchCount(); s < senders_.count(); ++s)
-        all.both = std::max(all.both, owed_[s].toAny + all.dirty + 4.0 / 3 * all.dirtyDirect);
-    dirtyBound_ = all.dirty;
-    certificate_ = all.both > 0 ? gain_ * all.both : 0;
-    const std::size_t k = all.radiosity[0] > 0 ? 0 : 1;
-    meanRadiosity_ = all.area[k] > 0 ? all.radiosity[k] / all.area[k] : 0;
+        both = std::max(both, owed_[s].toAny + bounds_.dirty + 4.0 / 3 * bounds_.dirtyDirect);
+    dirtyBound_ = bounds_.dirty;
+    certificate_ = both > 0 ? gain_ * both : 0;
+    const auto& [near, far] = bounds_.sums;
+    const PatchBound::Sums& seen = near.radiosity > 0 ? near : far;
+    meanRadiosity_ = seen.reflectingArea > 0 ? seen.radiosity / seen.reflectingArea : 0;
 }
 
 /// Reflectances, and what follows from them. |B_exact - B| <= max|R| / (1 - max(rho * row sum)), in
@@ -328,22 +351,10 @@ void IndirectLight::coloursChanged() {
 /// What is owed goes, on average, once over all surfaces and is reflected on: Cohen et al. 1988.
 /// What a ground of hundreds of metres owes is not for the room that stands on it.
 glm::dvec3 IndirectLight::ambient() const {
-    struct Sum {
-        glm::dvec3 owed{0}, reflected{0};
-        double area = 0;
-    };
-    std::array<Sum, 2> sums; // of what is not far, and far
-    for (std::uint32_t p = 0; p < set_.patches.size(); ++p) {
-        if (!set_.parts.used.empty() && !set_.parts.used[p]) continue;
-        const Patch& patch = set_.patches[p];
-        Sum& sum = sums[patch.far];
-        sum.owed += double(patch.area) * meanOf(cellsOf(residuals_, p));
-        sum.reflected += double(patch.area) * toDouble(patchReflectance(set_, p));
-        sum.area += patch.area;
-    }
-    const auto& [owed, reflected, area] = sums[0].area > 0 ? sums[0] : sums[1];
-    if (area == 0) return owed;
-    return (owed / area) / (1.0 - glm::min(reflected / area, 0.98));
+    const auto& [near, far] = bounds_.sums;
+    const PatchBound::Sums& sums = near.area > 0 ? near : far;
+    if (sums.area == 0) return glm::dvec3(0);
+    return (sums.owed / sums.area) / (1.0 - glm::min(sums.reflected / sums.area, 0.98));
 }
 
 std::vector<glm::dvec3> IndirectLight::nodes() const {

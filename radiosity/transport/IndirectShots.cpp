@@ -123,7 +123,9 @@ std::size_t IndirectLight::rowsNotKept() const {
 
 std::uint64_t IndirectLight::blocksKept() const {
     std::uint64_t count = 0;
-    for (const Row& row : table_.rows()) count += row.size();
+    for (const Row& row : table_.rows())
+        count += std::uint64_t(
+            std::ranges::count_if(row, [](const RowBlock& block) { return !block.empty(); }));
     return count;
 }
 
