@@ -33,10 +33,18 @@ bool isParallelogram(const std::vector<glm::vec3>& p) {
                                 1e-5f * (glm::distance(p[0], p[2]) + glm::distance(p[1], p[3]));
 }
 
+/// Of what has no area, be it that an animation shrinks it beyond what floats can tell apart.
+constexpr glm::vec3 kAnyNormal(0, 0, 1);
+
+glm::vec3 unitOrAny(glm::vec3 vector) {
+    const float length = glm::length(vector);
+    return length > 0 ? vector / length : kAnyNormal;
+}
+
 void samplePolygons(const Emitter& emitter, std::size_t count, EmitterSamples& out) {
     if (emitter.polygons.size() == 1 && isParallelogram(emitter.polygons[0])) {
         const auto& p = emitter.polygons[0];
-        const glm::vec3 normal = glm::normalize(glm::cross(p[1] - p[0], p[3] - p[0]));
+        const glm::vec3 normal = unitOrAny(glm::cross(p[1] - p[0], p[3] - p[0]));
         for (std::uint32_t i = 0; i < count; ++i) {
             const glm::vec2 u = sobol02(i, count);
             out.points.push_back({p[0] + u.x * (p[1] - p[0]) + u.y * (p[3] - p[0]), normal});
@@ -54,6 +62,10 @@ void samplePolygons(const Emitter& emitter, std::size_t count, EmitterSamples& o
             area += size;
             parts.push_back({corner, vector / float(size), area});
         }
+    if (parts.empty()) { // it sends nothing, so it may do so from anywhere
+        out.points.assign(count, {emitter.polygons[0][0], kAnyNormal});
+        return;
+    }
     for (std::uint32_t i = 0; i < count; ++i) {
         glm::vec2 u = sobol02(i, count);
         const double at = u.x * area;

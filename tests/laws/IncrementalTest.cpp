@@ -268,6 +268,20 @@ TEST(Incremental, EqualsFromScratchWhenSomethingShrinksToNothingAsAnotherThingIs
     EXPECT_EQ(followed.differs(), "") << "it has grown again";
 }
 
+TEST(Incremental, EqualsFromScratchWhenSomethingThatShinesShrinksToAPoint) {
+    // Too small for floats to tell its corners apart, and yet not gone.
+    FollowedRoom followed(4);
+    const auto block = addBlock(followed, "glowing", moved(1, 1, 0.5), paint(Rgb(0.5f), Rgb(5)));
+    followed.follow();
+    followed.lit.solver().settle();
+    block->setMatrix(moved(1, 1, 0.5) * scaled(1e-9));
+    followed.follow();
+    EXPECT_EQ(followed.differs(), "");
+    block->setMatrix(moved(1, 1, 0.5));
+    followed.follow();
+    EXPECT_EQ(followed.differs(), "") << "it has grown again";
+}
+
 TEST(Incremental, EqualsFromScratchWhenSomethingThatWasMeshedInTheDarkShinesAgain) {
     // Others of its material, gone or not, were taken to shine for it.
     FollowedRoom followed(4);

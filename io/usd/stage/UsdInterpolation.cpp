@@ -43,6 +43,7 @@ UsdValue between(const UsdValue& a, const UsdValue& b, double t) {
                       std::is_same_v<Vector, std::vector<double>>) {
             const Vector* vb = std::get_if<Vector>(&b.data);
             if (!vb || vb->size() != va.size() || a.type != b.type) return {};
+            if (va == *vb) return a; // what stands still does so to the last bit
             return {a.type, a.type.quaternion ? slerp(va, *vb, t) : lerp(va, *vb, t)};
         }
         return {};

@@ -92,6 +92,19 @@ TEST(EmitterSamples, OfATriangleHaveItsCentroidForTheirMean) {
     EXPECT_LT(glm::distance(mean, {1, 2, 1}), 0.05f);
 }
 
+// Found by an animation that shrank a glowing box to where floats can't tell its corners apart.
+TEST(EmitterSamples, OfWhatHasNoAreaLieOnItAndLookOneWay) {
+    const glm::vec3 at{54, 1, 2};
+    const std::vector<glm::vec3> square(4, at), triangle(3, at);
+    using Polygons = std::vector<std::vector<glm::vec3>>;
+    for (const Polygons& polygons :
+         {Polygons{square}, Polygons{triangle}, Polygons{square, square}})
+        for (const auto& sample : sampleEmitter(polygonEmitter(polygons), 16).points) {
+            EXPECT_EQ(sample.position, at);
+            EXPECT_EQ(glm::length(sample.normal), 1);
+        }
+}
+
 TEST(EmitterSamples, OfADiskLieOnItEvenly) {
     Emitter disk;
     disk.kind = Emitter::Kind::disk;

@@ -107,6 +107,12 @@ TEST(UsdStage, SamplesAreInterpolatedOrHeld) {
     EXPECT_NEAR(q[1], 0.70710678, 1e-6);
 }
 
+TEST(UsdStage, BetweenSamplesThatAreAlikeAValueStandsStillToTheLastBit) {
+    const UsdStage stage =
+        stageOf("def \"a\"\n{\n double x.timeSamples = { 3: .2366, 6: .2366 }\n}\n");
+    for (const double time : {4.0, 5.0}) EXPECT_EQ(numbers(stage, "x", time), Numbers{.2366});
+}
+
 TEST(UsdStage, WithoutATimeSamplesCountOnlyWhereThereIsNoDefault) {
     const UsdStage stage = stageOf("def \"a\"\n{\n float x.timeSamples = { 3: 30, 4: 40 }\n}\n");
     EXPECT_EQ(numbers(stage, "x"), Numbers{30});
