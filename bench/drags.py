@@ -48,7 +48,10 @@ def main():
         command = [options.program.resolve(), scene, "--rays", "--direct-only", "--variant", "0", "--hd"]
         command += ["--element-size", options.element_size] if options.element_size else []
         stamp = measured.stamp()
-        report = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+        run = subprocess.run(command, stdout=subprocess.PIPE, text=True)
+        if run.returncode != 0:
+            raise SystemExit(run.returncode)  # the program has said why
+        report = run.stdout
         print(report)
         results.append({"name": f"drag/{scene}", **stamp, **figures(report, FIGURES)})
         for name, words in TIMES.items():

@@ -210,6 +210,9 @@ void play(const DragScript& script, int number, const Asked& asked) {
 
 int run(int argc, char** argv) {
     const Asked what = asked(argc, argv);
+    const auto isAsked = [&](const DragScript& script) { return script.scene == what.only; };
+    if (!what.only.empty() && std::ranges::none_of(kScripts, isAsked))
+        throw Error(what.only + ": no such drag (there are office and gallery)");
     if (!what.consistent)
         std::printf("                              |   start     |    motion     |       "
                     "hand-over        | flick |  ready settled real%% | frames\n");

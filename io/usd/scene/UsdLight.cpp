@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kTubeSides = 24;
+constexpr std::array<std::string_view, 4> kSizes{"inputs:width", "inputs:height", "inputs:radius",
+                                                 "inputs:length"};
 
 // Chromaticity of the Planckian locus, 1667 K and up (Kang et al. 2002, eqs. 3 and 4).
 glm::dvec2 planckianLocus(double t) {
@@ -127,6 +129,11 @@ void checkUsdLight(const UsdPrim& light, UsdSampleCheck& check) {
     check.firsts(light, kIgnored, "ignored", warnOfIgnoredInputs);
     check.each(light, kFactors, "luminance",
                [](const UsdAttributes& at, Diagnostics& found) { luminanceOf(at, 1, found); });
+    check.each(light, kSizes, "size", [](const UsdAttributes& at, Diagnostics& found) {
+        const glm::dvec3 size = usdLightSize(at);
+        if (size.x * size.y * size.z == 0)
+            found.warn(at.prim().location(), "a light without area left out");
+    });
 }
 
 namespace {
@@ -193,19 +200,33 @@ NodePtr makeTube(const std::string& name, const std::string& material, double ra
 
 } // namespace
 
-double usdLightArea(const UsdAttributes& light, const glm::dmat4& toWorld) {
+glm::dvec3 usdLightSize(const UsdAttributes& light) {
     const std::string& type = light.prim().typeName;
-    const glm::dmat3 linear(toWorld);
     const auto size = [&](std::string_view input, double fallback) {
         const double value = double(roundToFloat(light.number(input, fallback)));
         return value > 0 && std::isfinite(value) ? value : 0;
     };
-    const double flat = areaFactor(linear, {1, 0, 0}, {0, 1, 0});
-    if (type == "RectLight") return size("inputs:width", 1) * size("inputs:height", 1) * flat;
+    if (type == "RectLight") return {size("inputs:width", 1), size("inputs:height", 1), 1};
     const double r = size("inputs:radius", 0.5);
-    if (type == "DiskLight") return kPi * r * r * flat;
-    if (type == "SphereLight") return sphereArea(linear, r);
-    return tubeArea(linear, r, size("inputs:length", 1));
+    if (type == "DiskLight") return {r, r, 1};
+    if (type == "SphereLight") return {r, r, r};
+    return {size("inputs:length", 1), r, r};
+}
+
+bool usdLightSizeAnimated(const UsdPrim& light) {
+    return std::ranges::any_of(
+        kSizes, [&](std::string_view size) { return UsdStage::animated(light, size); });
+}
+
+double usdLightArea(const UsdAttributes& light, const glm::dmat4& toWorld) {
+    const std::string& type = light.prim().typeName;
+    const glm::dmat3 linear(toWorld);
+    const glm::dvec3 size = usdLightSize(light);
+    const double flat = areaFactor(linear, {1, 0, 0}, {0, 1, 0});
+    if (type == "RectLight") return size.x * size.y * flat;
+    if (type == "DiskLight") return kPi * size.x * size.y * flat;
+    if (type == "SphereLight") return sphereArea(linear, size.x);
+    return tubeArea(linear, size.y, size.x);
 }
 
 NodePtr makeUsdLight(const std::string& name, const UsdAttributes& light, const glm::dmat4& toWorld,

@@ -31,6 +31,11 @@ Rgb usdLightLuminance(const UsdAttributes& light, double area, Diagnostics& diag
 /// Warns of what can't be used at other times than that of the load.
 void checkUsdLight(const UsdPrim& light, UsdSampleCheck& check);
 
+/// Its extents along its own axes [scene units], 1 where it has none; 0 for what is not positive.
+glm::dvec3 usdLightSize(const UsdAttributes& light);
+/// Whether these change with time.
+bool usdLightSizeAnimated(const UsdPrim& light);
+
 /// Area of a light's emitting surface in the world, scene units squared; 0 if a size is not
 /// positive. \param toWorld local frame to world, column vectors, scene units; any scale and shear
 double usdLightArea(const UsdAttributes& light, const glm::dmat4& toWorld);

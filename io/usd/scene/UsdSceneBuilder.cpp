@@ -113,7 +113,7 @@ private:
         const bool shares = transform || hasChildren(prim); // its path, with what holds it
         const NodePtr leaf =
             place.drawn ? makeLeaf(shares ? std::string() : prim.name, attributes, place) : nullptr;
-        if (leaf && isUsdAreaLight(prim.typeName)) tracks_.addLight(leaf, prim, place.frame);
+        if (leaf && isUsdAreaLight(prim.typeName)) tracks_.addLight(leaf, attributes, place.frame);
         if (const auto camera = std::dynamic_pointer_cast<Camera>(leaf))
             tracks_.addCamera(camera, prim);
         if (leaf) noteLeaf(leaf, prim);
@@ -258,7 +258,8 @@ private:
         UsdLocalTransform local;
         if (isXformable(prim.typeName)) local = usdLocalTransform(attributes, warnings_);
         // What leaves a moving parent behind stands still, but moves in the parent's frame.
-        const bool moves = local.animated || (local.resetsStack && parent.frame.moves());
+        const bool resized = isResized(prim);
+        const bool moves = local.animated || resized || (local.resetsStack && parent.frame.moves());
         const bool object =
             moves || comesAndGoes(prim) || attributes.flag("penumbra:movable", false);
         const bool structure = prim.typeName == "Xform";
@@ -270,16 +271,23 @@ private:
         transform->setMatrix(local.matrix);
         transform->setBeginsObject(object);
         place.frame = parent.frame.below(transform, moves);
-        if (moves) tracks_.addTransform(transform, prim, parent.frame);
-        addresses_.transforms.push_back({transform, prim.path, local.animated, false});
+        if (moves)
+            tracks_.addTransform(transform, prim, parent.frame,
+                                 resized ? std::optional(usdLightSize(attributes)) : std::nullopt);
+        addresses_.transforms.push_back({transform, prim.path, local.animated || resized, false});
         return transform;
+    }
+
+    // Whether its transform takes in how large it is: a light's does, unless others are below it.
+    bool isResized(const UsdPrim& prim) const {
+        return isUsdAreaLight(prim.typeName) && usdLightSizeAnimated(prim) && !hasChildren(prim);
     }
 
     void warnOfHeldSizes(const UsdAttributes& attributes) {
         constexpr std::array kSizes{"size",          "radius",        "height",
                                     "width",         "length",        "inputs:width",
                                     "inputs:height", "inputs:radius", "inputs:length"};
-        if (!isShape(attributes.prim().typeName)) return;
+        if (!isShape(attributes.prim().typeName) || isResized(attributes.prim())) return;
         for (const char* const size : kSizes)
             if (UsdStage::animated(attributes.prim(), size))
                 warnings_.warn(attributes.location(size), "an animated size is held");

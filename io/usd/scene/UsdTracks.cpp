@@ -5,6 +5,8 @@
 #include "io/usd/scene/UsdXform.h"
 #include "scenegraph/Mesh.h"
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <algorithm>
 #include <string_view>
 #include <utility>
@@ -54,17 +56,17 @@ bool UsdTracks::empty() const {
 }
 
 void UsdTracks::addTransform(std::shared_ptr<Transform> node, const UsdPrim& prim,
-                             const UsdFrame& parent) {
-    transforms_.push_back({std::move(node), &prim, parent});
+                             const UsdFrame& parent, std::optional<glm::dvec3> size) {
+    transforms_.push_back({std::move(node), &prim, parent, size});
 }
 
 void UsdTracks::addSwitch(std::shared_ptr<Switch> node, const UsdPrim& prim) {
     switches_.push_back({std::move(node), &prim});
 }
 
-void UsdTracks::addLight(const NodePtr& node, const UsdPrim& prim, const UsdFrame& frame) {
-    if (!changes(prim, "inputs:") && !frame.moves()) return;
-    LightTrack track{std::dynamic_pointer_cast<Light>(node), nullptr, &prim, frame};
+void UsdTracks::addLight(const NodePtr& node, const UsdAttributes& loaded, const UsdFrame& frame) {
+    if (!changes(loaded.prim(), "inputs:") && !frame.moves()) return;
+    LightTrack track{std::dynamic_pointer_cast<Light>(node), nullptr, loaded, frame};
     if (const auto mesh = std::dynamic_pointer_cast<Mesh>(node)) track.tube = mesh->materialOf(0);
     lights_.push_back(std::move(track));
 }
@@ -89,7 +91,7 @@ void UsdTracks::addMaterials(const UsdMaterials& materials) {
 void UsdTracks::warnOfSamples(UsdTime loaded, Diagnostics& diagnostics) const {
     UsdSampleCheck check(loaded, diagnostics);
     for (const TransformTrack& track : transforms_) checkUsdTransform(*track.prim, check);
-    for (const LightTrack& track : lights_) checkUsdLight(*track.prim, check);
+    for (const LightTrack& track : lights_) checkUsdLight(track.loaded.prim(), check);
     for (const MeshLightTrack& track : meshLights_) checkUsdLight(*track.prim, check);
     for (const CameraTrack& track : cameras_) checkUsdLens(*track.prim, check);
     for (const MaterialTrack& track : materials_)
@@ -118,8 +120,10 @@ void UsdTracks::setTransforms(double timeCode) {
     for (const TransformTrack& track : transforms_) {
         const UsdLocalTransform local =
             usdLocalTransform(UsdAttributes(*track.prim, timeCode), reported);
-        const glm::dmat4 matrix =
+        glm::dmat4 matrix =
             local.resetsStack ? relativeToParent(local, track.parent.toWorld()) : local.matrix;
+        if (track.size)
+            matrix = glm::scale(matrix, usdLightSize({*track.prim, timeCode}) / *track.size);
         if (matrix != track.node->matrix()) track.node->setMatrix(matrix);
     }
 }
@@ -132,8 +136,9 @@ void UsdTracks::setLights(double timeCode) {
         return usdLightLuminance(attributes, sized ? area(attributes) : 1, reported);
     };
     for (const LightTrack& track : lights_) {
-        const Rgb now = luminance(*track.prim, [&](const UsdAttributes& attributes) {
-            return usdLightArea(attributes, track.frame.toWorld());
+        // Where its size changes its frame does.
+        const Rgb now = luminance(track.loaded.prim(), [&](const UsdAttributes&) {
+            return usdLightArea(track.loaded, track.frame.toWorld());
         });
         if (track.light && track.light->luminance() != now) track.light->setLuminance(now);
         if (track.tube && track.tube->emission() != now) track.tube->setEmission(now);

@@ -12,6 +12,7 @@
 #include "scenegraph/Transform.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,13 +34,15 @@ public:
 
     /// Remembers a node whose matrix changes with time, after those above it.
     /// \param parent what is left behind by `!resetXformStack!`
-    void addTransform(std::shared_ptr<Transform> node, const UsdPrim& prim, const UsdFrame& parent);
+    /// \param size   of a light that it resizes, if it does: see usdLightSize(), as loaded
+    void addTransform(std::shared_ptr<Transform> node, const UsdPrim& prim, const UsdFrame& parent,
+                      std::optional<glm::dvec3> size);
     /// \param node hides what `prim` became; always remembered
     void addSwitch(std::shared_ptr<Switch> node, const UsdPrim& prim);
     /// Remembers a light if its prim changes with time or its frame moves: what a light of a given
     /// flux sends depends on its size in the world. \param node a Light, or the Mesh that
-    /// represents a CylinderLight
-    void addLight(const NodePtr& node, const UsdPrim& prim, const UsdFrame& frame);
+    /// represents a CylinderLight, of the size that it has at the time of `loaded`
+    void addLight(const NodePtr& node, const UsdAttributes& loaded, const UsdFrame& frame);
     /// Remembers the light of a mesh, in case that also its materials change.
     void addMeshLight(UsdMeshLight light, const UsdPrim& prim, const UsdFrame& frame,
                       UsdPolygons polygons);
@@ -53,11 +56,12 @@ private:
         std::shared_ptr<Transform> node;
         const UsdPrim* prim;
         UsdFrame parent;
+        std::optional<glm::dvec3> size; ///< of a light, see addTransform()
     };
     struct LightTrack {
         std::shared_ptr<Light> light;   ///< or
         std::shared_ptr<Material> tube; ///< the material of a CylinderLight's mesh
-        const UsdPrim* prim;
+        UsdAttributes loaded;
         UsdFrame frame;
     };
     struct MeshLightTrack {

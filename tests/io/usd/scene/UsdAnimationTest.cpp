@@ -12,12 +12,66 @@ TEST(UsdAnimation, AStillSceneHasNone) {
     EXPECT_FALSE(loadText("def Cube \"c\"\n{\n}\n").animation);
 }
 
-TEST(UsdAnimation, SizesAreHeldWithAWord) {
-    const LoadedScene loaded = loadText("(metersPerUnit = 1)\ndef RectLight \"lamp\"\n{\n"
-                                        "    float inputs:width.timeSamples = { 0: 1, 10: 2 }\n}\n"
-                                        "def Sphere \"ball\"\n{\n"
-                                        "    double radius.timeSamples = { 0: 1, 10: 2 }\n}\n");
+TEST(UsdAnimation, SizesOfShapesAreHeldWithAWord) {
+    const LoadedScene loaded = loadText("def Sphere \"ball\"\n{\n"
+                                        "    double radius.timeSamples = { 0: 1, 10: 2 }\n}\n"
+                                        "def RectLight \"holds\"\n{\n"
+                                        "    float inputs:width.timeSamples = { 0: 1, 10: 2 }\n"
+                                        "    def Cube \"another\"\n    {\n    }\n}\n");
     EXPECT_EQ(countOf(loaded, "an animated size is held"), 2u);
+}
+
+namespace {
+
+/// Extents of a light in the world [m], along its own axes.
+glm::dvec3 extentsOf(const LoadedScene& loaded, const std::string& path) {
+    const PlacedNode light = nodesByPath(*loaded.scene).at(path);
+    const Bounds box = light.light()->bounds();
+    const glm::dmat3 linear(light.toWorld);
+    const glm::dvec3 size(box.size());
+    return {glm::length(linear[0]) * size.x, glm::length(linear[1]) * size.y,
+            glm::length(linear[2]) * size.z};
+}
+
+} // namespace
+
+TEST(UsdAnimation, LightsAreResized) {
+    const std::string text = R"((metersPerUnit = 1)
+def RectLight "panel"
+{
+    float inputs:width.timeSamples = { 0: 1, 10: 2 }
+    float inputs:height.timeSamples = { 0: 1, 10: 0.5 }
+    float inputs:intensity = 100
+    bool inputs:normalize = 1
+    double3 xformOp:scale = (3, 1, 1)
+    uniform token[] xformOpOrder = ["xformOp:scale"]
+}
+def DiskLight "disk"
+{
+    float inputs:radius.timeSamples = { 0: 0.5, 10: 0.25 }
+}
+def SphereLight "ball"
+{
+    float inputs:radius.timeSamples = { 0: 0.5, 10: 0, 20: 1 }
+}
+)";
+    const LoadedScene played = loadText(text);
+    EXPECT_EQ(countOf(played, "an animated size is held"), 0u);
+    EXPECT_EQ(countOf(played, "a light without area left out"), 1u) << "the ball, at 10";
+    const auto expectExtents = [&](const char* path, glm::dvec3 expected) {
+        EXPECT_LT(glm::distance(extentsOf(played, path), expected), 1e-6) << path;
+    };
+    expectExtents("/panel", {3, 1, 0});
+    played.animation->setTime(10);
+    expectExtents("/panel", {6, 0.5, 0});
+    expectExtents("/disk", {0.5, 0.5, 0});
+    expectExtents("/ball", {0, 0, 0});
+    const auto panel = nodesByPath(*played.scene).at("/panel");
+    EXPECT_NEAR(panel.light()->luminance().r, 100 / 3.0, 1e-4) << "its flux is that of before";
+    played.animation->setTime(20);
+    expectExtents("/ball", {2, 2, 2});
+    played.animation->setTime(0);
+    expectExtents("/panel", {3, 1, 0});
 }
 
 TEST(UsdAnimation, PlayingEditsOnlyWhatChanges) {
@@ -195,8 +249,13 @@ TEST(UsdAnimation, AnAnimatedFileAtAFrameIsTheFileLoadedAtThatFrame) {
         const auto b = nodesByPath(*loaded.scene);
         ASSERT_EQ(a.size(), b.size());
         for (const auto& [path, placed] : a) {
-            EXPECT_EQ(placed.toWorld, b.at(path).toWorld) << path;
-            if (!placed.light()) continue;
+            if (!placed.light()) {
+                EXPECT_EQ(placed.toWorld, b.at(path).toWorld) << path;
+                continue;
+            }
+            const glm::dvec3 size = extentsOf(played, path), expected = extentsOf(loaded, path);
+            EXPECT_LT(glm::distance(size, expected), 1e-6 * glm::length(expected)) << path;
+            EXPECT_EQ(placed.toWorld[3], b.at(path).toWorld[3]) << path;
             EXPECT_EQ(placed.light()->luminance(), b.at(path).light()->luminance()) << path;
         }
     }
