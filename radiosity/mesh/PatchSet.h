@@ -258,12 +258,15 @@ struct PatchSet {
     }
     /// Number of patches of what is in the scene, hidden or not.
     std::size_t patchCount() const;
+    /// Whether there are parts of a patch in its place.
+    bool isParted(std::uint32_t patch) const {
+        return !parts.used.empty() && parts.used[patch] == 0 && parts.of.contains(patch);
+    }
     /// Calls visit(patch) for what there is of a patch of the mesh: itself, or its parts.
     template <class Visit>
     void forEachPart(std::uint32_t whole, const Visit& visit) const {
-        const auto parted = parts.of.find(whole);
-        if (parted == parts.of.end()) return visit(whole);
-        for (const std::uint32_t part : parted->second) visit(part);
+        if (!isParted(whole)) return visit(whole);
+        for (const std::uint32_t part : parts.of.at(whole)) visit(part);
     }
     /// Calls visit(point) for the outline of a patch or, of a cluster, for the corners of all of
     /// its elements: all of it lies between these, and none of them outside of its object [m,

@@ -66,7 +66,7 @@ void IndirectLight::add(std::span<const ObjectId> objects) {
     }
     growSenders();
     coloursChanged();
-    residualsChanged();
+    allChanged();
 }
 
 /// Whether a patch sends from one plane.
@@ -188,6 +188,9 @@ void IndirectLight::apply(const SceneChange& change) {
     const std::vector<BlockMask> masks = nodesOf(change);
     placeNodes(masks);
     residualsChanged();
+    noteSenders(change);
+    for (const BlockMask& mask : masks) changedBlocks_[mask.block] = 1;
+    if (change.colours) allChanged();
     if (change.colours || !change.parted.empty()) coloursChanged();
     reachStale_ |= !change.objects.empty() || !masks.empty() || !change.patches.empty();
     if (isDark(set_)) restart(); // what is taken back leaves a rest of rounding
@@ -261,6 +264,7 @@ void IndirectLight::restart() {
     std::ranges::fill(expects_, std::uint8_t(1));
     for (std::uint32_t s = 0; s < senders_.count(); ++s) updates_.dirty().setPower(s, 0);
     rowsMissing_ = completed_ = false;
+    allChanged();
 }
 
 void IndirectLight::updateReach() {
@@ -271,13 +275,12 @@ void IndirectLight::updateReach() {
     for (std::uint32_t b = 0; b < now.nodes.size(); ++b)
         if (const std::uint64_t differs = now.nodes[b] ^ reach_.nodes[b])
             masks.push_back({b, differs});
-    if (now.enclosed != reach_.enclosed) residualsChanged();
+    noteReached(now);
     directStale_ |= now.patches != reach_.patches;
     reach_ = std::move(now);
     updateSendersReached();
     listForgotten();
     if (masks.empty()) return;
-    residualsChanged();
     if (rowsMissing_) restart();
     updates_.add({}, std::move(masks));
 }
@@ -300,6 +303,7 @@ bool IndirectLight::isOnItsWay(std::uint32_t sender) const {
 }
 
 void IndirectLight::forgetSome(std::size_t effort) {
+    residualsChanged();
     constexpr std::size_t kBlocksARay = 8;
     for (std::size_t cost = 0; cost < effort && !forgotten_.empty(); forgotten_.pop_back()) {
         const std::uint32_t s = forgotten_.back();
@@ -307,7 +311,6 @@ void IndirectLight::forgetSome(std::size_t effort) {
         cost += 1 + table_[s].size() / kBlocksARay;
         forget(s);
     }
-    residualsChanged();
 }
 
 /// Takes back what a row has sent, and drops it. \pre it is kept, and nothing is on its way
@@ -319,6 +322,7 @@ void IndirectLight::forget(std::uint32_t sender) {
         const RowBlock& block = row.begin()[std::ptrdiff_t(slot)];
         const std::size_t node = row.blockAt(slot) * kBlock;
         bytes += block.bytes();
+        if (!block.empty()) changedBlocks_[row.blockAt(slot)] = 1;
         forEachReceived(block, sent, [&](int r, float factor, glm::dvec3 light) {
             nodes_[node + std::size_t(r)] -= light;
             if (known_[sender]) rowSums_[node + std::size_t(r)] -= double(factor);
@@ -329,6 +333,7 @@ void IndirectLight::forget(std::uint32_t sender) {
     kept_[sender] = known_[sender] = 0;
     expects_[sender] = 1;
     std::ranges::fill(cellsOf(sent_, sender), glm::dvec3(0));
+    changedSenders_.push_back(sender);
     updates_.drop(sender);
     updates_.dirty().setPower(sender, 0);
 }
@@ -398,12 +403,13 @@ bool IndirectLight::update(std::size_t effort, double enough) {
         effort, enough, [&](std::uint32_t s) { return factsOf(s); },
         [&](RowBuilder& builder, const DirtyBlock& item, std::span<const MovedObject> moved,
             std::size_t index) { return updateBlock(builder, item, moved, deltas[index]); });
+    if (!items.empty()) residualsChanged();
     for (std::size_t i = 0; i < items.size(); ++i)
         for (const auto& [n, factor, light] : deltas[i].nodes) {
+            changedBlocks_[n / kBlock] = 1;
             nodes_[n] += light;
             if (deltas[i].known) rowSums_[n] += factor;
         }
-    if (!items.empty()) residualsChanged();
     return true;
 }
 

@@ -185,7 +185,10 @@ private:
     void serveLink(std::uint32_t i, std::uint32_t b, const RowBlock& block);
     void finishShot();
     void residualsChanged();
+    void allChanged();
     void noteBatch(const Shot& shot);
+    void noteSenders(const SceneChange& change);
+    void noteReached(const Reach& now);
     std::vector<std::uint8_t> staleSenders(bool all, std::span<const double> dirtyDirect);
     void updateResiduals();
     void updatePatch(std::uint32_t index);
@@ -203,7 +206,7 @@ private:
         return std::span(cells).subspan(own.first, own.count);
     }
     void reflect(std::uint32_t index, std::span<glm::dvec3> cells) const;
-    void reflectDirect();
+    void reflectDirect(std::span<std::uint8_t> stale);
     void reflectDirect(std::uint32_t index, std::span<glm::dvec3> cells) const;
     void averageClusters(ObjectId object);
     bool sends(std::uint32_t index) const;
@@ -262,9 +265,9 @@ private:
     std::vector<PatchBound> patchBounds_;
     std::vector<PatchBound> groupBounds_; ///< of some patches each, added up
     PatchBound bounds_;                   ///< of all
-    /// Since the residuals were known: blocks that received of a batch (1), who sent; or anything.
-    std::vector<std::uint8_t> servedBlocks_;
-    std::vector<std::uint32_t> servers_;
+    /// Since the residuals were known: blocks whose nodes changed (1), and senders; or anything.
+    std::vector<std::uint8_t> changedBlocks_;
+    std::vector<std::uint32_t> changedSenders_;
     bool allStale_ = true;
     /// What the residuals know of dirty blocks: light and factor of a block of nodes, and what may
     /// change in the direct light of a patch.

@@ -110,14 +110,20 @@ void IndirectLight::reflect(std::uint32_t index, std::span<glm::dvec3> cells) co
                           indirect.mean(patch.cornerCount == 4 ? kWeights[k] : NodeWeights{}));
 }
 
-/// What cells reflect of the direct light; of clusters, by how much that differs in place.
-void IndirectLight::reflectDirect() {
-    reflectedDirect_.assign(senders_.cellCount(), glm::dvec3(0));
+/// What cells of patches reflect of the direct light. \param stale senders: 1 where it is not what
+/// it was
+void IndirectLight::reflectDirect(std::span<std::uint8_t> stale) {
+    reflectedDirect_.resize(senders_.cellCount());
     parallelFor(senders_.patchCount(), 512, [&](std::size_t first, std::size_t last) {
-        for (auto p = std::uint32_t(first); p < last; ++p)
-            reflectDirect(p, cellsOf(reflectedDirect_, p));
+        for (auto p = std::uint32_t(first); p < last; ++p) {
+            std::array<glm::dvec3, kSenderCells> now{};
+            const std::span<glm::dvec3> cells = cellsOf(reflectedDirect_, p);
+            reflectDirect(p, std::span(now).first(cells.size()));
+            if (std::ranges::equal(cells, std::span(now).first(cells.size()))) continue;
+            std::copy_n(now.begin(), cells.size(), cells.begin());
+            stale[p] = 1;
+        }
     });
-    senders_.deviate(reflectedDirect_);
 }
 
 /// Of a patch. \param cells all 0
@@ -159,19 +165,47 @@ double IndirectLight::dirtyAt(std::uint32_t index) const {
     return dirty.light(index / kBlock) + std::min(f, above) * largest(node(index));
 }
 
-/// Batches that have not begun are chosen again.
+/// Of what has been noted. Batches that have not begun are chosen again.
 void IndirectLight::residualsChanged() {
-    residualsStale_ = allStale_ = true;
+    residualsStale_ = true;
+    changedBlocks_.resize(blockCount());
     listing_.reset();
 }
 
-/// The same after a batch, which changes what it served and nothing else.
+void IndirectLight::allChanged() {
+    allStale_ = true;
+    residualsChanged();
+}
+
+/// A batch changes what it served and nothing else.
 void IndirectLight::noteBatch(const Shot& shot) {
-    residualsStale_ = true;
-    servedBlocks_.resize(blockCount());
+    residualsChanged();
     for (std::size_t b = 0; b < shot.receivers.size(); ++b)
-        if (!shot.receivers[b].empty()) servedBlocks_[b] = 1;
-    servers_.insert(servers_.end(), shot.senders.begin(), shot.senders.end());
+        if (!shot.receivers[b].empty()) changedBlocks_[b] = 1;
+    changedSenders_.insert(changedSenders_.end(), shot.senders.begin(), shot.senders.end());
+}
+
+/// Patches that are there, or send from where they are, as they did not before.
+void IndirectLight::noteSenders(const SceneChange& change) {
+    const auto note = [&](std::uint32_t p) { changedSenders_.push_back(p); };
+    for (const ObjectId object : change.objects) {
+        const Range own = set_.objects[object.value].patches;
+        for (std::uint32_t p = own.first; p < own.end(); ++p) set_.forEachPart(p, note), note(p);
+    }
+    for (const std::uint32_t p : change.senders) note(p);
+    for (const std::uint32_t p : change.parted) set_.forEachPart(p, note), note(p);
+}
+
+/// Nodes and patches that light gets to as it did not before, or not any more.
+void IndirectLight::noteReached(const Reach& now) {
+    if (now == reach_) return;
+    residualsChanged();
+    for (std::size_t b = 0; b < now.nodes.size(); ++b)
+        changedBlocks_[b] |=
+            now.nodes[b] != reach_.nodes[b] || now.enclosed[b] != reach_.enclosed[b];
+    if (now.patches.size() != reach_.patches.size()) return allChanged();
+    for (std::uint32_t p = 0; p < now.patches.size(); ++p)
+        if (now.patches[p] != reach_.patches[p]) changedSenders_.push_back(p);
 }
 
 void IndirectLight::PatchBound::Sums::add(const Sums& other) {
@@ -192,38 +226,37 @@ void IndirectLight::PatchBound::add(const PatchBound& other) {
 /// Senders (1) whose residuals are not what they were.
 std::vector<std::uint8_t> IndirectLight::staleSenders(bool all,
                                                       std::span<const double> dirtyDirect) {
-    std::vector<std::uint8_t> stale(senders_.count(), std::uint8_t(all)), blocks(blockCount());
-    std::copy_n(servedBlocks_.begin(), std::min(servedBlocks_.size(), blocks.size()),
-                blocks.begin());
+    std::vector<std::uint8_t> stale(senders_.count(), std::uint8_t(all));
+    std::vector<std::uint8_t> blocks = std::exchange(changedBlocks_, {});
+    const std::vector<std::uint32_t> changed = std::exchange(changedSenders_, {});
+    blocks.resize(blockCount());
     dirtyBlocks_.resize(blocks.size());
     for (std::size_t b = 0; b < blocks.size(); ++b) {
         const DirtySet& dirty = updates_.dirty();
         const std::pair now(double(dirty.light(b)), double(dirty.factor(b)));
         if (std::exchange(dirtyBlocks_[b], now) != now) blocks[b] = 1;
     }
-    servedBlocks_.clear();
-    const std::vector<std::uint32_t> servers = std::exchange(servers_, {});
     if (all) return stale;
     for (std::uint32_t p = 0; p < senders_.patchCount(); ++p) {
         if (!senders_.present(p)) continue; // it owes what it sent
         const Patch& patch = set_.patches[p];
-        bool changed = dirtyDirect[p] != dirtyDirect_[p] || blocks[patch.centreNode / kBlock] != 0;
-        for (std::size_t k = 0; k < 4 && patch.hasCornerNodes && !changed; ++k)
-            changed = blocks[patch.cornerNodes[k] / kBlock] != 0;
-        stale[p] = changed;
+        bool differs = dirtyDirect[p] != dirtyDirect_[p] || blocks[patch.centreNode / kBlock] != 0;
+        for (std::size_t k = 0; k < 4 && patch.hasCornerNodes && !differs; ++k)
+            differs = blocks[patch.cornerNodes[k] / kBlock] != 0;
+        stale[p] = differs;
     }
-    for (const std::uint32_t s : servers) stale[s] = 1;
+    for (const std::uint32_t s : changed) stale[s] = 1;
     return stale;
 }
 
 void IndirectLight::updateResiduals() {
     residualsStale_ = false;
     std::vector<double> dirtyDirect = direct_.dirtyLight();
-    const bool all = std::exchange(allStale_, false) || directStale_ ||
-                     now_.size() != senders_.cellCount() ||
+    const bool all = std::exchange(allStale_, false) || now_.size() != senders_.cellCount() ||
                      dirtyDirect_.size() != dirtyDirect.size();
-    if (std::exchange(directStale_, false)) reflectDirect();
     std::vector<std::uint8_t> stale = staleSenders(all, dirtyDirect);
+    const bool direct = std::exchange(directStale_, false);
+    if (direct) reflectDirect(stale);
     dirtyDirect_ = std::move(dirtyDirect);
     now_.resize(senders_.cellCount()), residuals_.resize(senders_.cellCount());
     patchBounds_.resize(senders_.patchCount()), owed_.resize(senders_.count());
@@ -237,6 +270,7 @@ void IndirectLight::updateResiduals() {
     parallelFor(ofObject.size(), 1, [&](std::size_t first, std::size_t last) {
         for (auto o = std::uint32_t(first); o < last; ++o) {
             if (ofObject[o] == 0) continue;
+            if (direct) senders_.deviate({o}, reflectedDirect_);
             averageClusters({o});
             const Range clusters = senders_.clustersOf({o});
             std::fill_n(stale.begin() + clusters.first, clusters.count, std::uint8_t(1));

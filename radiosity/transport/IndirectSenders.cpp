@@ -161,12 +161,11 @@ void IndirectSenders::listQuarters(const Family& family) {
 /// Of what there is of it. \param values see average()
 glm::dvec3 IndirectSenders::meanOfPatch(std::uint32_t patch,
                                         std::span<const glm::dvec3> values) const {
-    const auto parted = set_.parts.of.find(patch);
-    if (parted == set_.parts.of.end())
+    if (!set_.isParted(patch))
         return meanOf(values.subspan(cells_[patch].first, cells_[patch].count));
     glm::dvec3 sum(0);
     double area = 0;
-    for (const std::uint32_t part : parted->second) {
+    for (const std::uint32_t part : set_.parts.of.at(patch)) {
         sum +=
             double(areas_[part]) * meanOf(values.subspan(cells_[part].first, cells_[part].count));
         area += double(areas_[part]);
@@ -206,7 +205,7 @@ void IndirectSenders::average(ObjectId object, std::span<glm::dvec3> values) con
     const auto meanOver = [&](const Term& term) {
         const Range cells = cells_[term.sender];
         if (term.quarter == Clusters::kWhole || cells.count != kSenderCells ||
-            set_.parts.of.contains(term.sender))
+            set_.isParted(term.sender))
             return mean[slot(term.sender)];
         return meanOf(values.subspan(cells.first + 4u * term.quarter, 4));
     };
@@ -220,19 +219,20 @@ void IndirectSenders::average(ObjectId object, std::span<glm::dvec3> values) con
         }
 }
 
-void IndirectSenders::deviate(std::span<glm::dvec3> direct) const {
-    average(direct);
-    for (std::uint32_t c = patchCount(); c < count(); ++c) deviate(c, direct);
+void IndirectSenders::deviate(ObjectId object, std::span<glm::dvec3> direct) const {
+    average(object, direct);
+    const Range clusters = clustersOf(object);
+    for (std::uint32_t c = clusters.first; c < clusters.end(); ++c) deviateCluster(c, direct);
 }
 
 /// By how much more leaves the place of each sample of a cluster than its quarter.
-void IndirectSenders::deviate(std::uint32_t cluster, std::span<glm::dvec3> direct) const {
+void IndirectSenders::deviateCluster(std::uint32_t cluster, std::span<glm::dvec3> direct) const {
     const Family& family = families_[objects_[cluster].value];
     const std::size_t count = family.clusters.clusters()[cluster - family.first].partCount;
     const Place* const places = &places_[(cluster - patchCount()) * kPatchSamples];
     const std::span<glm::dvec3> cells = direct.subspan(cells_[cluster].first, kClusterCells);
     const auto at = [&](Place place) {
-        return isUneven(place.patch) && !set_.parts.of.contains(place.patch)
+        return isUneven(place.patch) && !set_.isParted(place.patch)
                    ? direct[cells_[place.patch].first + place.sample]
                    : meanOfPatch(place.patch, direct);
     };

@@ -65,9 +65,9 @@ public:
     void average(std::span<glm::dvec3> values) const;
     /// The same of the clusters of an object.
     void average(ObjectId object, std::span<glm::dvec3> values) const;
-    /// Fills in the other cells of the clusters, see SenderLight.h, and their quarters.
+    /// Fills in the other cells of an object's clusters, see SenderLight.h, and their quarters.
     /// \param direct what is reflected of direct light, one a cell; of patches it is known
-    void deviate(std::span<glm::dvec3> direct) const;
+    void deviate(ObjectId object, std::span<glm::dvec3> direct) const;
 
     /// Whether receivers in a box take light from a sender itself, and not from a part of it, nor
     /// from a larger one.
@@ -94,7 +94,7 @@ private:
     bool sendsLike(std::uint32_t index, const IndirectSenders& others, std::uint32_t other) const;
     void placePatches(Range patches);
     glm::dvec3 meanOfPatch(std::uint32_t patch, std::span<const glm::dvec3> values) const;
-    void deviate(std::uint32_t cluster, std::span<glm::dvec3> direct) const;
+    void deviateCluster(std::uint32_t cluster, std::span<glm::dvec3> direct) const;
     void placeClusters(const Family& family);
     bool isFar(std::uint32_t index, const Bounds& receivers) const;
     bool isEnough(std::uint32_t index, const Bounds& receivers) const {

@@ -68,7 +68,7 @@ bool IndirectLight::complete(std::size_t effort) {
         std::vector<std::uint32_t> unknown;
         for (std::uint32_t p = 0; p < known_.size() && unknown.size() < batch(); ++p)
             if (!known_[p] && sendersReached_[p] && senders_.present(p)) unknown.push_back(p);
-        if (unknown.empty() && !std::exchange(completed_, true)) residualsChanged();
+        if (unknown.empty() && !std::exchange(completed_, true)) allChanged();
         choose(std::move(unknown), true);
     }
     if (!relaxing()) return false;

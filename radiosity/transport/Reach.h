@@ -23,6 +23,7 @@ struct Reach {
 
     bool node(std::uint32_t index) const { return nodes[index / 64] >> index % 64 & 1; }
     bool isEnclosed(std::uint32_t index) const { return enclosed[index / 64] >> index % 64 & 1; }
+    bool operator==(const Reach&) const = default;
 };
 
 /// Finds it without a ray, in a time that goes with the number of hits.
