@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <system_error>
 #include <vector>
 
 namespace penumbra {
@@ -34,6 +35,8 @@ void run(ViewCommand& command) {
     options.light.solving = command.solve.solver;
     options.asked = command.solve.asked;
     options.light.threads = command.solve.threads;
+    std::error_code unknown; // what it is called does not matter then
+    options.worker = std::filesystem::read_symlink("/proc/self/exe", unknown);
     options.exposure = command.display.exposure;
     options.tone = command.display.tone;
     options.reported = [&](const std::vector<Diagnostic>& diagnostics) {

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Models and other scenes in a real window: opened, dropped, dragged about, left.
 Usage: test_opening.py PENUMBRA SCENES OUTPUT"""
+import shutil
 import subprocess
 import sys
 import time
 
 import xwindow
-from test_window import OUTPUT, SCENES, View, check, orange_places
+from test_window import OUTPUT, PENUMBRA, SCENES, View, check, orange_places
 
 # A floor, a stool on it and a panel that shines; no camera, and no word of what an object is.
 BOX = ((1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4))
@@ -133,13 +134,22 @@ def open_by_the_dialog(view):
     check(False, "Ctrl+O opens what was opened lately")
 
 
+def has_a_worker(view):
+    """A program that people call otherwise is its own worker all the same."""
+    process = view.program.process.pid
+    with open(f"/proc/{process}/task/{process}/children") as children:
+        check(len(children.read().split()) == 1, f"{view.program.process.args[0]} has a worker")
+
+
 def main():
     xwindow.prepared(OUTPUT)
     model = write_model(OUTPUT)
+    renamed = shutil.copy(PENUMBRA, OUTPUT / "penumbra-today")
     with xwindow.Display() as display:
         xwindow.remember_size(OUTPUT / "config", 1280, 800)
-        view = View(display, model, "--patch-size", "0.4", "--quiet")
+        view = View(display, model, "--patch-size", "0.4", "--quiet", program=renamed)
         view.lit()
+        has_a_worker(view)
         view.shot("opening-model")
         drag_the_stool(view)
         edits_are_asked_about(view)

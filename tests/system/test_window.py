@@ -56,10 +56,10 @@ def recording_over_a_layer(display):
 class View:
     """A running walkthrough."""
 
-    def __init__(self, display, *arguments):
+    def __init__(self, display, *arguments, program=PENUMBRA):
         self.display = display
         environment = dict(display.environment, XDG_CONFIG_HOME=str(OUTPUT / "config"))
-        self.program = xwindow.Program([str(PENUMBRA), "view", *map(str, arguments)], environment,
+        self.program = xwindow.Program([str(program), "view", *map(str, arguments)], environment,
                                        OUTPUT / "view.log", OUTPUT)
         xwindow.until(lambda: "(loading)" not in (self.title() or "(loading)"), what="the window")
         display.hands("mousemove", 640, 400)

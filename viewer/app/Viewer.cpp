@@ -234,7 +234,7 @@ void Viewer::lightScene() {
     if (state_.elementSize > 0) asked.elementSize = state_.elementSize;
     const RadiosityOptions how = optionsFor(asked.orElse(fromFile_), options_.light);
     light_.reset();
-    light_.emplace(*walk_, how, makeProcessLink(),
+    light_.emplace(*walk_, how, makeProcessLink({.program = options_.worker, .byHand = {}}),
                    BlendOptions{.software = software_, .slice = kPreviewSlice});
 }
 

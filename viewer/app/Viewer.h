@@ -25,6 +25,8 @@ struct ViewerOptions {
     std::optional<double> exposure; ///< exposure value at ISO 100; none: metered in the view
     std::optional<ToneStyle> tone;  ///< none: that of the user's settings
     bool vsync = true;
+    /// What lights the scene, started as `PROGRAM radiosity NAME`; empty: see ProcessLinkOptions.
+    std::filesystem::path worker;
     int samples = 0; ///< a pixel; 0: 4 with a graphics card, 1 without
     /// Called once with what the reader has to say about the file.
     std::function<void(const std::vector<Diagnostic>&)> reported;

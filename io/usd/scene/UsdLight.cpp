@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace penumbra {
@@ -213,9 +214,11 @@ glm::dvec3 usdLightSize(const UsdAttributes& light) {
     return {size("inputs:length", 1), r, r};
 }
 
-bool usdLightSizeAnimated(const UsdPrim& light) {
-    return std::ranges::any_of(
-        kSizes, [&](std::string_view size) { return UsdStage::animated(light, size); });
+std::vector<std::string_view> animatedUsdLightSizes(const UsdPrim& light) {
+    std::vector<std::string_view> sizes;
+    std::ranges::copy_if(kSizes, std::back_inserter(sizes),
+                         [&](std::string_view size) { return UsdStage::animated(light, size); });
+    return sizes;
 }
 
 double usdLightArea(const UsdAttributes& light, const glm::dmat4& toWorld) {

@@ -9,6 +9,9 @@
 
 #include <glm/glm.hpp>
 
+#include <string_view>
+#include <vector>
+
 namespace penumbra {
 
 /// Linear Rec. 709 colour of a black body, scaled to luminance 1. Clamped to 1000 .. 10000 K.
@@ -33,8 +36,8 @@ void checkUsdLight(const UsdPrim& light, UsdSampleCheck& check);
 
 /// Its extents along its own axes [scene units], 1 where it has none; 0 for what is not positive.
 glm::dvec3 usdLightSize(const UsdAttributes& light);
-/// Whether these change with time.
-bool usdLightSizeAnimated(const UsdPrim& light);
+/// Names of those of them that change with time.
+std::vector<std::string_view> animatedUsdLightSizes(const UsdPrim& light);
 
 /// Area of a light's emitting surface in the world, scene units squared; 0 if a size is not
 /// positive. \param toWorld local frame to world, column vectors, scene units; any scale and shear

@@ -280,17 +280,20 @@ private:
 
     // Whether its transform takes in how large it is: a light's does, unless others are below it.
     bool isResized(const UsdPrim& prim) const {
-        return isUsdAreaLight(prim.typeName) && usdLightSizeAnimated(prim) && !hasChildren(prim);
+        return isUsdAreaLight(prim.typeName) && !animatedUsdLightSizes(prim).empty() &&
+               !hasChildren(prim);
     }
 
     void warnOfHeldSizes(const UsdAttributes& attributes) {
-        constexpr std::array kSizes{"size",          "radius",        "height",
-                                    "width",         "length",        "inputs:width",
-                                    "inputs:height", "inputs:radius", "inputs:length"};
-        if (!isShape(attributes.prim().typeName) || isResized(attributes.prim())) return;
+        constexpr std::array kSizes{"size", "radius", "height", "width", "length"};
+        const UsdPrim& prim = attributes.prim();
+        if (!isShape(prim.typeName) || isResized(prim)) return;
+        const auto warn = [&](std::string_view size) {
+            warnings_.warn(attributes.location(size), "an animated size is held");
+        };
         for (const char* const size : kSizes)
-            if (UsdStage::animated(attributes.prim(), size))
-                warnings_.warn(attributes.location(size), "an animated size is held");
+            if (UsdStage::animated(prim, size)) warn(size);
+        std::ranges::for_each(animatedUsdLightSizes(prim), warn);
     }
 
     NodePtr makeLeaf(const std::string& name, const UsdAttributes& attributes, const Place& place) {
