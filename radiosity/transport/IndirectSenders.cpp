@@ -13,6 +13,8 @@ namespace {
 
 /// How many times its own size a cluster must be away to represent its patches.
 constexpr float kFar = 3.5f;
+/// Patches of less than this share of a whole one's area meet in clusters whichever way they face.
+constexpr float kSmallShare = 0.125f;
 
 static_assert(Clusters::kParts == kPatchSamples && kSenderCells == kPatchSamples);
 
@@ -100,7 +102,8 @@ void IndirectSenders::listChildren() {
 }
 
 void IndirectSenders::addFamily(std::span<const ClusterPatch> patches) {
-    families_.push_back({Clusters(patches), count()});
+    const float smallArea = kSmallShare * set_.patchSize * set_.patchSize;
+    families_.push_back({Clusters(patches, smallArea), count()});
     const Family& family = families_.back();
     const auto& clusters = family.clusters.clusters();
     const auto& order = family.clusters.patches();
@@ -128,32 +131,16 @@ void IndirectSenders::addFamily(std::span<const ClusterPatch> patches) {
     placeClusters(family);
 }
 
-/// Lists what each quarter of a cluster is made of: clusters within it, or single patches.
+/// Lists what each quarter of a cluster is made of.
 void IndirectSenders::listQuarters(const Family& family) {
-    const auto& order = family.clusters.patches();
-    const auto& clusters = family.clusters.clusters();
-    std::unordered_map<std::uint64_t, std::uint32_t> byRange;
-    for (std::uint32_t c = 0; c < clusters.size(); ++c)
-        byRange[std::uint64_t(clusters[c].first) << 32 | clusters[c].count] = family.first + c;
-    for (const Clusters::Cluster& cluster : clusters)
+    const auto& members = family.clusters.members();
+    for (const Clusters::Cluster& cluster : family.clusters.clusters())
         for (std::size_t q = 0; q < 4; ++q) {
-            const std::size_t first = terms_.size();
-            for (std::size_t k = q * cluster.partCount / 4; k < (q + 1) * cluster.partCount / 4;
-                 ++k) {
-                const Clusters::Part& part = cluster.parts[k];
-                const auto known = byRange.find(std::uint64_t(part.first) << 32 | part.count);
-                if (known != byRange.end()) {
-                    terms_.push_back({known->second, areas_[known->second], Clusters::kWhole});
-                    continue;
-                }
+            for (const Clusters::Part& part : std::span(cluster.parts).subspan(4 * q, 4)) {
                 const float share = part.quarter == Clusters::kWhole ? 1.0f : 0.25f;
                 for (std::uint32_t i = part.first; i < part.first + part.count; ++i)
-                    terms_.push_back({order[i], share * areas_[order[i]], part.quarter});
+                    terms_.push_back({members[i], share, part.quarter});
             }
-            double area = 0;
-            for (std::size_t t = first; t < terms_.size(); ++t) area += double(terms_[t].weight);
-            for (std::size_t t = first; t < terms_.size(); ++t)
-                terms_[t].weight = float(double(terms_[t].weight) / area);
             firstTerm_.push_back(std::uint32_t(terms_.size()));
         }
 }
@@ -183,39 +170,32 @@ void IndirectSenders::average(ObjectId object, std::span<glm::dvec3> values) con
     const Range patches = set_.objects[object.value].patches;
     const Range clusters = clusterRanges_[object.value];
     if (clusters.count == 0) return;
-    const auto slot = [&](std::uint32_t s) -> std::size_t {
-        return s < patchCount() ? s - patches.first : patches.count + (s - clusters.first);
-    };
-    std::vector<glm::dvec3> mean(std::size_t(patches.count) + clusters.count);
-    std::vector<double> areas(mean.size()); // of what is there of a cluster
-    const auto give = [&](std::uint32_t s, double area) {
-        if (parents_[s] == Clusters::kNone) return;
-        mean[slot(parents_[s])] += area * mean[slot(s)];
-        areas[slot(parents_[s])] += area;
-    };
+    std::vector<glm::dvec3> mean;
+    std::vector<double> areas; // of what is there of a patch
     for (std::uint32_t p = patches.first; p < patches.end(); ++p) {
-        mean[slot(p)] = meanOfPatch(p, values);
-        give(p, double(areas_[p]));
-    }
-    for (std::uint32_t c = clusters.end();
-         c-- > clusters.first;) { // those within others come later
-        mean[slot(c)] /= areas[slot(c)];
-        give(c, areas[slot(c)]);
+        mean.push_back(meanOfPatch(p, values));
+        areas.push_back(0);
+        set_.forEachPart(p, [&](std::uint32_t part) { areas.back() += double(areas_[part]); });
     }
     const auto meanOver = [&](const Term& term) {
-        const Range cells = cells_[term.sender];
+        const Range cells = cells_[term.patch];
         if (term.quarter == Clusters::kWhole || cells.count != kSenderCells ||
-            set_.isParted(term.sender))
-            return mean[slot(term.sender)];
+            set_.isParted(term.patch))
+            return mean[term.patch - patches.first];
         return meanOf(values.subspan(cells.first + 4u * term.quarter, 4));
     };
     for (std::uint32_t c = clusters.first; c < clusters.end(); ++c)
         for (std::size_t q = 0; q < 4; ++q) {
             const std::size_t i = 4 * std::size_t(c - patchCount()) + q;
-            glm::dvec3 quarter(0);
-            for (std::uint32_t t = firstTerm_[i]; t < firstTerm_[i + 1]; ++t)
-                quarter += double(terms_[t].weight) * meanOver(terms_[t]);
-            values[cells_[c].first + kSenderCells + q] = quarter;
+            glm::dvec3 sum(0);
+            double area = 0;
+            for (std::uint32_t t = firstTerm_[i]; t < firstTerm_[i + 1]; ++t) {
+                const double own = double(terms_[t].share) * areas[terms_[t].patch - patches.first];
+                if (!(own > 0)) continue;
+                sum += own * meanOver(terms_[t]);
+                area += own;
+            }
+            values[cells_[c].first + kSenderCells + q] = area > 0 ? sum / area : glm::dvec3(0);
         }
 }
 
@@ -227,8 +207,6 @@ void IndirectSenders::deviate(ObjectId object, std::span<glm::dvec3> direct) con
 
 /// By how much more leaves the place of each sample of a cluster than its quarter.
 void IndirectSenders::deviateCluster(std::uint32_t cluster, std::span<glm::dvec3> direct) const {
-    const Family& family = families_[objects_[cluster].value];
-    const std::size_t count = family.clusters.clusters()[cluster - family.first].partCount;
     const Place* const places = &places_[(cluster - patchCount()) * kPatchSamples];
     const std::span<glm::dvec3> cells = direct.subspan(cells_[cluster].first, kClusterCells);
     const auto at = [&](Place place) {
@@ -237,11 +215,9 @@ void IndirectSenders::deviateCluster(std::uint32_t cluster, std::span<glm::dvec3
                    : meanOfPatch(place.patch, direct);
     };
     std::ranges::fill(cells.first(kSenderCells), glm::dvec3(0));
-    for (std::size_t quarter = 0; quarter < 4; ++quarter) {
-        const std::size_t first = quarter * count / 4, end = (quarter + 1) * count / 4;
-        for (std::size_t k = first; k < end; ++k)
-            cells[4 * quarter + k - first] = at(places[k]) - cells[kSenderCells + quarter];
-    }
+    for (std::size_t k = 0; k < kPatchSamples; ++k)
+        if (places[k].patch != Clusters::kNone)
+            cells[k] = at(places[k]) - cells[kSenderCells + k / 4];
 }
 
 void IndirectSenders::place(ObjectId object) {
@@ -276,24 +252,32 @@ void IndirectSenders::placePatch(std::uint32_t p) {
 void IndirectSenders::placeClusters(const Family& family) {
     const auto& clusters = family.clusters.clusters();
     const auto& order = family.clusters.patches();
+    const auto& members = family.clusters.members();
     for (std::uint32_t c = std::uint32_t(clusters.size()); c-- > 0;) {
         const Clusters::Cluster& cluster = clusters[c];
         const std::uint32_t s = family.first + c;
         boxes_[s] = {};
         for (std::uint32_t i = 0; i < cluster.count; ++i)
             boxes_[s].add(boxes_[order[cluster.first + i]]);
-        for (std::uint32_t k = 0; k < cluster.partCount; ++k) {
+        std::uint32_t known = 0; // parts
+        for (std::uint32_t k = 0; k < kPatchSamples; ++k) {
             const Clusters::Part& part = cluster.parts[k];
+            if (part.count == 0) { // it faces nobody
+                parts_[(s - patchCount()) * kPatchSamples + k] = {};
+                places_[(s - patchCount()) * kPatchSamples + k] = {Clusters::kNone, 0};
+                samples_[s * kPatchSamples + k] = samples_[s * kPatchSamples];
+                continue;
+            }
             const bool whole = part.quarter == Clusters::kWhole;
             glm::vec3 centre(0), vector(0);
             float area = 0;
             for (std::uint32_t i = part.first; i < part.first + part.count; ++i) {
-                const Patch& patch = set_.patches[order[i]];
+                const Patch& patch = set_.patches[members[i]];
                 area += patch.area;
                 centre += patch.area * patch.centre;
                 vector += patch.area * patch.normal;
             }
-            const std::uint32_t middle = order[part.first + part.count / 2];
+            const std::uint32_t middle = members[part.first + part.count / 2];
             const glm::vec3* const points = &samples_[middle * kPatchSamples];
             const float seen = glm::length(vector);
             SenderPart& out = parts_[(s - patchCount()) * kPatchSamples + k];
@@ -303,13 +287,12 @@ void IndirectSenders::placeClusters(const Family& family) {
                 out.centre = 0.25f * (quarter[0] + quarter[1] + quarter[2] + quarter[3]);
                 out.area *= 0.25f;
             }
-            const std::uint32_t which = whole ? 5 * k : 4u * part.quarter + k % 4;
+            const std::uint32_t which = whole ? 5 * known : 4u * part.quarter + known % 4;
+            ++known;
             samples_[s * kPatchSamples + k] = points[which % kPatchSamples];
             places_[(s - patchCount()) * kPatchSamples + k] = {middle,
                                                                std::uint8_t(which % kPatchSamples)};
         }
-        for (std::size_t k = cluster.partCount; k < kPatchSamples; ++k)
-            samples_[s * kPatchSamples + k] = samples_[s * kPatchSamples];
     }
 }
 
@@ -328,9 +311,7 @@ PatchSender IndirectSenders::sender(std::uint32_t index) const {
             sender.outline = std::span(set_.corners).subspan(patch.firstCorner, patch.cornerCount);
         return sender;
     }
-    const Family& family = families_[objects_[index].value];
-    const std::size_t count = family.clusters.clusters()[index - family.first].partCount;
-    sender.parts = std::span(parts_).subspan((index - patchCount()) * kPatchSamples, count);
+    sender.parts = std::span(parts_).subspan((index - patchCount()) * kPatchSamples, kPatchSamples);
     return sender;
 }
 

@@ -120,11 +120,11 @@ private:
     std::vector<SenderPart> parts_;    ///< kPatchSamples a cluster
     std::vector<std::uint32_t> faces_; ///< of a patch that is a cluster of faces: of faceParts_
     std::vector<std::array<SenderPart, kPatchSamples>> faceParts_;
-    /// A share of the mean over a quarter of a cluster.
+    /// A patch, or a quarter of it, in a quarter of a cluster.
     struct Term {
-        std::uint32_t sender = 0;
-        float weight = 0;
-        std::uint8_t quarter = Clusters::kWhole; ///< of a patch
+        std::uint32_t patch = 0;
+        float share = 0; ///< of the patch's area
+        std::uint8_t quarter = Clusters::kWhole;
     };
     std::vector<Term> terms_;
     std::vector<std::uint32_t> firstTerm_{0};          ///< of each quarter of each cluster

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <random>
 
 namespace penumbra {
@@ -28,7 +29,7 @@ std::vector<ClusterPatch> patchesOfABox(std::uint32_t count) {
 class ClustersOfABox : public testing::Test {
 protected:
     std::vector<ClusterPatch> patches = patchesOfABox(333);
-    Clusters clusters{patches};
+    Clusters clusters{patches, 1};
 };
 
 TEST_F(ClustersOfABox, HaveEachPatchOnceInOrder) {
@@ -38,11 +39,38 @@ TEST_F(ClustersOfABox, HaveEachPatchOnceInOrder) {
     for (std::uint32_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i], i);
 }
 
-TEST_F(ClustersOfABox, FaceOneWay) {
-    for (const Clusters::Cluster& cluster : clusters.clusters())
+TEST_F(ClustersOfABox, HaveAllOfItsSides) {
+    EXPECT_EQ(clusters.clusters()[0].count, patches.size());
+    EXPECT_EQ(clusters.clusters()[0].parent, Clusters::kNone);
+}
+
+TEST_F(ClustersOfABox, FaceOneWayIfItsPatchesAreLarge) {
+    const Clusters large(patches, 0.01f);
+    for (const Clusters::Cluster& cluster : large.clusters())
         for (std::uint32_t i = 0; i < cluster.count; ++i)
-            EXPECT_EQ(patches[clusters.patches()[cluster.first + i]].normal,
-                      patches[clusters.patches()[cluster.first]].normal);
+            EXPECT_EQ(patches[large.patches()[cluster.first + i]].normal,
+                      patches[large.patches()[cluster.first]].normal);
+}
+
+TEST_F(ClustersOfABox, HavePartsThatFaceOneWay) {
+    for (const Clusters::Cluster& cluster : clusters.clusters())
+        for (const Clusters::Part& part : cluster.parts) {
+            for (std::uint32_t i = part.first; i < part.first + part.count; ++i)
+                EXPECT_EQ(patches[clusters.members()[i]].normal,
+                          patches[clusters.members()[part.first]].normal);
+        }
+}
+
+TEST_F(ClustersOfABox, SendWhatFacesAwayFromEachOtherInQuartersOfTheirOwn) {
+    for (const Clusters::Cluster& cluster : clusters.clusters())
+        for (std::size_t a = 0; a < Clusters::kParts; ++a)
+            for (std::size_t b = 4 * (a / 4); b < a; ++b) {
+                const Clusters::Part &one = cluster.parts[a], &other = cluster.parts[b];
+                if (one.count == 0 || other.count == 0) continue;
+                EXPECT_GE(glm::dot(patches[clusters.members()[one.first]].normal,
+                                   patches[clusters.members()[other.first]].normal),
+                          0);
+            }
 }
 
 TEST_F(ClustersOfABox, LieWithinTheirParents) {
@@ -59,17 +87,28 @@ TEST_F(ClustersOfABox, LieWithinTheirParents) {
 
 TEST_F(ClustersOfABox, AreCutIntoPartsThatHaveAllOfThem) {
     for (const Clusters::Cluster& cluster : clusters.clusters()) {
-        EXPECT_GE(cluster.partCount, 8);
-        double quarters = 0;
-        std::uint32_t next = cluster.first;
-        for (std::size_t k = 0; k < cluster.partCount; ++k) {
-            const Clusters::Part& part = cluster.parts[k];
-            EXPECT_EQ(part.first, next);
-            if (part.quarter == Clusters::kWhole || part.quarter == 3) next += part.count;
-            quarters += part.quarter == Clusters::kWhole ? 4 * part.count : 1;
+        std::uint32_t begin = ~0u, parts = 0;
+        std::map<std::uint32_t, double> times; // each member
+        for (const Clusters::Part& part : cluster.parts) {
+            if (part.count == 0) continue;
+            ++parts;
+            begin = std::min(begin, part.first);
+            const bool whole = part.quarter == Clusters::kWhole;
+            EXPECT_TRUE(whole || part.count == 1);
+            for (std::uint32_t i = 0; i < part.count; ++i)
+                times[part.first + i] += whole ? 1 : 0.25;
         }
-        EXPECT_EQ(quarters, 4.0 * cluster.count);
-        EXPECT_EQ(next, cluster.first + cluster.count);
+        EXPECT_GE(parts, 8u);
+        EXPECT_EQ(times.size(), cluster.count);
+        EXPECT_EQ(times.rbegin()->first, begin + cluster.count - 1);
+        for (const auto& [member, count] : times) EXPECT_EQ(count, 1);
+        std::vector<std::uint32_t> own, all;
+        for (std::uint32_t i = 0; i < cluster.count; ++i) {
+            own.push_back(clusters.members()[begin + i]);
+            all.push_back(clusters.patches()[cluster.first + i]);
+        }
+        std::ranges::sort(own), std::ranges::sort(all);
+        EXPECT_EQ(own, all);
     }
 }
 
@@ -81,7 +120,7 @@ TEST(Clusters, KeepAFloorApartFromATableOverIt) {
                                {0.25f * float(i % 8), 0.25f * float(i / 8), height},
                                {0, 0, 1},
                                0.06f});
-    const Clusters clusters(patches);
+    const Clusters clusters(patches, 0.01f);
     ASSERT_EQ(clusters.clusters()[0].count, 128u);
     for (const std::uint32_t c : clusters.clusters()[0].children)
         for (std::uint32_t i = 0; i < clusters.clusters()[c].count; ++i)
@@ -91,8 +130,8 @@ TEST(Clusters, KeepAFloorApartFromATableOverIt) {
 
 TEST(Clusters, OfASinglePatchAreNone) {
     const std::vector<ClusterPatch> one{{5, {}, {0, 0, 1}, 1}};
-    EXPECT_TRUE(Clusters(one).clusters().empty());
-    EXPECT_EQ(Clusters(one).clusterAt(0), Clusters::kNone);
+    EXPECT_TRUE(Clusters(one, 0.01f).clusters().empty());
+    EXPECT_EQ(Clusters(one, 0.01f).clusterAt(0), Clusters::kNone);
 }
 
 } // namespace
