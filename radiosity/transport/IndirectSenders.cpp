@@ -259,12 +259,13 @@ void IndirectSenders::placeClusters(const Family& family) {
         boxes_[s] = {};
         for (std::uint32_t i = 0; i < cluster.count; ++i)
             boxes_[s].add(boxes_[order[cluster.first + i]]);
-        std::uint32_t known = 0; // parts
+        std::uint32_t before = 0; // how many parts
         for (std::uint32_t k = 0; k < kPatchSamples; ++k) {
             const Clusters::Part& part = cluster.parts[k];
+            const std::size_t at = std::size_t(s - patchCount()) * kPatchSamples + k;
             if (part.count == 0) { // it faces nobody
-                parts_[(s - patchCount()) * kPatchSamples + k] = {};
-                places_[(s - patchCount()) * kPatchSamples + k] = {Clusters::kNone, 0};
+                parts_[at] = {};
+                places_[at] = {Clusters::kNone, 0};
                 samples_[s * kPatchSamples + k] = samples_[s * kPatchSamples];
                 continue;
             }
@@ -280,18 +281,17 @@ void IndirectSenders::placeClusters(const Family& family) {
             const std::uint32_t middle = members[part.first + part.count / 2];
             const glm::vec3* const points = &samples_[middle * kPatchSamples];
             const float seen = glm::length(vector);
-            SenderPart& out = parts_[(s - patchCount()) * kPatchSamples + k];
+            SenderPart& out = parts_[at];
             out = {centre / area, vector / seen, seen};
             if (!whole) {
                 const glm::vec3* const quarter = points + 4 * part.quarter;
                 out.centre = 0.25f * (quarter[0] + quarter[1] + quarter[2] + quarter[3]);
                 out.area *= 0.25f;
             }
-            const std::uint32_t which = whole ? 5 * known : 4u * part.quarter + known % 4;
-            ++known;
+            const std::uint32_t which = whole ? 5 * before : 4u * part.quarter + before % 4;
+            ++before;
             samples_[s * kPatchSamples + k] = points[which % kPatchSamples];
-            places_[(s - patchCount()) * kPatchSamples + k] = {middle,
-                                                               std::uint8_t(which % kPatchSamples)};
+            places_[at] = {middle, std::uint8_t(which % kPatchSamples)};
         }
     }
 }

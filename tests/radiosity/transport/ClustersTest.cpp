@@ -54,11 +54,10 @@ TEST_F(ClustersOfABox, FaceOneWayIfItsPatchesAreLarge) {
 
 TEST_F(ClustersOfABox, HavePartsThatFaceOneWay) {
     for (const Clusters::Cluster& cluster : clusters.clusters())
-        for (const Clusters::Part& part : cluster.parts) {
+        for (const Clusters::Part& part : cluster.parts)
             for (std::uint32_t i = part.first; i < part.first + part.count; ++i)
                 EXPECT_EQ(patches[clusters.members()[i]].normal,
                           patches[clusters.members()[part.first]].normal);
-        }
 }
 
 TEST_F(ClustersOfABox, SendWhatFacesAwayFromEachOtherInQuartersOfTheirOwn) {
@@ -88,20 +87,23 @@ TEST_F(ClustersOfABox, LieWithinTheirParents) {
 TEST_F(ClustersOfABox, AreCutIntoPartsThatHaveAllOfThem) {
     for (const Clusters::Cluster& cluster : clusters.clusters()) {
         std::uint32_t begin = ~0u, parts = 0;
-        std::map<std::uint32_t, double> times; // each member
+        std::map<std::uint32_t, unsigned> quarters; // of each member, as bits
         for (const Clusters::Part& part : cluster.parts) {
             if (part.count == 0) continue;
             ++parts;
             begin = std::min(begin, part.first);
             const bool whole = part.quarter == Clusters::kWhole;
             EXPECT_TRUE(whole || part.count == 1);
-            for (std::uint32_t i = 0; i < part.count; ++i)
-                times[part.first + i] += whole ? 1 : 0.25;
+            const unsigned own = whole ? 15u : 1u << part.quarter;
+            for (std::uint32_t i = part.first; i < part.first + part.count; ++i) {
+                EXPECT_EQ(quarters[i] & own, 0u);
+                quarters[i] |= own;
+            }
         }
         EXPECT_GE(parts, 8u);
-        EXPECT_EQ(times.size(), cluster.count);
-        EXPECT_EQ(times.rbegin()->first, begin + cluster.count - 1);
-        for (const auto& [member, count] : times) EXPECT_EQ(count, 1);
+        EXPECT_EQ(quarters.size(), cluster.count);
+        EXPECT_EQ(quarters.rbegin()->first, begin + cluster.count - 1);
+        for (const auto& [member, bits] : quarters) EXPECT_EQ(bits, 15u);
         std::vector<std::uint32_t> own, all;
         for (std::uint32_t i = 0; i < cluster.count; ++i) {
             own.push_back(clusters.members()[begin + i]);
