@@ -113,7 +113,8 @@ const PendingChange& RowUpdates::changeSince(std::uint32_t edits) {
 float RowUpdates::factorBound(const DirtyBlock& item, const RowFacts& facts) const {
     constexpr float kTiny = 1e-6f;
     const RowBlock& block = table_[item.row][item.block];
-    const float could = penumbra::factorBound(facts, table_.blocks()[item.block]);
+    float could = penumbra::factorBound(facts, table_.blocks()[item.block]);
+    if (could >= facts.none) could = std::max(could, facts.least);
     if (item.anew != 0) return std::max(could, block.largestFormFactor());
     return could < kTiny ? could : std::min(could, block.largestFormFactor());
 }

@@ -48,6 +48,8 @@ public:
         ObjectId object;
         float area = 0;               ///< of the sender [m^2]
         glm::vec3 centre{}, normal{}; ///< of a planar sender; else the normal is zero
+        /// Entries have at least this form factor: pairs of less but `none` may have one of it.
+        float least = 0, none = 0;
         RowTable::Hiding hidden = {};
         /// What is asked for of each block; empty: the boxes of the table [m, world].
         std::span<const Bounds> boxes = {};

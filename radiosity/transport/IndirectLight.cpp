@@ -424,6 +424,7 @@ RowUpdates::RowFacts IndirectLight::factsOf(std::uint32_t sender) const {
         return direct_.walls().between(senders_.box(sender), box);
     };
     facts.boxes = stands_;
+    facts.least = PatchRowBuilder::kLeastFactor, facts.none = PatchRowBuilder::kNoFactor;
     if (sender < senders_.patchCount() && planar_[sender]) {
         facts.centre = set_.patches[sender].centre;
         facts.normal = set_.patches[sender].normal;
