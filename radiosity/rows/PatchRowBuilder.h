@@ -35,12 +35,13 @@ struct PatchSender {
 /// it owns scratch space. RowBuilder says what holds of an updated block.
 class PatchRowBuilder {
 public:
-    /// Most pairs hardly see each other: in a living room three of five have a form factor below
-    /// kLeastFactor, and all of these together carry a sixtieth of the light. Some of them stand
-    /// for all: one of F has an entry of kLeastFactor with the probability F / kLeastFactor, drawn
-    /// by its keys, and else none ("Russian roulette", [ArvoKirk1990]), so that sums stay what they
-    /// are in the mean. What is below kNoFactor has no entry.
-    static constexpr float kLeastFactor = 3e-4f, kNoFactor = 1e-6f;
+    /// Many pairs hardly see each other: in a living room a fifth have a form factor below
+    /// kLeastFactor. Some of them stand for all: one of F has an entry of kLeastFactor with the
+    /// probability F / kLeastFactor, drawn by its keys, and else none ("Russian roulette",
+    /// [ArvoKirk1990]), so that sums stay what they are in the mean. What is below kNoFactor has no
+    /// entry. A larger kLeastFactor would save more, but a thing of a few centimetres right beside
+    /// a bulb may light a room, and comes by such entries alone.
+    static constexpr float kLeastFactor = 1e-5f, kNoFactor = 1e-6f;
 
     explicit PatchRowBuilder(const RayScene& rays)
         : rays_(rays), drafts_(RowBlock::kSize), kernels_(RowBlock::kSize) {}
