@@ -29,6 +29,7 @@ struct Bounds {
         return glm::all(glm::lessThanEqual(lower, b.upper)) &&
                glm::all(glm::lessThanEqual(b.lower, upper));
     }
+    friend bool operator==(const Bounds&, const Bounds&) = default;
     bool contains(glm::vec3 p) const {
         return glm::all(glm::lessThanEqual(lower, p)) && glm::all(glm::lessThanEqual(p, upper));
     }

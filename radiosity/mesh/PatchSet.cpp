@@ -184,4 +184,15 @@ Bounds boundsOf(const PatchSet& set, ObjectId object) {
     return bounds;
 }
 
+Bounds boundsOf(const Emitter& emitter) {
+    Bounds bounds;
+    for (const auto& polygon : emitter.polygons)
+        for (glm::vec3 corner : polygon) bounds.add(corner);
+    if (emitter.kind != Emitter::Kind::polygons) {
+        bounds.add(emitter.centre - emitter.radius);
+        bounds.add(emitter.centre + emitter.radius);
+    }
+    return bounds;
+}
+
 } // namespace penumbra

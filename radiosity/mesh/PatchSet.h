@@ -343,6 +343,8 @@ Emitter placedEmitter(const Emitter& own, const Pose& pose);
 void placeObject(PatchSet& set, ObjectId object, const Pose& pose);
 /// Box around an object's triangles [m, world].
 Bounds boundsOf(const PatchSet& set, ObjectId object);
+/// Box around an emitter [m, world]; of a disk, around the sphere of its radius.
+Bounds boundsOf(const Emitter& emitter);
 
 /// Reflectance in the mean over an element or a patch: its own part of a texture, if there is one.
 Rgb elementReflectance(const PatchSet& set, std::uint32_t element);

@@ -27,13 +27,8 @@ glm::vec3 ontoSphere(glm::vec3 from, glm::vec3 onDisk, glm::vec3 centre, float r
 } // namespace
 
 EmitterSender::EmitterSender(const Emitter& emitter, int baseSamples, int allSamples)
-    : emitter_(&emitter), base_(roundUp(baseSamples)), all_(std::max(base_, roundUp(allSamples))) {
-    for (const auto& polygon : emitter.polygons)
-        for (glm::vec3 corner : polygon) box_.add(corner);
-    if (emitter.kind != Emitter::Kind::polygons) {
-        box_.add(emitter.centre - emitter.radius);
-        box_.add(emitter.centre + emitter.radius);
-    }
+    : emitter_(&emitter), base_(roundUp(baseSamples)), all_(std::max(base_, roundUp(allSamples))),
+      box_(boundsOf(emitter)) {
     const EmitterSamples samples = sampleEmitter(emitter, std::size_t(all_));
     for (const EmitterSamples::Point& point : samples.points) {
         x_.push_back(point.position.x), y_.push_back(point.position.y),

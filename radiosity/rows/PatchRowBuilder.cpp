@@ -40,12 +40,11 @@ void putShares(std::span<const float> parts, std::uint8_t* shares) {
 }
 
 /// The form factor of an entry: 0 if it is left out. \param hash of the pair
-float drawn(float formFactor, std::uint32_t hash) {
-    constexpr float kLeast = PatchRowBuilder::kLeastFactor;
-    if (formFactor >= kLeast) return formFactor;
-    if (formFactor < PatchRowBuilder::kNoFactor) return 0;
+float drawn(float formFactor, float least, std::uint32_t hash) {
+    if (formFactor >= least) return formFactor;
+    if (formFactor < kNoFactor) return 0;
     constexpr std::uint32_t kDraw = 0x5bd1e995u; // samples are chosen by the hash itself
-    return 0x1p-32f * float(pairHash(hash, kDraw)) * kLeast < formFactor ? kLeast : 0;
+    return 0x1p-32f * float(pairHash(hash, kDraw)) * least < formFactor ? least : 0;
 }
 
 std::uint32_t sampleCount(float formFactor, std::uint32_t all) {
@@ -163,8 +162,8 @@ void PatchRowBuilder::recallSamples(const PatchSender& sender, const ReceiverBlo
 bool PatchRowBuilder::list(const PatchSender& sender, const ReceiverBlock& receivers,
                            std::size_t r) {
     if (!(receivers.wanted >> r & 1)) return false;
-    const float factor =
-        drawn(open(sender, receivers.receivers[r], r), pairHash(sender.key, receivers.keys[r]));
+    const float factor = drawn(open(sender, receivers.receivers[r], r), sender.least,
+                               pairHash(sender.key, receivers.keys[r]));
     if (!(factor > 0)) return false;
     drafts_[r].formFactor = factor;
     const std::size_t begin = samples_.size();

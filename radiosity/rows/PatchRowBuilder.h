@@ -17,6 +17,14 @@
 
 namespace penumbra {
 
+/// Many pairs hardly see each other: in a living room three of five have a form factor below
+/// kLeastFactor. Some of them stand for all: one of F has an entry of kLeastFactor with the
+/// probability F / kLeastFactor, drawn by its keys, and else none ("Russian roulette",
+/// [ArvoKirk1990]), so that sums stay what they are in the mean. But a thing of a few centimetres
+/// right beside a bulb may light a room, and comes by such entries alone: of what emitters may
+/// shine on like that the least is kLeastOfBright. What is below kNoFactor has no entry.
+inline constexpr float kLeastFactor = 3e-4f, kLeastOfBright = 1e-5f, kNoFactor = 1e-6f;
+
 /// A patch, or a cluster of patches, made ready to send light to receivers.
 struct PatchSender {
     const Patch* patch = nullptr; ///< null: a cluster of patches
@@ -27,6 +35,7 @@ struct PatchSender {
         nullptr;                 ///< points on the surface [m, world]; kPatchSamples of a patch
     const Bounds* box = nullptr; ///< around all of that [m, world]
     std::uint32_t key = 0;       ///< its address, see PatchSet.h
+    float least = kLeastFactor;  ///< see below
 
     bool isOfParts() const { return !parts.empty(); }
 };
@@ -35,14 +44,6 @@ struct PatchSender {
 /// it owns scratch space. RowBuilder says what holds of an updated block.
 class PatchRowBuilder {
 public:
-    /// Many pairs hardly see each other: in a living room a fifth have a form factor below
-    /// kLeastFactor. Some of them stand for all: one of F has an entry of kLeastFactor with the
-    /// probability F / kLeastFactor, drawn by its keys, and else none ("Russian roulette",
-    /// [ArvoKirk1990]), so that sums stay what they are in the mean. What is below kNoFactor has no
-    /// entry. A larger kLeastFactor would save more, but a thing of a few centimetres right beside
-    /// a bulb may light a room, and comes by such entries alone.
-    static constexpr float kLeastFactor = 1e-5f, kNoFactor = 1e-6f;
-
     explicit PatchRowBuilder(const RayScene& rays)
         : rays_(rays), drafts_(RowBlock::kSize), kernels_(RowBlock::kSize) {}
 

@@ -185,6 +185,7 @@ void IndirectLight::apply(const SceneChange& change) {
         senders_.placePatch(p);
         planar_[p] = isPlanar(p);
     }
+    const std::vector<std::uint32_t> brightened = senders_.followEmitters(change);
     const std::vector<BlockMask> masks = nodesOf(change);
     placeNodes(masks);
     residualsChanged();
@@ -194,7 +195,8 @@ void IndirectLight::apply(const SceneChange& change) {
     if (change.colours || !change.parted.empty()) coloursChanged();
     reachStale_ |= !change.objects.empty() || !masks.empty() || !change.patches.empty();
     if (isDark(set_)) restart(); // what is taken back leaves a rest of rounding
-    if (change.objects.empty() && masks.empty() && change.senders.empty()) return;
+    if (change.objects.empty() && masks.empty() && change.senders.empty() && brightened.empty())
+        return;
     for (ObjectId object : change.objects) link(object);
     for (std::uint32_t p : change.senders) linkSender(p);
     for (const BlockMask& mask : masks)
@@ -202,6 +204,7 @@ void IndirectLight::apply(const SceneChange& change) {
     if (rowsMissing_) restart();
     updates_.add(change.objects, masks);
     markRows(change.senders);
+    markRows(brightened);
 }
 
 /// Nodes that lie elsewhere, block by block.
@@ -424,7 +427,7 @@ RowUpdates::RowFacts IndirectLight::factsOf(std::uint32_t sender) const {
         return direct_.walls().between(senders_.box(sender), box);
     };
     facts.boxes = stands_;
-    facts.least = PatchRowBuilder::kLeastFactor, facts.none = PatchRowBuilder::kNoFactor;
+    facts.least = senders_.leastFactor(sender), facts.none = kNoFactor;
     if (sender < senders_.patchCount() && planar_[sender]) {
         facts.centre = set_.patches[sender].centre;
         facts.normal = set_.patches[sender].normal;

@@ -5,6 +5,7 @@
 #include "radiosity/rows/SenderSamples.h"
 
 #include <algorithm>
+#include <numbers>
 #include <unordered_map>
 
 namespace penumbra {
@@ -15,6 +16,9 @@ namespace {
 constexpr float kFar = 3.5f;
 /// Patches of less than this share of a whole one's area meet in clusters whichever way they face.
 constexpr float kSmallShare = 0.125f;
+
+/// Of what an emitter sends: on whom more may fall may light a room alone.
+constexpr float kBrightShare = 1e-3f;
 
 static_assert(Clusters::kParts == kPatchSamples && kSenderCells == kPatchSamples);
 
@@ -48,6 +52,8 @@ IndirectSenders::IndirectSenders(const PatchSet& set, bool clusters)
     const std::size_t meshed = set.parts.used.empty() ? patches : set.parts.firstPatch;
     for (std::size_t p = meshed; p < patches; ++p) placePatch(std::uint32_t(p)); // with parents
     listChildren();
+    placeEmitters();
+    findBright(0, count());
 }
 
 void IndirectSenders::add(ObjectId object) {
@@ -56,6 +62,8 @@ void IndirectSenders::add(ObjectId object) {
     for (std::uint32_t p = patches.first; p < patches.end(); ++p) placePatch(p);
     addObject(object);
     listChildren();
+    findBright(patches.first, patches.end());
+    findBright(clustersOf(object).first, count());
 }
 
 /// Makes room for the parts of those patches that are clusters of faces.
@@ -296,8 +304,62 @@ void IndirectSenders::placeClusters(const Family& family) {
     }
 }
 
+/// \return whether any is elsewhere than before, or hidden, or shown
+bool IndirectSenders::placeEmitters() {
+    bool changed = false;
+    for (std::size_t e = 0; e < set_.emitters.size(); ++e) {
+        const Emitter& emitter = set_.emitters[e];
+        const bool present = set_.objects[emitter.object.value].present;
+        const Bounds box = present ? boundsOf(emitter) : Bounds();
+        if (e == emitters_.size()) emitters_.append({});
+        if (emitters_[e] == box) continue;
+        emitters_.set(e, box);
+        changed = true;
+    }
+    return changed;
+}
+
+/// By the most that can fall on it, A / (pi d^2).
+bool IndirectSenders::isBright(std::uint32_t index) const {
+    const float reach2 = areas_[index] / (std::numbers::pi_v<float> * kBrightShare);
+    bool bright = false;
+    emitters_.query(
+        [&](std::size_t n) {
+            return !bright && squaredGap(boxes_[index], emitters_.node(n)) <= reach2;
+        },
+        [&](std::size_t) { bright = true; });
+    return bright;
+}
+
+void IndirectSenders::findBright(std::uint32_t first, std::uint32_t end) {
+    bright_.resize(count());
+    parallelFor(end - first, 1024, [&](std::size_t from, std::size_t to) {
+        for (std::size_t i = from; i < to; ++i) {
+            const std::uint32_t s = first + std::uint32_t(i);
+            bright_[s] = !boxes_[s].empty() && isBright(s);
+        }
+    });
+}
+
+std::vector<std::uint32_t> IndirectSenders::followEmitters(const SceneChange& change) {
+    const std::vector<std::uint8_t> before = bright_;
+    if (placeEmitters()) {
+        findBright(0, count());
+    } else {
+        for (const ObjectId object : change.objects)
+            for (const Range own : {set_.objects[object.value].patches, clustersOf(object)})
+                findBright(own.first, own.end());
+        for (const std::uint32_t p : change.senders) findBright(p, p + 1);
+    }
+    std::vector<std::uint32_t> changed;
+    for (std::uint32_t s = 0; s < count(); ++s)
+        if (bright_[s] != before[s]) changed.push_back(s);
+    return changed;
+}
+
 PatchSender IndirectSenders::sender(std::uint32_t index) const {
     PatchSender sender;
+    sender.least = leastFactor(index);
     sender.samples = samples_.data() + std::size_t(index) * kPatchSamples;
     sender.key = keys_[index];
     sender.box = &boxes_[index];
@@ -325,7 +387,8 @@ bool IndirectSenders::sendsLike(std::uint32_t index, const IndirectSenders& othe
         !a.patch == !b.patch &&
         (!a.patch || (a.patch->centre == b.patch->centre && a.patch->normal == b.patch->normal &&
                       a.patch->area == b.patch->area));
-    return samePatch && a.cells == b.cells && std::ranges::equal(a.outline, b.outline) &&
+    return samePatch && a.cells == b.cells && a.least == b.least &&
+           std::ranges::equal(a.outline, b.outline) &&
            std::ranges::equal(a.parts, b.parts, samePart) &&
            std::equal(a.samples, a.samples + kPatchSamples, b.samples);
 }

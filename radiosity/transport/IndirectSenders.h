@@ -6,6 +6,7 @@
 #include "radiosity/rows/RowBuilder.h"
 #include "radiosity/rows/SenderLight.h"
 #include "radiosity/transport/Clusters.h"
+#include "radiosity/transport/SceneChange.h"
 
 #include <glm/glm.hpp>
 
@@ -38,6 +39,9 @@ public:
     void place(ObjectId object);
     /// A patch was parted otherwise, handed out or given back.
     void placePatch(std::uint32_t patch);
+    /// Finds anew who is bright, once all is placed that a change names.
+    /// \return who was and is not, or is and was not, ascending
+    std::vector<std::uint32_t> followEmitters(const SceneChange& change);
 
     PatchSender sender(std::uint32_t index) const;
     /// Of every sender the one among others that sends just alike to whatever receives,
@@ -52,6 +56,12 @@ public:
                                     : set_.objects[objects_[index].value].present;
     }
     float area(std::uint32_t index) const { return areas_[index]; }
+    /// Entries have at least this form factor, see PatchSender. A sender is bright if a thousandth
+    /// of what some emitter sends may fall on it. Neither what is in the way counts, nor whether
+    /// the emitter is switched on: this depends on poses alone.
+    float leastFactor(std::uint32_t index) const {
+        return bright_[index] ? kLeastOfBright : kLeastFactor;
+    }
     /// The cluster that has this sender, Clusters::kNone if none.
     std::uint32_t parent(std::uint32_t index) const { return parents_[index]; }
     /// The cells of a sender, see SenderLight, in a list of those of all senders.
@@ -87,6 +97,9 @@ private:
         std::uint32_t first = 0; ///< sender index of its first cluster
     };
     void listFaceClusters(Range patches);
+    bool placeEmitters();
+    bool isBright(std::uint32_t index) const;
+    void findBright(std::uint32_t first, std::uint32_t end);
     void addObject(ObjectId object);
     void addFamily(std::span<const ClusterPatch> patches);
     void listChildren();
@@ -109,6 +122,8 @@ private:
     std::vector<std::uint32_t> keys_, parents_;
     std::vector<float> areas_;
     std::vector<ObjectId> objects_;
+    std::vector<std::uint8_t> bright_;
+    BoundsTree emitters_;            ///< boxes; empty: one that is hidden
     std::vector<Range> cells_;       ///< one a sender
     std::vector<glm::vec3> samples_; ///< kPatchSamples a sender
     /// Of each cluster's parts: which patch its sample is on, and which of that one's it is.

@@ -12,7 +12,7 @@ namespace penumbra {
 
 namespace {
 
-constexpr float kLeast = PatchRowBuilder::kLeastFactor;
+constexpr float kLeast = kLeastFactor;
 
 /// A square metre on the floor that faces up, and receivers above its middle that face down.
 struct PatchBelow : ::testing::Test {
@@ -25,7 +25,8 @@ struct PatchBelow : ::testing::Test {
     }
     /// Entries of receivers so high that the patch has this form factor there. \param blocks how
     /// many
-    std::vector<RowBlock::Entry> entries(float formFactor, std::uint32_t blocks) {
+    std::vector<RowBlock::Entry> entries(float formFactor, std::uint32_t blocks,
+                                         float least = kLeast) {
         const float height = 1 / std::sqrt(std::numbers::pi_v<float> * formFactor);
         const std::vector<Receiver> receivers(RowBlock::kSize, {{0, 0, height}, {0, 0, -1}});
         const Bounds box{{-0.5f, -0.5f, 0}, {0.5f, 0.5f, 0}};
@@ -35,6 +36,7 @@ struct PatchBelow : ::testing::Test {
         sender.samples = samples.data();
         sender.box = &box;
         sender.key = 7;
+        sender.least = least;
         std::vector<RowBlock::Entry> found;
         for (std::uint32_t b = 0; b < blocks; ++b) {
             std::vector<std::uint32_t> keys;
@@ -57,8 +59,8 @@ struct PatchBelow : ::testing::Test {
 
 /// As a card of 5 cm has 6 m away: right beside a bulb it may be what lights a room, and a draw
 /// would be a blotch of a third.
-TEST_F(PatchBelow, IsEnteredWithItsFormFactorWhereItMayMatter) {
-    const auto found = entries(2e-5f, 1);
+TEST_F(PatchBelow, IsEnteredWithItsFormFactorWhereItIsBright) {
+    const auto found = entries(2e-5f, 1, kLeastOfBright);
     ASSERT_EQ(found.size(), 64u);
     for (const RowBlock::Entry& entry : found) EXPECT_NEAR(entry.formFactor, 2e-5f, 1e-7f);
 }
@@ -82,7 +84,7 @@ TEST_F(PatchBelow, IsDrawnTheSameEveryTime) {
 }
 
 TEST_F(PatchBelow, IsLeftOutWhereItSendsNextToNothing) {
-    EXPECT_TRUE(entries(0.5f * PatchRowBuilder::kNoFactor, 100).empty());
+    EXPECT_TRUE(entries(0.5f * kNoFactor, 100).empty());
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace penumbra {
@@ -107,6 +108,53 @@ TEST_F(SendersOfARoom, StandWhereAnObjectWasBuiltInPlace) {
     placeObject(built.patches, chair, here);
     senders.place(chair);
     EXPECT_EQ(senders.linkedBlocks(senders.count() - 1, blocks), before);
+}
+
+TEST_F(SendersOfARoom, AreBrightBesideALight) {
+    // The light is beside the ceiling, and two metres above the chair's and the floor's patches of
+    // a tenth of a metre.
+    const auto isBright = [&](const IndirectSenders& of, std::uint32_t s) {
+        return of.leastFactor(s) == kLeastOfBright;
+    };
+    std::size_t bright = 0, others = 0;
+    for (std::uint32_t p = 0; p < senders.patchCount(); ++p) {
+        if (set().patches[p].elementCount == 0) continue;
+        ++(isBright(senders, p) ? bright : others);
+        if (set().patches[p].centre.z == 2) EXPECT_TRUE(isBright(senders, p)) << "patch " << p;
+        if (set().patches[p].centre.z == 0) EXPECT_FALSE(isBright(senders, p)) << "patch " << p;
+    }
+    EXPECT_GT(bright, 100u);
+    EXPECT_GT(others, 100u);
+
+    const auto expectFresh = [&](const SceneChange& change) {
+        std::vector<std::uint8_t> before(senders.count());
+        for (std::uint32_t s = 0; s < senders.count(); ++s) before[s] = isBright(senders, s);
+        const std::vector<std::uint32_t> changed = senders.followEmitters(change);
+        const IndirectSenders fresh(set(), true);
+        for (std::uint32_t s = 0; s < senders.count(); ++s) {
+            EXPECT_EQ(isBright(senders, s), isBright(fresh, s)) << "sender " << s;
+            EXPECT_EQ(std::ranges::binary_search(changed, s),
+                      isBright(senders, s) != bool(before[s]))
+                << "sender " << s;
+        }
+        return changed.size();
+    };
+    const auto objectAt = [&](const char* path) {
+        return ObjectId{std::uint32_t(std::ranges::find(set().objects, path, &ObjectPart::path) -
+                                      set().objects.begin())};
+    };
+    const ObjectId chair = objectAt("/chair"), light = objectAt("/lamp");
+    ASSERT_LT(std::max(chair.value, light.value), set().objects.size());
+    placeObject(built.patches, chair, placementOf(moved(0, 0, 1.4)).pose);
+    senders.place(chair);
+    EXPECT_GT(expectFresh({.objects = {chair}}), 0u);
+    built.patches.emitters[0].exitance = Rgb(0.0f);
+    EXPECT_EQ(expectFresh({.emitters = {0}}), 0u) << "it is dark, and may shine again";
+    placeObject(built.patches, light, placementOf(moved(0, 0, 0.6)).pose);
+    senders.place(light);
+    EXPECT_GT(expectFresh({.objects = {light}}), 0u);
+    built.patches.objects[light.value].present = false;
+    EXPECT_GT(expectFresh({.objects = {light}}), 0u) << "it is hidden";
 }
 
 TEST(IndirectSenders, WithoutClustersArePatchesAlone) {
