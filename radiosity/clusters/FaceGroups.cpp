@@ -65,8 +65,9 @@ std::vector<std::vector<std::uint32_t>> groupFaces(std::span<const FacePiece> fa
     const float small = std::min(2 * elementSize, 0.5f * patchSize); // extent of small faces
     const float narrow = std::min(elementSize, 0.125f * patchSize);  // width of slivers
     const float thread = 0.25f * narrow; // of this width one node is enough, whatever is around
-    // Faces meet others of about their length only: light is received once a cluster.
-    constexpr std::array kSizes{0.25f, 0.5f, 1.0f, 2.0f}; // patches
+    // Faces meet others of about their length only: light is received once a cluster. Of a whole
+    // patch or more they would send too little where they are curved.
+    constexpr std::array kSizes{0.5f, 1.0f, 2.0f}; // patches
     std::array<std::vector<std::uint32_t>, kSizes.size()> listed;
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
         const Shape shape = shapeOf(faces[f]);

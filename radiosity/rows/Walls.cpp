@@ -116,10 +116,16 @@ bool Walls::isHidden(std::uint32_t wall, const Bounds& from, const Bounds& box) 
 ObjectId Walls::between(const Bounds& a, const Bounds& b) const {
     ObjectId found;
     if (walls_.empty() || a.empty() || b.empty()) return found;
-    boxes_.query([&](std::size_t n) { return !found.valid() && shaftMeets(a, b, boxes_.node(n)); },
-                 [&](std::size_t i) {
-                     if (!found.valid() && hides(walls_[i], a, b)) found = walls_[i].object;
-                 });
+    // What crosses all segments crosses that between the middles, inside of its edges by a margin.
+    const float pad = clearanceAt(set_.skin, std::max(magnitude(a), magnitude(b)));
+    const Bounds middle{a.centre() - pad, a.centre() + pad};
+    const glm::vec3 way = b.centre() - a.centre();
+    const auto crosses = [&](std::size_t n) {
+        return !found.valid() && sweepMeets(middle, way, way, 1, boxes_.node(n));
+    };
+    boxes_.query(crosses, [&](std::size_t i) {
+        if (hides(walls_[i], a, b)) found = walls_[i].object;
+    });
     return found;
 }
 

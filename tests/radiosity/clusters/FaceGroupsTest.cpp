@@ -62,7 +62,7 @@ TEST(GroupFaces, KeepsClustersOfSmallFacesAsSmallAsLightIsReceived) {
     std::size_t faces = 0;
     for (const auto& group : groupsOf(squares)) {
         faces += group.size();
-        EXPECT_LE(group.size(), 100u); // 0.1 x 0.1 m
+        EXPECT_LE(group.size(), 200u); // half a patch, 0.2 m, from corner to corner
     }
     EXPECT_EQ(faces, squares.size());
 }
