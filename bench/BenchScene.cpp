@@ -26,6 +26,8 @@ double threadClock() {
 } // namespace
 
 LoadedScene loadScene(const std::string& name) {
+    const std::filesystem::path path(name);
+    if (path.has_extension()) return loadUsdScene(path);
     return loadUsdScene(std::filesystem::path(PENUMBRA_SOURCE_DIR) / "scenes" / (name + ".usda"));
 }
 

@@ -10,14 +10,15 @@
 
 namespace penumbra {
 
-/// Reads one of scenes/*.usda. \param name of the file, without its ending
+/// Reads one of scenes/*.usda. \param name of the file, without its ending; or the path of any
+/// scene
 LoadedScene loadScene(const std::string& name);
 
 /// \param elementSize longest edge of an element [m]; 0: the default. The patch size is always what
 ///                    the file asks for, or the default.
 MeshingOptions meshingOf(const LightRequest& asked, float elementSize);
 
-/// One of scenes/*.usda, read but not yet meshed.
+/// A scene, read but not yet meshed.
 class BenchScene {
 public:
     /// See loadScene().

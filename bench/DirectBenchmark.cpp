@@ -1,4 +1,5 @@
-// Direct light from scratch: chamber, office and gallery at 10 k, 100 k and 1 M elements.
+// Direct light from scratch: chamber, office and gallery at 10 k, 100 k and 1 M elements; and a
+// scene of one's own at the default sizes, the file that PENUMBRA_BENCH_SCENE names.
 #include "bench/BareTracing.h"
 #include "bench/BenchCase.h"
 #include "bench/BenchScene.h"
@@ -7,6 +8,7 @@
 #include "radiosity/transport/Solver.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <optional>
 #include <string>
 
@@ -133,6 +135,8 @@ const bool registered = [] {
     for (const Case& which : kCases)
         addCase(std::string("direct/") + which.scene + "/" + which.name, benchmark::kSecond, direct,
                 which);
+    if (const char* const file = std::getenv("PENUMBRA_BENCH_SCENE"))
+        addCase("direct/own/default", benchmark::kSecond, direct, Case{file, "default", 0});
     return true;
 }();
 

@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """Runs benchmarks, each in a process of its own, so that peak memory is that of the case alone.
 
-Usage: bench/run.py PROGRAM [--out FILE.json] [--filter REGEX]
+Usage: bench/run.py PROGRAM [--out FILE.json] [--filter REGEX] [--scene FILE]
 PROGRAM is penumbra_bench of a release build. Without a filter all cases run, for some half an hour;
-`scripts/performance_tables --cases` prints a filter for those of docs/performance.md. Results go to
-FILE.json in Google Benchmark's format, all of them as tables to standard output."""
+`scripts/performance_tables --cases` prints a filter for those of docs/performance.md. With --scene,
+direct light of that scene is a case, too: direct/own/default. Results go to FILE.json in Google
+Benchmark's format, all of them as tables to standard output."""
 import argparse
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -129,7 +131,10 @@ def main():
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("penumbra_bench.json"))
     parser.add_argument("--filter", default=".")
+    parser.add_argument("--scene", type=pathlib.Path)
     options = parser.parse_args()
+    if options.scene:
+        os.environ["PENUMBRA_BENCH_SCENE"] = str(options.scene.resolve())
     program = options.program.resolve()
     listed = subprocess.run([program, "--benchmark_list_tests", f"--benchmark_filter={options.filter}"],
                             check=True, capture_output=True, text=True).stdout.split()
