@@ -36,9 +36,8 @@ bool DetailHits::takeVertex(const Group& before, std::uint32_t was, std::uint32_
     const auto now = [&](std::uint32_t hit) { return renamedHit(hit, elements); };
     Group& group = groups_[vertex / kGroup];
     if (before.probed >> was % kGroup & 1) {
-        std::ranges::transform(before.probes[was % kGroup], group.probes[vertex % kGroup].begin(),
-                               now);
-        group.probed |= 1u << vertex % kGroup;
+        std::ranges::transform(before.probesOf(was % kGroup),
+                               group.addProbes(vertex % kGroup).begin(), now);
         return true;
     }
     const Gatherer* const known = before.find(was);

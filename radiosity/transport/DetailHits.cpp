@@ -167,7 +167,7 @@ bool DetailHits::anyAffected(std::uint32_t group, const DetailRays::Moved& moved
     }
     for (const std::uint32_t slot : bitsOf(known.probed)) {
         if (affects(patches_.vertices[group * kGroup + slot].receiver, DetailRays::kAllProbes,
-                    known.probes[slot], patches_.patchSize))
+                    known.probesOf(slot), patches_.patchSize))
             return true;
     }
     return false;
@@ -192,7 +192,7 @@ void DetailHits::follow(const Visit& at, Group& out, GroupOutcome& outcome) cons
         hits.near = before->near;
         which = rays_.affected(at.receiver, DetailRays::kAllRays, known, at.moved, kFar);
     } else if (probed) {
-        const auto& known = at.known.probes[slot];
+        const auto& known = at.known.probesOf(slot);
         std::copy(known.begin(), known.end(), hits.elements.begin());
         for (std::size_t r = 0; r < known.size(); ++r)
             hits.near |= std::uint64_t(known[r] != Element::kNone) << r;
@@ -202,9 +202,9 @@ void DetailHits::follow(const Visit& at, Group& out, GroupOutcome& outcome) cons
     const double guess = openness(hits.near & DetailRays::kAllProbes, kProbes);
     if (std::abs(guess - at.expected) < 0.07 && guess > 0.5) {
         // Rays that meet nothing near matter no farther.
-        for (std::size_t r = 0; r < std::size_t(kProbes); ++r)
-            out.probes[slot][r] = hits.near >> r & 1 ? hits.elements[r] : Element::kNone;
-        out.probed |= 1u << slot;
+        auto& probes = out.addProbes(slot);
+        for (std::size_t r = 0; r < probes.size(); ++r)
+            probes[r] = hits.near >> r & 1 ? hits.elements[r] : Element::kNone;
         const glm::vec3 reach(patches_.patchSize);
         outcome.ways.add(Bounds{at.receiver.position - reach, at.receiver.position + reach});
         return;

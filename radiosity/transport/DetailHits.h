@@ -12,6 +12,7 @@
 #include "radiosity/transport/SceneChange.h"
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -86,11 +87,20 @@ public:
 private:
     /// What is known of a run of vertices.
     struct Group {
-        std::uint32_t probed = 0; ///< bits: not in question, known by their first rays
-        std::array<std::array<std::uint32_t, DetailRays::kProbes>, kGroup> probes;
+        using Probes = std::array<std::uint32_t, DetailRays::kProbes>;
+        std::uint32_t probed = 0;   ///< bits: not in question, known by their first rays
+        std::vector<Probes> probes; ///< of each of those
         std::vector<Gatherer> gatherers;
         std::vector<std::uint32_t> hits; ///< kRays a gatherer, as many again in a slit
         const Gatherer* find(std::uint32_t vertex) const;
+        const Probes& probesOf(std::uint32_t slot) const {
+            return probes[std::size_t(std::popcount(probed & ((1u << slot) - 1)))];
+        }
+        /// \pre no later slot is probed as yet
+        Probes& addProbes(std::uint32_t slot) {
+            probed |= 1u << slot;
+            return probes.emplace_back();
+        }
     };
     struct Visit;
     void takeVertices(const DetailHits& before, std::span<const std::uint32_t> were,
