@@ -35,7 +35,7 @@ struct PatchSender {
         nullptr;                 ///< points on the surface [m, world]; kPatchSamples of a patch
     const Bounds* box = nullptr; ///< around all of that [m, world]
     std::uint32_t key = 0;       ///< its address, see PatchSet.h
-    float least = kLeastFactor;  ///< see below
+    float least = kLeastFactor;  ///< its entries' form factors have at least this
 
     bool isOfParts() const { return !parts.empty(); }
 };

@@ -57,6 +57,13 @@ struct PatchBelow : ::testing::Test {
     PatchRowBuilder builder{nothing};
 };
 
+TEST_F(PatchBelow, IsEnteredWithItsFormFactorWhereItMatters) {
+    const auto found = entries(2 * kLeast, 1);
+    ASSERT_EQ(found.size(), 64u);
+    for (const RowBlock::Entry& entry : found)
+        EXPECT_NEAR(entry.formFactor, 2 * kLeast, 0.01f * kLeast);
+}
+
 /// As a card of 5 cm has 6 m away: right beside a bulb it may be what lights a room, and a draw
 /// would be a blotch of a third.
 TEST_F(PatchBelow, IsEnteredWithItsFormFactorWhereItIsBright) {
@@ -66,7 +73,7 @@ TEST_F(PatchBelow, IsEnteredWithItsFormFactorWhereItIsBright) {
 }
 
 TEST_F(PatchBelow, SendsAsMuchInTheMeanWhereItHardlyMatters) {
-    for (const float formFactor : {0.7f * kLeast, 0.4f * kLeast, 0.2f * kLeast}) {
+    for (const float formFactor : {0.5f * kLeast, 0.1f * kLeast, 0.02f * kLeast}) {
         constexpr std::uint32_t kBlocks = 400;
         const auto found = entries(formFactor, kBlocks);
         for (const RowBlock::Entry& entry : found) EXPECT_EQ(entry.formFactor, kLeast);
