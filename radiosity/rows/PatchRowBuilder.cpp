@@ -47,8 +47,8 @@ float drawn(float formFactor, float least, std::uint32_t hash) {
     return 0x1p-32f * float(pairHash(hash, kDraw)) * least < formFactor ? least : 0;
 }
 
-std::uint32_t sampleCount(float formFactor, std::uint32_t all) {
-    const auto count = std::uint32_t(samplesFor(formFactor));
+std::uint32_t sampleCount(const PatchSender& sender, float formFactor, std::uint32_t all) {
+    const auto count = std::uint32_t(samplesFor(formFactor, sender.allSamples));
     return count == kPatchSamples ? all : count;
 }
 
@@ -126,7 +126,7 @@ void PatchRowBuilder::listSamples(const PatchSender& sender, const ReceiverBlock
         samples_.push_back({std::uint8_t(r), std::uint8_t(sample), weight, kNone});
     };
     if (!sender.isOfParts()) {
-        const std::uint32_t count = sampleCount(factor, kPatchSamples);
+        const std::uint32_t count = sampleCount(sender, factor, kPatchSamples);
         for (std::uint32_t k = 0; k < count; ++k) {
             const std::uint32_t sample = count == kPatchSamples ? k
                                          : count == 4           ? 4 * k + (hash >> 2 * k & 3)
@@ -135,7 +135,7 @@ void PatchRowBuilder::listSamples(const PatchSender& sender, const ReceiverBlock
         }
     } else {
         const PartKernels& kernels = kernels_[r];
-        const std::uint32_t count = sampleCount(factor, kernels.count);
+        const std::uint32_t count = sampleCount(sender, factor, kernels.count);
         for (std::uint32_t k = 0; k < count; ++k) {
             // Any of the group's parts that faces the receiver represents all of them.
             const std::uint32_t first = kernels.begin(k, count), last = kernels.begin(k + 1, count);
@@ -224,6 +224,7 @@ void PatchRowBuilder::collect(const PatchSender& sender, const EntrySamples& ent
         }
     }
     draft.sharing = sharingOf(sender);
+    draft.allSamples = sender.allSamples && draft.sharing != RowBlock::Sharing::even;
     if (draft.visible != 0 && draft.sharing != RowBlock::Sharing::even) share(sender, entry);
 }
 
@@ -231,7 +232,7 @@ void PatchRowBuilder::collect(const PatchSender& sender, const EntrySamples& ent
 /// for that one's quarter, and a single one for all of the sender.
 void PatchRowBuilder::share(const PatchSender& sender, const EntrySamples& entry) {
     RowBlock::Draft& draft = drafts_[entry.receiver];
-    const int count = samplesFor(draft.formFactor);
+    const int count = samplesFor(draft.formFactor, sender.allSamples);
     std::array<float, kPatchSamples> cells{}, quarters{};
     for (std::size_t k = entry.first; k < entry.last; ++k) {
         const Sample& sample = samples_[k];

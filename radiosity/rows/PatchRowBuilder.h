@@ -36,6 +36,7 @@ struct PatchSender {
     const Bounds* box = nullptr; ///< around all of that [m, world]
     std::uint32_t key = 0;       ///< its address, see PatchSet.h
     float least = kLeastFactor;  ///< its entries' form factors have at least this
+    bool allSamples = false;     ///< see samplesFor()
 
     bool isOfParts() const { return !parts.empty(); }
 };
@@ -47,8 +48,8 @@ public:
     explicit PatchRowBuilder(const RayScene& rays)
         : rays_(rays), drafts_(RowBlock::kSize), kernels_(RowBlock::kSize) {}
 
-    /// Evaluates all entries of a block. The number of samples follows the form factor (1, 4 or
-    /// 16); which ones is a fixed function of the pair's keys.
+    /// Evaluates all entries of a block. Their samples are 1, 4 or 16, see samplesFor(); which ones
+    /// is a fixed function of the pair's keys.
     void build(const PatchSender& sender, const ReceiverBlock& receivers, RowBlock& block);
 
     /// Brings a block up to date.

@@ -67,7 +67,8 @@ public:
         put(std::uint16_t(0)); // the size, not yet known
         put(std::uint16_t(objectCount_ | (wideObjects_ ? kWideObjects : 0u) |
                           (sharing_ == Sharing::quarters ? kQuarters : 0u) |
-                          (sharing_ == Sharing::cells ? kCells : 0u)));
+                          (sharing_ == Sharing::cells ? kCells : 0u) |
+                          (sharing_ != Sharing::even && allSamples_ ? kAllSamples : 0u)));
         if (present_ != visible_) put(seen_);
         for (const int i : bitsOf(present_)) put(draft(i).formFactor);
         for (const int i : bitsOf(seen_ & ~visible_)) put(draft(i).visibility);
@@ -89,6 +90,7 @@ private:
         const Draft& draft = this->draft(i);
         const std::uint64_t bit = std::uint64_t(1) << i;
         sharing_ = std::max(sharing_, draft.sharing);
+        allSamples_ |= draft.allSamples;
         if (draft.blockerCount == 0) visible_ |= bit;
         if (draft.blockerCount == 0 || draft.visible != 0) seen_ |= bit;
         for (const Blocker& blocker : blockersOf(draft)) {
@@ -117,7 +119,9 @@ private:
     void putShares() {
         if (sharing_ == Sharing::even) return;
         std::size_t all = 0;
-        const auto countOf = [this](int i) { return shareCount(sharing_, draft(i).formFactor); };
+        const auto countOf = [this](int i) {
+            return shareCount(sharing_, samplesFor(draft(i).formFactor, allSamples_));
+        };
         for (const int i : bitsOf(seen_)) all += countOf(i);
         put(std::uint16_t(all));
         for (const int i : bitsOf(seen_))
@@ -150,7 +154,7 @@ private:
 
     std::span<const Draft> drafts_;
     std::uint64_t present_ = 0, visible_ = 0, seen_ = 0;
-    bool wideObjects_ = false;
+    bool wideObjects_ = false, allSamples_ = false;
     Sharing sharing_ = Sharing::even;
     std::array<std::uint32_t, std::size_t(kSize) * kSize> objects_;
     std::size_t objectCount_ = 0;
@@ -168,6 +172,7 @@ public:
         factor_ = block.factors();
         share_ = block.visibilities();
         sharing = block.sharing();
+        allSamples = block.allSamples();
         shares_ = block.firstShare();
         record_ = block.records();
         objects_ = block.objects();
@@ -187,7 +192,7 @@ public:
         blockers = {};
         shares = {};
         if (seen_ >> receiver & 1) {
-            const std::size_t count = shareCount(sharing, formFactor);
+            const std::size_t count = shareCount(sharing, samplesFor(formFactor, allSamples));
             std::memcpy(shares.data(), block_.bytes_.get() + shares_, count);
             shares_ += count;
         }
@@ -208,6 +213,7 @@ public:
     std::uint64_t visible = 0;
     std::span<const Blocker> blockers;
     Sharing sharing = Sharing::even;
+    bool allSamples = false;
     std::array<std::uint8_t, kMostShares> shares{};
 
 private:
@@ -266,6 +272,7 @@ void RowBlock::decode(std::span<Draft> drafts) const {
         draft.visibility = read.visibility;
         draft.visible = read.visible;
         draft.sharing = read.sharing;
+        draft.allSamples = read.allSamples;
         draft.shares = read.shares;
         draft.blockerCount = int(read.blockers.size());
         std::copy(read.blockers.begin(), read.blockers.end(), draft.blockers.begin());

@@ -15,8 +15,9 @@
 namespace penumbra {
 
 /// How many of a patch's visibility samples an entry takes, of 16: fewer where little light comes.
-constexpr int samplesFor(float formFactor) {
-    return formFactor > 0.01f ? 16 : formFactor > 0.0005f ? 4 : 1;
+/// \param all whether the sender is one that may light a room alone: all of them
+constexpr int samplesFor(float formFactor, bool all) {
+    return all || formFactor > 0.01f ? 16 : formFactor > 0.0005f ? 4 : 1;
 }
 
 /// One blocker of an entry: an object and the visibility samples that it was found to block.
@@ -30,7 +31,7 @@ struct Blocker {
 ///
 ///     present, visible   8 + 8  masks of receivers: has an entry; and is wholly visible
 ///     size, objects      2 + 2  bytes of this run; length of the list of objects, | kWideObjects,
-///                               | kQuarters, | kCells
+///                               | kQuarters, | kCells, | kAllSamples
 ///     seen               8      mask: some sample is visible       (not if all are wholly visible)
 ///     form factors       4 each of the present entries, unoccluded
 ///     visibilities       4 each of the entries that are seen, but not wholly
@@ -66,9 +67,8 @@ public:
     ///     4    a byte with two bits for each quarter, which cell of it was sampled; 3 of quarters
     ///     16   15 of cells
     static constexpr std::size_t kMostShares = 15;
-    static constexpr std::size_t shareCount(Sharing sharing, float formFactor) {
+    static constexpr std::size_t shareCount(Sharing sharing, int samples) {
         if (sharing == Sharing::even) return 0;
-        const int samples = samplesFor(formFactor);
         if (samples == 16) return 15;
         return samples == 1 && sharing == Sharing::cells ? 1 : 4;
     }
@@ -85,6 +85,7 @@ public:
         std::uint64_t visible;           ///< mask of the visible samples
         int blockerCount = 0;            ///< 0: all samples are visible
         Sharing sharing = Sharing::even; ///< the same for all entries of a block
+        bool allSamples = false;         ///< see samplesFor(); the same, but unless even
         std::array<std::uint8_t, kMostShares> shares{};
         std::array<Blocker, kSize> blockers;
 
@@ -94,6 +95,7 @@ public:
             visible = 0;
             blockerCount = 0;
             sharing = Sharing::even;
+            allSamples = false;
             shares = {};
         }
         void block(std::uint32_t object, int sample) {
@@ -129,11 +131,13 @@ public:
     template <class Visit>
     void forEachShared(Visit visit) const {
         const Sharing sharing = this->sharing();
+        const bool all = allSamples();
         std::size_t share = firstShare();
         forEachSeen([&](int receiver, float formFactor, float factor) {
-            const std::size_t count = shareCount(sharing, formFactor);
+            const int samples = samplesFor(formFactor, all);
+            const std::size_t count = shareCount(sharing, samples);
             const auto* const bytes = reinterpret_cast<const std::uint8_t*>(bytes_.get()) + share;
-            visit(receiver, factor, Shares{{bytes, count}, samplesFor(formFactor)});
+            visit(receiver, factor, Shares{{bytes, count}, samples});
             share += count;
         });
     }
@@ -220,7 +224,7 @@ private:
     static constexpr std::size_t kVisible = 8, kBytes = 16, kObjects = 18, kSeen = 20;
     static constexpr std::uint16_t kWideObjects = 0x8000;               ///< object ids of 4 bytes
     static constexpr std::uint16_t kQuarters = 0x4000, kCells = 0x2000; ///< there are shares
-    static constexpr std::uint16_t kFlags = kWideObjects | kQuarters | kCells;
+    static constexpr std::uint16_t kAllSamples = 0x1000;                ///< of blocks with shares
 
     template <class T>
     T at(std::size_t offset) const {
@@ -233,7 +237,16 @@ private:
         return present() == visible() ? visible() : at<std::uint64_t>(kSeen);
     }
     std::size_t size() const { return bytes_ ? at<std::uint16_t>(kBytes) : 0; }
-    std::size_t objectCount() const { return bytes_ ? at<std::uint16_t>(kObjects) & ~kFlags : 0; }
+    bool allSamples() const {
+        return sharing() != Sharing::even && (at<std::uint16_t>(kObjects) & kAllSamples) != 0;
+    }
+    std::size_t objectCount() const {
+        if (!bytes_) return 0;
+        // Without shares there may be 64 blockers an entry: 0x1000 in all.
+        const unsigned flags = kWideObjects | kQuarters | kCells |
+                               (sharing() == Sharing::even ? 0u : unsigned(kAllSamples));
+        return at<std::uint16_t>(kObjects) & ~flags;
+    }
     std::size_t objectSize() const { return at<std::uint16_t>(kObjects) & kWideObjects ? 4 : 2; }
 
     /// Where the parts begin. \pre there are entries

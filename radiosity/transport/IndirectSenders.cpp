@@ -17,8 +17,10 @@ constexpr float kFar = 3.5f;
 /// Patches of less than this share of a whole one's area meet in clusters whichever way they face.
 constexpr float kSmallShare = 0.125f;
 
-/// Of what an emitter sends: on whom more may fall may light a room alone.
-constexpr float kBrightShare = 1e-3f;
+/// Of what an emitter sends: on whom more may fall may light a room alone, or does very likely.
+constexpr float kBrightShare = 1e-3f, kGlaringShare = 0.1f;
+/// Of a cluster's area: where patches that glare are more it does, too.
+constexpr float kGlaringPart = 0.125f;
 
 static_assert(Clusters::kParts == kPatchSamples && kSenderCells == kPatchSamples);
 
@@ -53,7 +55,7 @@ IndirectSenders::IndirectSenders(const PatchSet& set, bool clusters)
     for (std::size_t p = meshed; p < patches; ++p) placePatch(std::uint32_t(p)); // with parents
     listChildren();
     placeEmitters();
-    findBright(0, count());
+    findBright();
 }
 
 void IndirectSenders::add(ObjectId object) {
@@ -63,7 +65,7 @@ void IndirectSenders::add(ObjectId object) {
     addObject(object);
     listChildren();
     findBright(patches.first, patches.end());
-    findBright(clustersOf(object).first, count());
+    findBrightClusters(object);
 }
 
 /// Makes room for the parts of those patches that are clusters of faces.
@@ -307,59 +309,105 @@ void IndirectSenders::placeClusters(const Family& family) {
 /// \return whether any is elsewhere than before, or hidden, or shown
 bool IndirectSenders::placeEmitters() {
     bool changed = false;
+    emitterAreas_.resize(set_.emitters.size());
     for (std::size_t e = 0; e < set_.emitters.size(); ++e) {
         const Emitter& emitter = set_.emitters[e];
         const bool present = set_.objects[emitter.object.value].present;
         const Bounds box = present ? boundsOf(emitter) : Bounds();
         if (e == emitters_.size()) emitters_.append({});
-        if (emitters_[e] == box) continue;
+        if (emitters_[e] == box && emitterAreas_[e] == emitter.area) continue;
         emitters_.set(e, box);
+        emitterAreas_[e] = emitter.area;
         changed = true;
     }
     return changed;
 }
 
-/// By the most that can fall on it, A / (pi d^2).
-bool IndirectSenders::isBright(std::uint32_t index) const {
-    const float reach2 = areas_[index] / (std::numbers::pi_v<float> * kBrightShare);
-    bool bright = false;
+/// By the most that can fall on it: A / (pi d^2), and by reciprocity no more than its share of the
+/// emitter's area.
+IndirectSenders::Brightness IndirectSenders::brightnessOf(std::uint32_t index) const {
+    const float area = areas_[index];
+    const auto mayCatch = [&](float share, const Bounds& emitter) {
+        return squaredGap(boxes_[index], emitter) * std::numbers::pi_v<float> * share <= area;
+    };
+    Brightness most = Brightness::usual;
     emitters_.query(
         [&](std::size_t n) {
-            return !bright && squaredGap(boxes_[index], emitters_.node(n)) <= reach2;
+            return most != Brightness::glaring && mayCatch(kBrightShare, emitters_.node(n));
         },
-        [&](std::size_t) { bright = true; });
-    return bright;
+        [&](std::size_t e) {
+            const bool glaring = mayCatch(kGlaringShare, emitters_[e]) &&
+                                 emitterAreas_[e] * double(kGlaringShare) <= double(area);
+            most = std::max(most, glaring ? Brightness::glaring : Brightness::bright);
+        });
+    return most;
 }
 
+void IndirectSenders::findBright() {
+    findBright(0, patchCount());
+    for (std::uint32_t o = 0; o < clusterRanges_.size(); ++o) findBrightClusters({o});
+}
+
+/// Of patches or clusters; but for glare that comes of single patches.
 void IndirectSenders::findBright(std::uint32_t first, std::uint32_t end) {
-    bright_.resize(count());
+    brightness_.resize(count());
     parallelFor(end - first, 1024, [&](std::size_t from, std::size_t to) {
         for (std::size_t i = from; i < to; ++i) {
             const std::uint32_t s = first + std::uint32_t(i);
-            bright_[s] = !boxes_[s].empty() && isBright(s);
+            brightness_[s] = boxes_[s].empty() ? Brightness::usual : brightnessOf(s);
         }
     });
 }
 
+/// \pre the patches are
+void IndirectSenders::findBrightClusters(ObjectId object) {
+    const Range clusters = clustersOf(object);
+    findBright(clusters.first, clusters.end());
+    std::vector<float> glaring(clusters.count); // [m^2]
+    for (std::uint32_t i = clusters.count; i-- > 0;) {
+        const std::uint32_t s = clusters.first + i, c = s - patchCount();
+        for (std::uint32_t k = firstChild_[c]; k < firstChild_[c + 1]; ++k) {
+            if (children_[k] >= patchCount())
+                glaring[i] += glaring[children_[k] - clusters.first];
+            else
+                set_.forEachPart(children_[k], [&](std::uint32_t part) {
+                    if (brightness_[part] == Brightness::glaring) glaring[i] += areas_[part];
+                });
+        }
+        const bool glares = glaring[i] > kGlaringPart * areas_[s];
+        if (glares || brightness_[s] == Brightness::glaring)
+            brightness_[s] = glares ? Brightness::glaring : Brightness::bright;
+    }
+}
+
 std::vector<std::uint32_t> IndirectSenders::followEmitters(const SceneChange& change) {
-    const std::vector<std::uint8_t> before = bright_;
+    const std::vector<Brightness> before = brightness_;
     if (placeEmitters()) {
-        findBright(0, count());
+        findBright();
     } else {
-        for (const ObjectId object : change.objects)
-            for (const Range own : {set_.objects[object.value].patches, clustersOf(object)})
-                findBright(own.first, own.end());
+        std::vector<ObjectId> objects = change.objects;
+        for (const ObjectId object : change.objects) {
+            const Range own = set_.objects[object.value].patches;
+            findBright(own.first, own.end());
+        }
         for (const std::uint32_t p : change.senders) findBright(p, p + 1);
+        for (const auto* patches : {&change.senders, &change.parted})
+            for (const std::uint32_t p : *patches)
+                if (objects_[p].valid()) objects.push_back(objects_[p]);
+        std::sort(objects.begin(), objects.end());
+        objects.erase(std::unique(objects.begin(), objects.end()), objects.end());
+        for (const ObjectId object : objects) findBrightClusters(object);
     }
     std::vector<std::uint32_t> changed;
     for (std::uint32_t s = 0; s < count(); ++s)
-        if (bright_[s] != before[s]) changed.push_back(s);
+        if (brightness_[s] != before[s]) changed.push_back(s);
     return changed;
 }
 
 PatchSender IndirectSenders::sender(std::uint32_t index) const {
     PatchSender sender;
     sender.least = leastFactor(index);
+    sender.allSamples = brightness(index) == Brightness::glaring;
     sender.samples = samples_.data() + std::size_t(index) * kPatchSamples;
     sender.key = keys_[index];
     sender.box = &boxes_[index];
@@ -387,7 +435,7 @@ bool IndirectSenders::sendsLike(std::uint32_t index, const IndirectSenders& othe
         !a.patch == !b.patch &&
         (!a.patch || (a.patch->centre == b.patch->centre && a.patch->normal == b.patch->normal &&
                       a.patch->area == b.patch->area));
-    return samePatch && a.cells == b.cells && a.least == b.least &&
+    return samePatch && a.cells == b.cells && a.least == b.least && a.allSamples == b.allSamples &&
            std::ranges::equal(a.outline, b.outline) &&
            std::ranges::equal(a.parts, b.parts, samePart) &&
            std::equal(a.samples, a.samples + kPatchSamples, b.samples);

@@ -40,7 +40,7 @@ public:
     /// A patch was parted otherwise, handed out or given back.
     void placePatch(std::uint32_t patch);
     /// Finds anew who is bright, once all is placed that a change names.
-    /// \return who was and is not, or is and was not, ascending
+    /// \return who was otherwise, ascending
     std::vector<std::uint32_t> followEmitters(const SceneChange& change);
 
     PatchSender sender(std::uint32_t index) const;
@@ -56,11 +56,14 @@ public:
                                     : set_.objects[objects_[index].value].present;
     }
     float area(std::uint32_t index) const { return areas_[index]; }
-    /// Entries have at least this form factor, see PatchSender. A sender is bright if a thousandth
-    /// of what some emitter sends may fall on it. Neither what is in the way counts, nor whether
-    /// the emitter is switched on: this depends on poses alone.
+    /// A sender is bright if a thousandth of what some emitter sends may fall on it, and glaring if
+    /// a tenth may. Neither what is in the way counts, nor whether the emitter is switched on: this
+    /// depends on poses alone.
+    enum class Brightness : std::uint8_t { usual, bright, glaring };
+    Brightness brightness(std::uint32_t index) const { return brightness_[index]; }
+    /// Entries have at least this form factor, see PatchSender.
     float leastFactor(std::uint32_t index) const {
-        return bright_[index] ? kLeastOfBright : kLeastFactor;
+        return brightness(index) == Brightness::usual ? kLeastFactor : kLeastOfBright;
     }
     /// The cluster that has this sender, Clusters::kNone if none.
     std::uint32_t parent(std::uint32_t index) const { return parents_[index]; }
@@ -98,8 +101,10 @@ private:
     };
     void listFaceClusters(Range patches);
     bool placeEmitters();
-    bool isBright(std::uint32_t index) const;
+    Brightness brightnessOf(std::uint32_t index) const;
+    void findBright();
     void findBright(std::uint32_t first, std::uint32_t end);
+    void findBrightClusters(ObjectId object);
     void addObject(ObjectId object);
     void addFamily(std::span<const ClusterPatch> patches);
     void listChildren();
@@ -122,10 +127,11 @@ private:
     std::vector<std::uint32_t> keys_, parents_;
     std::vector<float> areas_;
     std::vector<ObjectId> objects_;
-    std::vector<std::uint8_t> bright_;
-    BoundsTree emitters_;            ///< boxes; empty: one that is hidden
-    std::vector<Range> cells_;       ///< one a sender
-    std::vector<glm::vec3> samples_; ///< kPatchSamples a sender
+    std::vector<Brightness> brightness_;
+    std::vector<double> emitterAreas_; ///< [m^2]
+    BoundsTree emitters_;              ///< boxes; empty: one that is hidden
+    std::vector<Range> cells_;         ///< one a sender
+    std::vector<glm::vec3> samples_;   ///< kPatchSamples a sender
     /// Of each cluster's parts: which patch its sample is on, and which of that one's it is.
     struct Place {
         std::uint32_t patch = 0;

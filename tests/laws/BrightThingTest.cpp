@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace penumbra {
@@ -38,6 +39,63 @@ TEST(BrightThing, BesideABulbLightsABlackRoomEvenly) {
     for (const double radiosity : sent) mean += radiosity / double(sent.size());
     ASSERT_GT(mean, 0);
     for (const double radiosity : sent) EXPECT_NEAR(radiosity / mean, 1, 0.05);
+}
+
+/// Of the light of a bulb that a square of `size` around the origin, across x, sends to a far
+/// point: how much a screen at x = 1, which ends at height `height` + y / 2, lets pass.
+double shareSeen(glm::vec3 from, float size, float height, glm::vec3 bulb) {
+    constexpr int kSide = 40;
+    double seen = 0, all = 0;
+    for (int i = 0; i < kSide * kSide; ++i) {
+        const auto along = [&](int k) { return size * ((float(k) + 0.5f) / kSide - 0.5f); };
+        const glm::vec3 to(0, along(i / kSide), along(i % kSide));
+        const glm::vec3 met = glm::mix(from, to, (from.x - 1) / from.x);
+        const double sent = 1 / std::pow(double(glm::distance(bulb, to)), 3);
+        seen += met.z > height + met.y / 2 ? sent : 0;
+        all += sent;
+    }
+    return seen / all;
+}
+
+TEST(BrightThing, HalfHiddenStillLightsEvenly) {
+    // A card beside a bulb, and a screen that hides more of it the lower one is on the wall.
+    constexpr float kSize = 0.3f, kHeight = 0.1f;
+    constexpr glm::vec3 kBulb(0.15f, 0, 0.3f);
+    const std::vector<glm::vec3> front{{0, -kSize / 2, -kSize / 2},
+                                       {0, kSize / 2, -kSize / 2},
+                                       {0, kSize / 2, kSize / 2},
+                                       {0, -kSize / 2, kSize / 2}};
+    const auto bulb = std::make_shared<Light>("bulb", SphereShape{0.02f}, Rgb(1e5f));
+    const std::shared_ptr<Material> black = paint(Rgb(0.0f));
+    Solution solution(sceneOf({object("room", boxData({-3, -3, -3}, {3, 3, 3}, true, black)),
+                               object("card", polygonData(front, paint(Rgb(0.85f)))),
+                               object("screen", polygonData({{1, -2.5f, -2.9f},
+                                                             {1, 2.5f, -2.9f},
+                                                             {1, 2.5f, kHeight + 1.25f},
+                                                             {1, -2.5f, kHeight - 1.25f}},
+                                                            black)),
+                               placed("bulb", moved(kBulb.x, kBulb.y, kBulb.z), {bulb})}),
+                      {.patchSize = 0.5f, .elementSize = 0.05f}, {.residual = 1e-6});
+    const PatchSet& set = solution.patches();
+    const std::vector<glm::dvec3> light = solution.solver.indirect().nodes();
+    const Range nodes = set.objects[0].nodes;
+    double whole = 0, wholeCount = 0;
+    std::vector<std::pair<double, double>> partly; // share expected, and sent
+    for (std::uint32_t n = nodes.first; n < nodes.end(); ++n) {
+        const Receiver& node = set.nodes[n];
+        if (isPadding(node) || node.normal.x > -0.5f || std::abs(node.position.y) > 2) continue;
+        const double share = shareSeen(node.position, kSize, kHeight, kBulb);
+        const double sent =
+            light[n].x / double(pointToPolygonFormFactor(node.position, node.normal, front));
+        if (share == 1) whole += sent, ++wholeCount;
+        if (share > 0 && share < 1) partly.emplace_back(share, sent);
+    }
+    ASSERT_GT(wholeCount, 20);
+    ASSERT_GT(partly.size(), 20u);
+    double squares = 0;
+    for (const auto& [share, sent] : partly)
+        squares += std::pow(sent * wholeCount / whole - share, 2) / double(partly.size());
+    EXPECT_LT(std::sqrt(squares), 0.05) << "four samples are .38 off";
 }
 
 } // namespace

@@ -54,13 +54,15 @@ std::vector<Draft> anyDrafts() {
     std::vector<Draft> drafts(std::size_t(*rc::gen::inRange(0, RowBlock::kSize + 1)));
     const auto sharing = *rc::gen::element(RowBlock::Sharing::even, RowBlock::Sharing::quarters,
                                            RowBlock::Sharing::cells);
+    const bool all = sharing != RowBlock::Sharing::even && *rc::gen::arbitrary<bool>();
     for (Draft& draft : drafts) {
         draft = anyDraft();
         if (!(draft.formFactor > 0)) continue;
         draft.formFactor *= *rc::gen::element(1.0f, 0.01f, 0.0001f); // of 16, 4 samples, or one
         draft.sharing = sharing;
+        draft.allSamples = all;
         if (draft.blockerCount > 0 && draft.visible == 0) continue;
-        const std::size_t count = RowBlock::shareCount(sharing, draft.formFactor);
+        const std::size_t count = RowBlock::shareCount(sharing, samplesFor(draft.formFactor, all));
         for (std::size_t i = 0; i < count; ++i)
             draft.shares[i] = *rc::gen::inRange<std::uint8_t>(0, 16);
     }
@@ -116,7 +118,8 @@ RC_GTEST_PROP(Row, VisitsTheSharesOfWhatIsSeen, ()) {
     block.assign(drafts);
     block.forEachShared([&](int receiver, float, RowBlock::Shares shares) {
         const Draft& draft = drafts[std::size_t(receiver)];
-        RC_ASSERT(shares.bytes.size() == RowBlock::shareCount(draft.sharing, draft.formFactor));
+        RC_ASSERT(shares.samples == samplesFor(draft.formFactor, draft.allSamples));
+        RC_ASSERT(shares.bytes.size() == RowBlock::shareCount(draft.sharing, shares.samples));
         RC_ASSERT(
             std::ranges::equal(shares.bytes, std::span(draft.shares).first(shares.bytes.size())));
     });
@@ -146,6 +149,7 @@ RC_GTEST_PROP(Row, DecodesIntoWhatWasAssigned, ()) {
         RC_ASSERT(to.visibility == from.visibility);
         RC_ASSERT(to.blockerCount == from.blockerCount);
         RC_ASSERT(to.sharing == from.sharing);
+        RC_ASSERT(to.allSamples == from.allSamples);
         RC_ASSERT(to.shares == from.shares);
         RC_ASSERT(to.visible == (from.blockerCount == 0 ? ~std::uint64_t(0) : from.visible));
         for (std::size_t b = 0; b < std::size_t(to.blockerCount); ++b) {

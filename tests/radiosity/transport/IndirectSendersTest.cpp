@@ -114,7 +114,7 @@ TEST_F(SendersOfARoom, AreBrightBesideALight) {
     // The light is beside the ceiling, and two metres above the chair's and the floor's patches of
     // a tenth of a metre.
     const auto isBright = [&](const IndirectSenders& of, std::uint32_t s) {
-        return of.leastFactor(s) == kLeastOfBright;
+        return of.brightness(s) != IndirectSenders::Brightness::usual;
     };
     std::size_t bright = 0, others = 0;
     for (std::uint32_t p = 0; p < senders.patchCount(); ++p) {
@@ -127,14 +127,13 @@ TEST_F(SendersOfARoom, AreBrightBesideALight) {
     EXPECT_GT(others, 100u);
 
     const auto expectFresh = [&](const SceneChange& change) {
-        std::vector<std::uint8_t> before(senders.count());
-        for (std::uint32_t s = 0; s < senders.count(); ++s) before[s] = isBright(senders, s);
+        std::vector<IndirectSenders::Brightness> before;
+        for (std::uint32_t s = 0; s < senders.count(); ++s) before.push_back(senders.brightness(s));
         const std::vector<std::uint32_t> changed = senders.followEmitters(change);
         const IndirectSenders fresh(set(), true);
         for (std::uint32_t s = 0; s < senders.count(); ++s) {
-            EXPECT_EQ(isBright(senders, s), isBright(fresh, s)) << "sender " << s;
-            EXPECT_EQ(std::ranges::binary_search(changed, s),
-                      isBright(senders, s) != bool(before[s]))
+            EXPECT_EQ(senders.brightness(s), fresh.brightness(s)) << "sender " << s;
+            EXPECT_EQ(std::ranges::binary_search(changed, s), senders.brightness(s) != before[s])
                 << "sender " << s;
         }
         return changed.size();
@@ -155,6 +154,28 @@ TEST_F(SendersOfARoom, AreBrightBesideALight) {
     EXPECT_GT(expectFresh({.objects = {light}}), 0u);
     built.patches.objects[light.value].present = false;
     EXPECT_GT(expectFresh({.objects = {light}}), 0u) << "it is hidden";
+}
+
+TEST(IndirectSenders, GlareRightBesideASmallLightAndSoDoTheirClusters) {
+    // A bulb hangs a tenth of a metre below a box of three.
+    const auto bulb = std::make_shared<Light>("bulb", SphereShape{0.02f}, Rgb(1e4f));
+    const BuiltPatches built =
+        meshed(sceneOf({object("room", boxData({-2, -2, 0}, {2, 2, 3}, true)),
+                        object("box", boxData({-0.15f, -0.15f, 1.6f}, {0.15f, 0.15f, 1.9f}, false)),
+                        placed("bulb", moved(0, 0, 1.48), {bulb})}),
+               kFine);
+    const PatchSet& set = built.patches;
+    const IndirectSenders senders(set, true);
+    std::size_t patches = 0, clusters = 0;
+    for (std::uint32_t s = 0; s < senders.count(); ++s) {
+        const bool glares = senders.brightness(s) == IndirectSenders::Brightness::glaring;
+        (s < senders.patchCount() ? patches : clusters) += glares && senders.object(s).value == 1;
+        if (!glares) continue;
+        EXPECT_GT(senders.object(s).value, 0u) << "sender " << s << " is of the room";
+        if (s < senders.patchCount()) EXPECT_LT(set.patches[s].centre.z, 1.75f) << "patch " << s;
+    }
+    EXPECT_GE(patches, 9u);
+    EXPECT_GT(clusters, 0u);
 }
 
 TEST(IndirectSenders, WithoutClustersArePatchesAlone) {
