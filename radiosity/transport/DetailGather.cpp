@@ -1,5 +1,6 @@
 #include "radiosity/transport/DetailGather.h"
 
+#include "base/Bits.h"
 #include "base/Parallel.h"
 #include "base/Wide.h"
 #include "radiosity/mesh/Interpolation.h"
@@ -16,24 +17,15 @@ namespace penumbra {
 namespace {
 
 constexpr int kRays = DetailHits::kRays;
-constexpr float kMostOfFar = 5; ///< of what nodes receive: what a far ray counts for
-constexpr int kSweeps = 10;     ///< light goes from gathering vertex to gathering vertex
+constexpr float kMostOfFar = 5;   ///< of what nodes receive: what a far ray counts for
+constexpr float kAlike = 0.9998f; ///< cosine: one degree
+constexpr int kSweeps = 10;       ///< light goes from gathering vertex to gathering vertex
 /// So many take all that gathers; from then on what changed by less than this share, of what is
 /// drawn of it, in the last one that took it is left as it is. Most is, and light in a few deep
 /// slits needs many sweeps.
 constexpr int kFullSweeps = 3;
 constexpr double kSettled = 1e-3;
-
-double smoothstep(double low, double high, double x) {
-    const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-    return t * t * (3 - 2 * t);
-}
-
-/// How far what rays gather replaces what patches say, at a node of this openness: what
-/// is wrong there spreads over its patches, so patches are believed later than at a vertex.
-double shutNodeWeight(double openness) {
-    return 1 - smoothstep(0.4, 0.85, openness);
-}
+constexpr int kRounds = 3; ///< of a sweep
 
 /// Mean direct illuminance of an element's corners [lux].
 Rgb directMean(const Element& element, std::span<const Rgb> direct) {
@@ -54,18 +46,18 @@ bool isSettled(Rgb was, Rgb now, Rgb drawn) {
 
 } // namespace
 
-/// Sweeps under way. Each takes four rounds, of blended vertices, elements, nodes and vertices; of
-/// the last one's vertices only those are gathered that are asked for.
+/// Sweeps under way. Each takes kRounds, of blended vertices, elements, and vertices that gather;
+/// of the last one's vertices only those are gathered that are asked for.
 struct DetailGather::Sweep {
     std::span<const Rgb> direct;
     std::vector<Rgb> indirect;
     std::vector<glm::dvec3> nodeIndirect;
     Sent sent;
-    std::vector<std::uint8_t> settledVertices, settledNodes; ///< 1: see kFullSweeps
-    int round = -1; ///< -1: vertices are interpolated; 4 i + k: round k of sweep i
+    std::vector<std::uint8_t> settled; ///< vertices; 1: see kFullSweeps
+    int round = -1; ///< -1: vertices are interpolated; kRounds i + k: round k of sweep i
     std::size_t next = 0;
 
-    bool isFull() const { return round < 4 * kFullSweeps; }
+    bool isFull() const { return round < kRounds * kFullSweeps; }
 };
 
 DetailGather::DetailGather(const PatchSet& patches, NodeHits& nodes)
@@ -86,8 +78,8 @@ DetailGather::Light DetailGather::usual(const std::vector<Light>& lights) {
 /// begin again, though it may be hidden and no edit follow.
 void DetailGather::add(std::span<const ObjectId> objects) {
     hits_.add(objects);
-    sweeping_ = sent_.current = false;
-    if (sent_.nodes.empty()) return;
+    sweeping_ = false;
+    if (sent_.all.empty()) return;
     sent_.all.resize(patches_.elements.size(), usual(sent_.all));
     sent_.direct.resize(patches_.elements.size(), usual(sent_.direct));
 }
@@ -95,7 +87,7 @@ void DetailGather::add(std::span<const ObjectId> objects) {
 /// Likewise.
 void DetailGather::takeOver(const DetailGather& before, const PatchMatch& match,
                             const NodeHits::Taken& taken) {
-    if (!hits_.takeOver(before.hits_, match, taken) || before.sent_.nodes.empty()) return;
+    if (!hits_.takeOver(before.hits_, match, taken) || before.sent_.all.empty()) return;
     const std::vector<std::uint32_t>& elements = taken.elements;
     std::vector<std::uint32_t> were(patches_.elements.size(), PatchMatch::kNew);
     for (std::uint32_t e = 0; e < elements.size(); ++e)
@@ -106,22 +98,19 @@ void DetailGather::takeOver(const DetailGather& before, const PatchMatch& match,
         for (std::size_t i = 0; i < numbers.size(); ++i)
             if (numbers[i] != PatchMatch::kNew) to[i] = from[numbers[i]];
     };
-    glm::dvec3 nodes(0);
-    for (const glm::dvec3 node : before.sent_.nodes) nodes += node;
     take(before.sent_.all, were, usual(before.sent_.all), sent_.all);
     take(before.sent_.direct, were, usual(before.sent_.direct), sent_.direct);
-    take(before.sent_.nodes, match.nodes, nodes / double(before.sent_.nodes.size()), sent_.nodes);
 }
 
 void DetailGather::apply(const SceneChange& change, std::span<const NodeHits::Move> moves) {
     hits_.apply(change, moves);
-    swept_ = sweeping_ = sent_.current = false;
+    swept_ = sweeping_ = false;
     pending_ = true;
 }
 
 void DetailGather::invalidate(const Bounds& region) {
     hits_.invalidate(region);
-    swept_ = sweeping_ = sent_.current = false;
+    swept_ = sweeping_ = false;
     pending_ = true;
 }
 
@@ -132,11 +121,7 @@ void DetailGather::beginSweeps(std::span<const Rgb> direct, std::vector<glm::dve
     sweep_->nodeIndirect = std::move(nodeIndirect);
     sweep_->sent.all.resize(patches_.elements.size());
     sweep_->sent.direct.resize(patches_.elements.size());
-    sweep_->sent.nodes.resize(patches_.nodes.size());
-    sweep_->sent.far.resize(patches_.nodes.size());
-    sweep_->settledVertices.assign(direct.size(), 0);
-    sweep_->settledNodes.assign(patches_.nodes.size(), 0);
-    sweep_->sent.current = true;
+    sweep_->settled.assign(direct.size(), 0);
     sweep_->round = -1;
     sweep_->next = 0;
     sweeping_ = true;
@@ -149,15 +134,14 @@ void DetailGather::sweep(std::size_t effort) {
         std::size_t cost; ///< of sixteen of them, about [rays]
     };
     constexpr std::size_t kGroups = PatchSet::kBlock / DetailHits::kGroup; // of a block
-    const std::array<Round, 5> rounds{{
+    const std::array<Round, 1 + kRounds> rounds{{
         {&DetailGather::interpolateVertices, hits_.groupCount(), 16},
         {&DetailGather::blendVertices, hits_.groupCount() / kGroups, 16},
         {&DetailGather::sendElements, patches_.elements.size(), 2},
-        {&DetailGather::gatherNodes, patches_.nodes.size(), 16},
         {&DetailGather::gatherVertices, hits_.groupCount(), 128},
     }};
     Sweep& s = *sweep_;
-    const Round& round = rounds[std::size_t(s.round < 0 ? 0 : 1 + s.round % 4)];
+    const Round& round = rounds[std::size_t(s.round < 0 ? 0 : 1 + s.round % kRounds)];
     const std::size_t count =
         std::min(round.count - s.next, std::max<std::size_t>(16, 16 * effort / round.cost));
     parallelFor(count, std::max<std::size_t>(16, 4096 / round.cost),
@@ -167,7 +151,7 @@ void DetailGather::sweep(std::size_t effort) {
     s.next += count;
     if (s.next < round.count) return;
     s.next = 0;
-    if (++s.round < 4 * kSweeps - 1) return;
+    if (++s.round < kRounds * kSweeps - 1) return;
     std::swap(sent_, s.sent);
     sweeping_ = pending_ = false;
     swept_ = true;
@@ -234,49 +218,26 @@ void DetailGather::sendElements(Sweep& sweep, std::size_t first, std::size_t las
     }
 }
 
-void DetailGather::gatherNodes(Sweep& sweep, std::size_t first, std::size_t last) const {
-    Sent& sent = sweep.sent;
-    for (std::size_t n = first; n < last; ++n) {
-        if (!sweep.isFull() && sweep.settledNodes[n] != 0) continue;
-        const glm::dvec3 was =
-            std::exchange(sent.nodes[n], gathered(sent, hits_.nodes().hits(n), false));
-        sent.far[n] = brightestFar(sent, n);
-        sweep.settledNodes[n] = isSettled(toRgb(was), toRgb(sent.nodes[n]), toRgb(sent.nodes[n]));
-    }
-}
-
-/// The most that a far ray of a node finds [lm/m^2].
-float DetailGather::brightestFar(const Sent& sent, std::size_t node) const {
-    float most = 0;
-    const std::span<const std::uint32_t> hits = hits_.nodes().hits(node);
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-        const std::uint32_t element = hits[i] & ~DetailRays::kAcross;
-        const bool isNear = (hits_.nodes().near(node) >> i & 1) != 0;
-        if (!isNear && element < sent.all.size())
-            most = std::max(most, sent.all[element].luminance);
-    }
-    return most;
-}
-
 void DetailGather::gatherVertices(Sweep& sweep, std::size_t first, std::size_t last) const {
     for (std::size_t group = first; group < last; ++group)
         for (const auto& gatherer : hits_.gatherers(group)) {
             const std::uint32_t v = gatherer.vertex;
-            if (!gatherer.weighs() || (!sweep.isFull() && sweep.settledVertices[v] != 0)) continue;
+            if (!gatherer.weighs() || (!sweep.isFull() && sweep.settled[v] != 0)) continue;
             const Rgb was = std::exchange(
                 sweep.indirect[v], received(sweep.sent, group, gatherer, sweep.nodeIndirect));
-            sweep.settledVertices[v] =
+            sweep.settled[v] =
                 isSettled(was, sweep.indirect[v], sweep.direct[v] + sweep.indirect[v]);
         }
 }
 
 glm::dvec3 DetailGather::gathered(const Sent& sent, std::span<const std::uint32_t> hits, bool slit,
-                                  std::uint64_t bounded, float most) const {
+                                  const Bound& bound) const {
     Double4 sum{}; // red, green, blue, luminance
     glm::dvec3 returned(0);
     Light brightest;
     float second = 0; // brightest [lm/m^2]
-    for (std::size_t i = 0; i < hits.size(); ++i) {
+    for (const int ray : bitsOf(bound.which)) {
+        const auto i = std::size_t(ray);
         const std::uint32_t element = hits[i] & ~DetailRays::kAcross;
         // None, or it is not known as yet what the ray meets now.
         if (element >= sent.all.size()) continue;
@@ -286,8 +247,8 @@ glm::dvec3 DetailGather::gathered(const Sent& sent, std::span<const std::uint32_
             returned += glm::dvec3(rho.r, rho.g, rho.b);
         }
         Light light = returns ? sent.direct[element] : sent.all[element];
-        if (light.luminance > most && (bounded >> i & 1))
-            light = {most / light.luminance * light.colour, most};
+        if (light.luminance > bound.most && (bound.far >> i & 1))
+            light = {bound.most / light.luminance * light.colour, bound.most};
         sum += __builtin_convertvector(std::bit_cast<Float4>(light), Double4);
         if (light.luminance > brightest.luminance)
             second = brightest.luminance, brightest = light;
@@ -302,28 +263,23 @@ glm::dvec3 DetailGather::gathered(const Sent& sent, std::span<const std::uint32_
            (double(kRays) - returned);
 }
 
-/// What a node gathers, its far rays bounded: where none finds as much, what the sweeps gathered.
-glm::dvec3 DetailGather::gatheredAt(const Sent& sent, std::uint32_t node, float most) const {
-    if (sent.current && node < sent.far.size() && sent.far[node] <= most) return sent.nodes[node];
-    return gathered(sent, hits_.nodes().hits(node), false, ~hits_.nodes().near(node), most);
-}
-
-/// How much more a vertex gathers than its nodes do. Both count what is far away only up to a few
-/// times what is `known` of the vertex: a single ray that happens to find something small and
-/// bright there would stand for a 64th of the hemisphere at one of them, and for nothing at the
-/// others.
+/// How much more a vertex gathers than its nodes do. Where it faces as a node does, rays that meet
+/// nothing near from here nor there do not count: they would tell what patches know better, with
+/// all the noise of few rays. For the same reason far light counts only up to a few times what is
+/// `known` of the vertex: a single ray that happens to find something small and bright would stand
+/// for a 64th of the hemisphere at one of them, and for nothing at the others.
 glm::dvec3 DetailGather::difference(const Sent& sent, std::span<const std::uint32_t> hits,
                                     const DetailHits::Gatherer& gatherer, glm::dvec3 known) const {
-    const PatchCoordinate& at = patches_.vertexCoordinates[gatherer.vertex];
+    const glm::vec3 normal = patches_.vertices[gatherer.vertex].receiver.normal;
     const float most = kMostOfFar * luminance(toRgb(glm::max(known, 0.0)));
-    return gathered(sent, hits, false, ~gatherer.near, most) -
-           interpolate<glm::dvec3>(patches_, at,
-                                   [&](std::uint32_t n) { return gatheredAt(sent, n, most); });
-}
-
-glm::dvec3 DetailGather::nodeValue(const Sent& sent, std::size_t node, glm::dvec3 known) const {
-    if (node >= sent.nodes.size()) return known; // it is new
-    return glm::mix(known, sent.nodes[node], shutNodeWeight(hits_.nodes().openness(node)));
+    const auto moreThan = [&](std::uint32_t node) {
+        const std::uint64_t near = hits_.nodes().near(node);
+        const bool alike = glm::dot(normal, patches_.nodes[node].normal) > kAlike;
+        const std::uint64_t which = alike ? gatherer.near | near : ~std::uint64_t(0);
+        return gathered(sent, hits, false, {which, ~gatherer.near, most}) -
+               gathered(sent, hits_.nodes().hits(node), false, {which, ~near, most});
+    };
+    return interpolate<glm::dvec3>(patches_, patches_.vertexCoordinates[gatherer.vertex], moreThan);
 }
 
 /// Indirect light of a vertex in question [lux].
@@ -334,20 +290,19 @@ Rgb DetailGather::received(const Sent& sent, std::size_t group,
     const auto hits = hits_.hits(group, gatherer);
     glm::dvec3 light(0);
     if (gatherer.shut < 1) {
-        light = interpolate<glm::dvec3>(
-            patches_, at, [&](std::uint32_t n) { return nodeValue(sent, n, nodeIndirect[n]); });
+        light = interpolateNodes<glm::dvec3>(patches_, at, nodeIndirect);
         if (gatherer.detail > 0)
             light += double(gatherer.detail) * difference(sent, hits, gatherer, light);
     }
     if (gatherer.shut > 0)
-        light = glm::mix(light, gathered(sent, hits, gatherer.slit && inSlit(hits)),
+        light = glm::mix(light, gathered(sent, hits, gatherer.slit && inSlit(hits), {}),
                          double(gatherer.shut));
     return toRgb(glm::max(light, 0.0));
 }
 
 void DetailGather::correct(std::uint32_t block, std::span<const glm::dvec3> nodeIndirect,
                            std::span<Rgb> indirect) const {
-    if (sent_.nodes.empty()) return;
+    if (sent_.all.empty()) return;
     if (patches_.isBlended(block)) {
         std::unordered_map<std::uint32_t, Rgb> corrections;
         return blend(block, indirect, [&](const DetailHits::Gatherer& gatherer) {

@@ -24,7 +24,8 @@ namespace penumbra {
 ///     H_v = interpolated H + w (G_v - interpolated G)
 ///
 /// where w rises from 0 to 1 as the vertex's openness differs from the one interpolated from the
-/// nodes. Vertex and nodes use the same ray directions, so that most of the sampling error cancels.
+/// nodes. Vertex and nodes use the same ray directions, so that most of the sampling error cancels;
+/// directions that meet nothing near from either are left out where they face alike.
 /// Where a vertex is so enclosed that near surfaces matter more than patches can tell, G itself is
 /// taken.
 /// In a slit narrower than an element light dies off between two vertices. There a ray that meets
@@ -88,28 +89,26 @@ private:
         Rgb colour;
         float luminance = 0;
     };
-    /// What elements reflect, and what nodes gather of it.
+    /// What elements reflect.
     struct Sent {
         std::vector<Light> all, direct; ///< of all light, and of direct light alone
-        std::vector<glm::dvec3> nodes;  ///< [lux]
-        std::vector<float> far;         ///< the brightest that nodes' far rays find [lm/m^2]
-        bool current = false;           ///< whether these rays meet the same still
     };
     struct Sweep;
     static Light usual(const std::vector<Light>& lights);
-    /// \param bounded bits: rays that count for a luminance of `most` [lm/m^2] at the most
+    /// Which rays count, and for how much.
+    struct Bound {
+        std::uint64_t which = ~std::uint64_t(0); ///< bits: those that count
+        std::uint64_t far = 0;                   ///< bits: for `most` [lm/m^2] at the most
+        float most = 0;
+    };
     glm::dvec3 gathered(const Sent& sent, std::span<const std::uint32_t> hits, bool slit,
-                        std::uint64_t bounded = 0, float most = 0) const;
-    float brightestFar(const Sent& sent, std::size_t node) const;
-    glm::dvec3 gatheredAt(const Sent& sent, std::uint32_t node, float most) const;
+                        const Bound& bound) const;
     glm::dvec3 difference(const Sent& sent, std::span<const std::uint32_t> hits,
                           const DetailHits::Gatherer& gatherer, glm::dvec3 known) const;
-    glm::dvec3 nodeValue(const Sent& sent, std::size_t node, glm::dvec3 known) const;
     Rgb received(const Sent& sent, std::size_t group, const DetailHits::Gatherer& gatherer,
                  std::span<const glm::dvec3> nodeIndirect) const;
     void interpolateVertices(Sweep& sweep, std::size_t first, std::size_t last) const;
     void sendElements(Sweep& sweep, std::size_t first, std::size_t last) const;
-    void gatherNodes(Sweep& sweep, std::size_t first, std::size_t last) const;
     void gatherVertices(Sweep& sweep, std::size_t first, std::size_t last) const;
     void blendVertices(Sweep& sweep, std::size_t first, std::size_t last) const;
     template <class CorrectionOf>

@@ -200,7 +200,7 @@ void DetailHits::follow(const Visit& at, Group& out, GroupOutcome& outcome) cons
     }
     outcome.rays += std::uint64_t(rays_.follow(at.receiver, which, true, hits));
     const double guess = openness(hits.near & DetailRays::kAllProbes, kProbes);
-    if (std::abs(guess - at.expected) < 0.07 && guess > 0.5) {
+    if (std::abs(guess - at.expected) < 0.03 && guess > 0.5) {
         // Rays that meet nothing near matter no farther.
         auto& probes = out.addProbes(slot);
         for (std::size_t r = 0; r < probes.size(); ++r)
@@ -224,7 +224,7 @@ void DetailHits::gather(const Visit& at, DetailRays::Hits& hits, Group& out,
     gatherer.near = hits.near;
     gatherer.first = std::uint32_t(out.hits.size());
     const double open = openness(hits.near, kRays);
-    gatherer.detail = float(smoothstep(0.02, 0.08, std::abs(open - at.expected)));
+    gatherer.detail = float(smoothstep(0.01, 0.04, std::abs(open - at.expected)));
     gatherer.shut = float(1 - smoothstep(0.25, 0.45, open));
     out.hits.insert(out.hits.end(), hits.elements.begin(), hits.elements.end());
     outcome.ways.add(hits.ways);
