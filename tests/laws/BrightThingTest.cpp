@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -96,6 +97,37 @@ TEST(BrightThing, HalfHiddenStillLightsEvenly) {
     for (const auto& [share, sent] : partly)
         squares += std::pow(sent * wholeCount / whole - share, 2) / double(partly.size());
     EXPECT_LT(std::sqrt(squares), 0.05) << "four samples are .38 off";
+}
+
+TEST(BrightThing, LightsWhatIsUnderACeilingEvenly) {
+    // A table under a downlight lights the room: a small spot, which few of a point's rays find.
+    constexpr float kElement = 0.05f;
+    const auto spot = std::make_shared<Light>("spot", DiskShape{0.05f}, Rgb(1e5f));
+    Solution solution(sceneOf({object("room", boxData({-2, -2, 0}, {2, 2, 2}, true)),
+                               object("table", floorData(-0.4f, 0.4f, -0.4f, 0.4f, 0.5f)),
+                               placed("spot", moved(0, 0, 0.8), {spot})}),
+                      {.patchSize = 0.4f, .elementSize = kElement});
+    const PatchSet& set = solution.patches();
+    std::map<std::pair<int, int>, double> wall; // by column and row
+    const Range vertices = set.objects[0].vertices;
+    for (std::uint32_t v = vertices.first; v < vertices.end(); ++v) {
+        const Receiver& receiver = set.vertices[v].receiver;
+        const bool onWall = receiver.normal.y < -0.5f && std::abs(receiver.position.x) < 1.6f;
+        if (isPadding(receiver) || !onWall || receiver.position.z < 1.5f) continue;
+        const glm::ivec2 at(
+            glm::round(glm::vec2(receiver.position.x, receiver.position.z) / kElement));
+        wall[{at.x, at.y}] = double(solution.at(v).g);
+    }
+    double squares = 0, count = 0;
+    for (const auto& [at, light] : wall) {
+        const auto left = wall.find({at.first - 1, at.second});
+        const auto right = wall.find({at.first + 1, at.second});
+        if (left == wall.end() || right == wall.end()) continue;
+        squares += std::pow(2 * light / (left->second + right->second) - 1, 2);
+        ++count;
+    }
+    ASSERT_GT(count, 400);
+    EXPECT_LT(std::sqrt(squares / count), 0.005);
 }
 
 } // namespace
