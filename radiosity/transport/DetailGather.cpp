@@ -1,6 +1,5 @@
 #include "radiosity/transport/DetailGather.h"
 
-#include "base/Bits.h"
 #include "base/Parallel.h"
 #include "base/Wide.h"
 #include "radiosity/mesh/Interpolation.h"
@@ -235,9 +234,10 @@ glm::dvec3 DetailGather::gathered(const Sent& sent, std::span<const std::uint32_
     Double4 sum{}; // red, green, blue, luminance
     glm::dvec3 returned(0);
     Light brightest;
+    bool brightestCounts = false;
     float second = 0; // brightest [lm/m^2]
-    for (const int ray : bitsOf(bound.which)) {
-        const auto i = std::size_t(ray);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        const bool counts = bound.which >> i & 1;
         const std::uint32_t element = hits[i] & ~DetailRays::kAcross;
         // None, or it is not known as yet what the ray meets now.
         if (element >= sent.all.size()) continue;
@@ -249,15 +249,15 @@ glm::dvec3 DetailGather::gathered(const Sent& sent, std::span<const std::uint32_
         Light light = returns ? sent.direct[element] : sent.all[element];
         if (light.luminance > bound.most && (bound.far >> i & 1))
             light = {bound.most / light.luminance * light.colour, bound.most};
-        sum += __builtin_convertvector(std::bit_cast<Float4>(light), Double4);
+        if (counts) sum += __builtin_convertvector(std::bit_cast<Float4>(light), Double4);
         if (light.luminance > brightest.luminance)
-            second = brightest.luminance, brightest = light;
+            second = brightest.luminance, brightest = light, brightestCounts = counts;
         else
             second = std::max(second, light.luminance);
     }
     // A single ray that finds the glowing inside of a lampshade counts like the next: no fireflies.
     // It is dimmed, not replaced, or which of two alike is the brighter would decide on the colour.
-    const float more = brightest.luminance - second;
+    const float more = brightestCounts ? brightest.luminance - second : 0.0f;
     const Rgb excess = more > 0 ? more / brightest.luminance * brightest.colour : Rgb();
     return (glm::dvec3(sum[0], sum[1], sum[2]) - glm::dvec3(excess.r, excess.g, excess.b)) /
            (double(kRays) - returned);
