@@ -18,7 +18,7 @@ constexpr float kFar = 3.5f;
 constexpr float kSmallShare = 0.125f;
 
 /// Of what an emitter sends: on whom more may fall may light a room alone, or does very likely.
-constexpr float kBrightShare = 1e-3f, kGlaringShare = 0.1f;
+constexpr float kBrightShare = 1e-3f, kGlaringShare = 0.3f;
 /// Of a cluster's area: where patches that glare are more it does, too.
 constexpr float kGlaringPart = 0.125f;
 

@@ -57,8 +57,8 @@ public:
     }
     float area(std::uint32_t index) const { return areas_[index]; }
     /// A sender is bright if a thousandth of what some emitter sends may fall on it, and glaring if
-    /// a tenth may. Neither what is in the way counts, nor whether the emitter is switched on: this
-    /// depends on poses alone.
+    /// three tenths may. Neither what is in the way counts, nor whether the emitter is switched on:
+    /// this depends on poses alone.
     enum class Brightness : std::uint8_t { usual, bright, glaring };
     Brightness brightness(std::uint32_t index) const { return brightness_[index]; }
     /// Entries have at least this form factor, see PatchSender.

@@ -157,12 +157,12 @@ TEST_F(SendersOfARoom, AreBrightBesideALight) {
 }
 
 TEST(IndirectSenders, GlareRightBesideASmallLightAndSoDoTheirClusters) {
-    // A bulb hangs a tenth of a metre below a box of three.
+    // A bulb hangs five centimetres below a box of thirty.
     const auto bulb = std::make_shared<Light>("bulb", SphereShape{0.02f}, Rgb(1e4f));
     const BuiltPatches built =
         meshed(sceneOf({object("room", boxData({-2, -2, 0}, {2, 2, 3}, true)),
                         object("box", boxData({-0.15f, -0.15f, 1.6f}, {0.15f, 0.15f, 1.9f}, false)),
-                        placed("bulb", moved(0, 0, 1.48), {bulb})}),
+                        placed("bulb", moved(0, 0, 1.53), {bulb})}),
                kFine);
     const PatchSet& set = built.patches;
     const IndirectSenders senders(set, true);
