@@ -85,7 +85,7 @@ public:
         std::uint64_t visible;           ///< mask of the visible samples
         int blockerCount = 0;            ///< 0: all samples are visible
         Sharing sharing = Sharing::even; ///< the same for all entries of a block
-        bool allSamples = false;         ///< see samplesFor(); the same, but unless even
+        bool allSamples = false;         ///< see samplesFor(); likewise, false if even
         std::array<std::uint8_t, kMostShares> shares{};
         std::array<Blocker, kSize> blockers;
 

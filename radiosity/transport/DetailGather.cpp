@@ -16,7 +16,7 @@ namespace penumbra {
 namespace {
 
 constexpr int kRays = DetailHits::kRays;
-constexpr float kMostOfFar = 5;   ///< of what nodes receive: what a far ray counts for
+constexpr float kMostOfFar = 5;   ///< of what a vertex receives: what a far ray counts for
 constexpr float kAlike = 0.9998f; ///< cosine: one degree
 constexpr int kSweeps = 10;       ///< light goes from gathering vertex to gathering vertex
 /// So many take all that gathers; from then on what changed by less than this share, of what is
@@ -137,7 +137,7 @@ void DetailGather::sweep(std::size_t effort) {
         {&DetailGather::interpolateVertices, hits_.groupCount(), 16},
         {&DetailGather::blendVertices, hits_.groupCount() / kGroups, 16},
         {&DetailGather::sendElements, patches_.elements.size(), 2},
-        {&DetailGather::gatherVertices, hits_.groupCount(), 128},
+        {&DetailGather::gatherVertices, hits_.groupCount(), 512},
     }};
     Sweep& s = *sweep_;
     const Round& round = rounds[std::size_t(s.round < 0 ? 0 : 1 + s.round % kRounds)];

@@ -185,7 +185,7 @@ void IndirectLight::apply(const SceneChange& change) {
         senders_.placePatch(p);
         planar_[p] = isPlanar(p);
     }
-    const std::vector<std::uint32_t> brightOrNot = senders_.followEmitters(change);
+    const std::vector<std::uint32_t> otherwiseBright = senders_.followEmitters(change);
     const std::vector<BlockMask> masks = nodesOf(change);
     placeNodes(masks);
     residualsChanged();
@@ -195,7 +195,8 @@ void IndirectLight::apply(const SceneChange& change) {
     if (change.colours || !change.parted.empty()) coloursChanged();
     reachStale_ |= !change.objects.empty() || !masks.empty() || !change.patches.empty();
     if (isDark(set_)) restart(); // what is taken back leaves a rest of rounding
-    if (change.objects.empty() && masks.empty() && change.senders.empty() && brightOrNot.empty())
+    if (change.objects.empty() && masks.empty() && change.senders.empty() &&
+        otherwiseBright.empty())
         return;
     for (ObjectId object : change.objects) link(object);
     for (std::uint32_t p : change.senders) linkSender(p);
@@ -204,7 +205,7 @@ void IndirectLight::apply(const SceneChange& change) {
     if (rowsMissing_) restart();
     updates_.add(change.objects, masks);
     markRows(change.senders);
-    markRows(brightOrNot);
+    markRows(otherwiseBright);
 }
 
 /// Nodes that lie elsewhere, block by block.
