@@ -19,7 +19,8 @@ struct Hits {
     NodeHits nodes;
     DetailHits vertices;
 
-    explicit Hits(const PatchSet& patches) : nodes(patches), vertices(patches, nodes) {}
+    Hits(const PatchSet& patches, const RayScene& rays)
+        : nodes(patches, rays), vertices(patches, nodes) {}
     void apply(const SceneChange& change) { vertices.apply(change, nodes.apply(change)); }
     /// \return wall [s]
     double trace() {
@@ -39,7 +40,7 @@ void detail(benchmark::State& state, const Move& move) {
         scene.put(Pose::there);
         LitScene lit(scene.placed(), meshingOf(scene.asked(), 0), {.directOnly = true});
         auto& counters = state.counters;
-        Hits hits(lit.patches());
+        Hits hits(lit.patches(), lit.rays());
         counters["scratch_s"] = hits.trace();
         const std::uint64_t scratch = hits.rays();
         // There and back first, for the boxes of what is seen grow.

@@ -46,7 +46,7 @@ void indirect(benchmark::State& state, const Case& what) {
         const SolveStatistics statistics = solver.statistics();
         auto& counters = state.counters;
         const Stopwatch detailing;
-        NodeHits nodes(built.patches);
+        NodeHits nodes(built.patches, rays);
         DetailGather detail(built.patches, nodes);
         gather(nodes, detail, solver);
         counters["detail_s"] = detailing.wall();

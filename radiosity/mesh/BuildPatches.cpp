@@ -49,7 +49,7 @@ void listObjects(const PlacedScene& scene, PatchSet& out) {
         part.stretch = placement.stretch;
         out.objects.push_back(std::move(part));
     }
-    out.rayMeshes.resize(out.objects.size());
+    for (const ObjectPart& part : out.objects) out.rayMeshes.emplace_back().key = part.key;
 }
 
 double areaOf(const SurfaceMesh& mesh) {

@@ -10,6 +10,7 @@
 #include "radiosity/surface/SurfaceRays.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -55,10 +56,17 @@ void PatchAssembly::add(const SurfaceMesh& mesh, const Tessellation& tessellatio
                         bool far) {
     Range& elements = out_.objects[object.value].elements;
     if (elements.count == 0) elements.first = std::uint32_t(out_.elements.size());
-    addRays(mesh, tessellation, out_.rayMeshes[object.value]);
-    const std::size_t before = cells_.size();
+    const auto before = std::uint32_t(cells_.size());
     addSheet(mesh, tessellation, object, false);
+    const auto behind = std::uint32_t(cells_.size());
     addSheet(mesh, tessellation, object, true);
+    for (const RaySource& source : addRays(mesh, tessellation, out_.rayMeshes[object.value])) {
+        const RaySide front{before + source.firstCell, source.cellCount, source.facet};
+        const RaySide back{behind + source.firstCell, source.cellCount, source.facet};
+        std::vector<RaySide>& sides = raySides_[object.value];
+        sides.push_back(source.turned ? back : front);
+        sides.push_back(source.turned ? front : back);
+    }
     for (std::size_t c = before; c < cells_.size(); ++c) cells_[c].far = far;
     elements.count = std::uint32_t(out_.elements.size()) - elements.first;
 }
@@ -73,12 +81,13 @@ void PatchAssembly::addSheet(const SurfaceMesh& mesh, const Tessellation& tessel
         sheet.smooth = tessellation.smooth;
         sheet.object = object;
         const SurfaceFace& face = mesh.faces[cell.face];
-        sheet.present = back ? face.back : face.front;
-        if (sheet.present) {
+        if (back ? face.back : face.front) {
             sheet.material = materialIndex(mesh.materialOf(face), !back);
             const auto first = tessellation.outline.begin() + cell.firstCorner;
-            sheet.outline.assign(first, first + cell.cornerCount);
-            if (back) std::reverse(sheet.outline.begin() + 1, sheet.outline.end());
+            sheet.firstCorner = std::uint32_t(outlines_.size());
+            sheet.cornerCount = cell.cornerCount;
+            outlines_.insert(outlines_.end(), first, first + cell.cornerCount);
+            if (back) std::reverse(outlines_.end() - cell.cornerCount + 1, outlines_.end());
         }
         cells_.push_back(std::move(sheet));
     }
@@ -97,7 +106,7 @@ void PatchAssembly::addElements(const Tessellation& tessellation, std::uint32_t 
     };
     for (const Facet& facet : tessellation.facets) {
         const std::uint32_t cell = firstCell + facet.cell;
-        if (!cells_[cell].present) continue;
+        if (cells_[cell].cornerCount == 0) continue;
         const std::size_t count = facet.vertices[2] == facet.vertices[3] ? 3 : 4;
         Element element;
         std::array<glm::vec2, 4> st, uv;
@@ -159,6 +168,7 @@ void PatchAssembly::finish(const Progress& progress) {
     blendVertices(out_, flat_);
     done(0.9);
     findTextureMeans(out_);
+    findRayElements();
     placeObjects();
 }
 
@@ -167,7 +177,7 @@ void PatchAssembly::finish(const Progress& progress) {
 std::vector<PatchAssembly::Group> PatchAssembly::groupCells() {
     std::map<std::pair<ObjectId, bool>, std::vector<std::uint32_t>> sides;
     for (std::uint32_t c = 0; c < cells_.size(); ++c)
-        if (!cells_[c].smooth && !cells_[c].outline.empty())
+        if (!cells_[c].smooth && cells_[c].cornerCount > 0)
             sides[{cells_[c].object, cells_[c].back}].push_back(c);
     std::vector<std::vector<std::uint32_t>> ofSide;
     for (auto& [side, cells] : sides) ofSide.push_back(std::move(cells));
@@ -176,7 +186,7 @@ std::vector<PatchAssembly::Group> PatchAssembly::groupCells() {
         for (std::size_t i = first; i < last; ++i) {
             std::vector<FacePiece> faces;
             for (const std::uint32_t c : ofSide[i])
-                faces.push_back({cells_[c].outline, cells_[c].material});
+                faces.push_back({outlineOf(cells_[c]), cells_[c].material});
             found[i] = groupFaces(faces, out_.patchSize, out_.elementSize);
         }
     });
@@ -190,7 +200,7 @@ std::vector<PatchAssembly::Group> PatchAssembly::groupCells() {
             groups.push_back(std::move(group));
         }
     for (std::uint32_t c = 0; c < cells_.size(); ++c)
-        if (!cells_[c].clustered && !cells_[c].outline.empty()) groups.push_back({c});
+        if (!cells_[c].clustered && cells_[c].cornerCount > 0) groups.push_back({c});
     return groups;
 }
 
@@ -203,7 +213,7 @@ std::vector<PatchAssembly::Group> PatchAssembly::groupsInOrder() {
     for (std::size_t g = 0; g < groups.size(); ++g) {
         for (const std::uint32_t c : groups[g]) {
             glm::vec3 of(0);
-            for (glm::vec3 point : cells_[c].outline) of += point / float(cells_[c].outline.size());
+            for (glm::vec3 point : outlineOf(cells_[c])) of += point / float(cells_[c].cornerCount);
             middle[g] += of / float(groups[g].size());
         }
         bounds[cells_[groups[g][0]].object.value].add(middle[g]);
@@ -222,19 +232,34 @@ std::vector<PatchAssembly::Group> PatchAssembly::groupsInOrder() {
     return order;
 }
 
+CellElements PatchAssembly::elementsByCell() const {
+    CellElements cells{std::vector<std::uint32_t>(cells_.size() + 1),
+                       std::vector<std::uint32_t>(elementCell_.size())};
+    for (const std::uint32_t c : elementCell_) ++cells.first[c + 1];
+    std::partial_sum(cells.first.begin(), cells.first.end(), cells.first.begin());
+    std::vector<std::uint32_t> next = cells.first;
+    for (std::uint32_t e = 0; e < elementCell_.size(); ++e)
+        cells.elements[next[elementCell_[e]]++] = e;
+    return cells;
+}
+
 std::vector<std::vector<std::uint32_t>>
 PatchAssembly::elementsOf(const std::vector<Group>& groups) const {
-    std::vector<std::uint32_t> first(cells_.size() + 1), ofCell(elementCell_.size());
-    for (const std::uint32_t c : elementCell_) ++first[c + 1];
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    std::vector<std::uint32_t> next = first;
-    for (std::uint32_t e = 0; e < elementCell_.size(); ++e) ofCell[next[elementCell_[e]]++] = e;
+    const auto [first, ofCell] = elementsByCell();
     std::vector<std::vector<std::uint32_t>> elements(groups.size());
     for (std::size_t g = 0; g < groups.size(); ++g)
         for (const std::uint32_t c : groups[g])
             elements[g].insert(elements[g].end(), ofCell.begin() + first[c],
                                ofCell.begin() + first[c + 1]);
     return elements;
+}
+
+void PatchAssembly::findRayElements() {
+    const CellElements cells = elementsByCell();
+    parallelFor(raySides_.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (auto o = std::uint32_t(begin); o < end; ++o)
+            penumbra::findRayElements(out_, {o}, raySides_[o], cells);
+    });
 }
 
 /// Puts the elements of objects with clusters in the order in which their groups have them: see
@@ -404,7 +429,7 @@ void PatchAssembly::makePatch(const Group& group, const std::vector<std::uint32_
     patch.material = cell.material;
     patch.object = cell.object;
     patch.cluster = cell.clustered;
-    patch.divisible = !patch.cluster && !cell.whole && cell.outline.size() == 4;
+    patch.divisible = !patch.cluster && !cell.whole && cell.cornerCount == 4;
     patch.smooth = cell.smooth;
     patch.far = cell.far;
     const bool any = measurePatch(out_, elements, patch);
@@ -419,7 +444,7 @@ void PatchAssembly::makePatch(const Group& group, const std::vector<std::uint32_
     if (patch.cluster)
         placeElements(patch, elements);
     else
-        out_.corners.insert(out_.corners.end(), cell.outline.begin(), cell.outline.end());
+        std::ranges::copy(outlineOf(cell), std::back_inserter(out_.corners));
     patch.cornerCount = std::uint32_t(out_.corners.size()) - patch.firstCorner;
     placeNodes(patch, cell, elements);
     placeVertices(index, elements);

@@ -19,7 +19,7 @@ namespace penumbra {
 class PatchAssembly {
 public:
     /// \param out has its objects and as many rayMeshes; the rest is filled in here
-    explicit PatchAssembly(PatchSet& out) : out_(out) {}
+    explicit PatchAssembly(PatchSet& out) : out_(out), raySides_(out.objects.size()) {}
 
     /// Adds the sides of `mesh` that there are as elements, and its triangles to the object's
     /// RayMesh. \param mesh in the object's stretched frame \param far see Patch
@@ -39,10 +39,9 @@ public:
 private:
     /// A cell of one sheet.
     struct SheetCell {
-        std::vector<glm::vec3> outline;
+        std::uint32_t firstCorner = 0, cornerCount = 0; ///< of outlines_; 0: there is no such side
         std::uint32_t material = 0;
         ObjectId object;
-        bool present = false; ///< the surface has this side here
         bool back = false;
         bool whole = false;
         bool smooth = false;    ///< of a subdivision surface
@@ -60,6 +59,9 @@ private:
     struct Run {
         std::size_t first, last;
     };
+    std::span<const glm::vec3> outlineOf(const SheetCell& cell) const {
+        return std::span(outlines_).subspan(cell.firstCorner, cell.cornerCount);
+    }
     void addSheet(const SurfaceMesh& mesh, const Tessellation& tessellation, ObjectId object,
                   bool back);
     void addElements(const Tessellation& tessellation, std::uint32_t firstCell, ObjectId object,
@@ -67,6 +69,7 @@ private:
     std::uint32_t materialIndex(const Material& material, bool emits);
     std::vector<Group> groupCells();
     std::vector<Group> groupsInOrder();
+    CellElements elementsByCell() const;
     std::vector<std::vector<std::uint32_t>> elementsOf(const std::vector<Group>& groups) const;
     void orderElements(const std::vector<Group>& groups,
                        std::vector<std::vector<std::uint32_t>>& elements);
@@ -78,6 +81,7 @@ private:
                                     std::span<const std::vector<std::uint32_t>> elements) const;
     void orderVertices(const std::vector<std::vector<std::uint32_t>>& elements,
                        const std::vector<Group>& order);
+    void findRayElements();
     void placeObjects();
     void makePatch(const Group& group, const std::vector<std::uint32_t>& elements);
     void placeElements(const Patch& patch, const std::vector<std::uint32_t>& elements);
@@ -88,8 +92,10 @@ private:
 
     PatchSet& out_;
     std::vector<SheetCell> cells_;
+    std::vector<glm::vec3> outlines_;
     std::vector<std::uint32_t> elementCell_;
-    std::vector<std::uint8_t> flat_; ///< see DenseVertex; in blocks
+    std::vector<std::vector<RaySide>> raySides_; ///< of each object: see findRayElements()
+    std::vector<std::uint8_t> flat_;             ///< see DenseVertex; in blocks
     std::map<std::pair<const Material*, bool>, std::uint32_t> materials_;
     std::vector<MaterialSource> materialSources_;
 };

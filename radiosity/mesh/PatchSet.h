@@ -5,6 +5,7 @@
 #include "base/ObjectId.h"
 #include "base/Rgb.h"
 #include "radiosity/mesh/Pose.h"
+#include "radiosity/mesh/RayElements.h"
 #include "radiosity/rays/RayMesh.h"
 #include "scenegraph/LitGeometry.h"
 
@@ -139,6 +140,7 @@ struct ObjectShape {
     std::vector<Emitter> emitters;
     std::vector<Wall> walls;
     std::vector<glm::vec3> rayVertices;
+    RayElements rayElements; ///< empty in a set that a viewer was given
 };
 
 /// One rigid piece of the scene, and where its share of a PatchSet's arrays lies.

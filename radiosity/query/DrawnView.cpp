@@ -2,7 +2,7 @@
 
 #include "base/Parallel.h"
 #include "importance/SeenItems.h"
-#include "radiosity/mesh/DrawnSurface.h"
+#include "radiosity/query/DrawnSurface.h"
 
 #include <numbers>
 

@@ -4,8 +4,8 @@
 
 #include "base/ObjectId.h"
 #include "base/Rgb.h"
-#include "radiosity/mesh/DrawnSurface.h"
 #include "radiosity/mesh/PatchSet.h"
+#include "radiosity/query/DrawnSurface.h"
 #include "radiosity/transport/DirectLight.h"
 
 #include <string>

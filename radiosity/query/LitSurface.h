@@ -1,8 +1,8 @@
 // The solution as it is drawn: read at points, and as a branch of the scene graph.
 #pragma once
 
-#include "radiosity/mesh/DrawnSurface.h"
 #include "radiosity/mesh/PatchSet.h"
+#include "radiosity/query/DrawnSurface.h"
 #include "radiosity/transport/Solver.h"
 #include "scenegraph/Group.h"
 

@@ -1,8 +1,8 @@
 // The drawn surface near a point.
 #pragma once
 
-#include "radiosity/mesh/DrawnSurface.h"
 #include "radiosity/mesh/PatchSet.h"
+#include "radiosity/query/DrawnSurface.h"
 
 #include <glm/glm.hpp>
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "base/Rgb.h"
-#include "radiosity/mesh/DrawnSurface.h"
 #include "radiosity/mesh/PatchSet.h"
+#include "radiosity/query/DrawnSurface.h"
 #include "radiosity/rays/RayScene.h"
 #include "radiosity/rows/ClusterParts.h"
 #include "radiosity/rows/EmitterSender.h"

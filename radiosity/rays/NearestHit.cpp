@@ -6,15 +6,15 @@
 
 #include <cmath>
 #include <numbers>
-#include <utility>
+#include <tuple>
 
 namespace penumbra {
 
 namespace {
 
 /// On which side of a ray the edges of a triangle pass.
-struct Sides {
-    Sides(glm::dvec3 origin, glm::dvec3 direction, std::span<const glm::vec3, 3> corners)
+struct EdgeSides {
+    EdgeSides(glm::dvec3 origin, glm::dvec3 direction, std::span<const glm::vec3, 3> corners)
         : a(glm::dvec3(corners[0]) - origin), b(glm::dvec3(corners[1]) - origin),
           c(glm::dvec3(corners[2]) - origin),
           // Those of an edge that is taken the other way round differ in their sign alone.
@@ -34,27 +34,30 @@ struct Sides {
 } // namespace
 
 bool passes(glm::dvec3 origin, glm::dvec3 direction, std::span<const glm::vec3, 3> corners) {
-    return Sides(origin, direction, corners).passes();
+    return EdgeSides(origin, direction, corners).passes();
 }
 
-bool NearestHit::take(std::span<const glm::vec3, 3> corners, const RayHit& hit) {
-    const Sides sides(origin_, direction_, corners);
-    const auto& [a, b, c, sideA, sideB, sideC] = sides;
+bool NearestHit::take(std::span<const glm::vec3, 3> corners, const RayHit& hit,
+                      std::uint8_t sides) {
+    const EdgeSides edges(origin_, direction_, corners);
+    const auto& [a, b, c, sideA, sideB, sideC] = edges;
     const glm::dvec3 normal = glm::cross(b - a, c - a);
-    if (frontOnly_ && glm::dot(direction_, normal) >= 0) return false;
-    if (!sides.passes()) {
+    const bool back = glm::dot(direction_, normal) >= 0;
+    if (!(sides & (back ? kBack : kFront))) return false;
+    if (!edges.passes()) {
         if (hit.distance < doubt_.distance) doubt_ = hit, middle_ = (a + b + c) / 3.0;
         return false;
     }
     const double distance = glm::dot(a, normal) / glm::dot(direction_, normal);
     if (!(distance >= 0) || distance > distance_) return false;
-    if (distance == distance_ &&
-        std::pair(hit_.object.value, hit_.triangle) <= std::pair(hit.object.value, hit.triangle))
+    if (distance == distance_ && std::tuple(hit_.key, hit_.object.value, hit_.triangle) <=
+                                     std::tuple(hit.key, hit.object.value, hit.triangle))
         return false;
     const double sum = sideA + sideB + sideC;
     distance_ = distance;
     hit_ = hit;
     hit_.distance = float(distance);
+    hit_.back = back;
     hit_.u = float(sideB / sum);
     hit_.v = float(sideC / sum);
     return true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/ObjectId.h"
+#include "radiosity/rays/RayMesh.h"
 
 #include <glm/glm.hpp>
 
@@ -16,8 +17,10 @@ struct RayHit {
     float distance = 0; ///< in units of the ray's direction
     ObjectId object;    ///< not valid: nothing was met
     std::uint32_t triangle = 0;
-    float u = 0, v = 0; ///< barycentric, of the triangle's second and third corner
-    glm::vec3 normal{}; ///< of the triangle's front, not unit
+    std::uint64_t key = 0; ///< of the object, see RayMesh
+    bool back = false;     ///< the ray met the triangle's back
+    float u = 0, v = 0;    ///< barycentric, of the triangle's second and third corner
+    glm::vec3 normal{};    ///< of the triangle's front, not unit
 
     bool met() const { return object.valid(); }
 };
@@ -29,7 +32,8 @@ bool passes(glm::dvec3 origin, glm::dvec3 direction, std::span<const glm::vec3, 
 /// Judges the triangles that Embree offers for a ray, in any order. At an edge it offers one
 /// triangle or the other, both or none, by rounding and by what else lies in the same leaf of its
 /// hierarchy; here the answer depends on the triangles alone. Edges are judged in double precision,
-/// and of several triangles at the same distance the first object's first one is met. Where the ray
+/// and of several triangles at the same distance the first one of the object with the least key is
+/// met. Where the ray
 /// passes beside a triangle that was offered, those around are to be offered as well, by rays a
 /// hair beside it: where they share their corners, one of them is met. Where they do not, the ray
 /// itself has to be asked again, a hair farther aside: there it meets the neighbour if there is
@@ -37,16 +41,15 @@ bool passes(glm::dvec3 origin, glm::dvec3 direction, std::span<const glm::vec3, 
 class NearestHit {
 public:
     /// \param origin, direction of the ray [m, world; the direction need not be unit]
-    /// \param frontOnly those that show their back are not met
-    NearestHit(glm::vec3 origin, glm::vec3 direction, bool frontOnly)
-        : origin_(origin), direction_(direction), frontOnly_(frontOnly) {
+    NearestHit(glm::vec3 origin, glm::vec3 direction) : origin_(origin), direction_(direction) {
         doubt_.distance = std::numeric_limits<float>::infinity();
     }
 
     /// \param corners of the triangle, its front is where they go round counter-clockwise
     /// \param hit     what it is called, where Embree thinks that it is met, and its normal
+    /// \param sides   that can be met, see Sides
     /// \return whether the ray meets it, nearer than all before or as near
-    bool take(std::span<const glm::vec3, 3> corners, const RayHit& hit);
+    bool take(std::span<const glm::vec3, 3> corners, const RayHit& hit, std::uint8_t sides);
 
     double distance() const { return distance_; } ///< of what is met first; infinity: nothing
     const RayHit& hit() const { return hit_; }
@@ -71,7 +74,6 @@ private:
     float hairAt(double distance) const;
 
     glm::dvec3 origin_, direction_;
-    bool frontOnly_;
     double distance_ = std::numeric_limits<double>::infinity();
     RayHit hit_;
     RayHit doubt_;

@@ -16,6 +16,13 @@ struct RayMesh {
     /// 1 for triangles of a closed surface with nothing lit inside, wound so that its outside is
     /// the front: a ray that meets it from behind began inside of something solid.
     std::vector<std::uint8_t> solid;
+    /// Which sides of a triangle are lit, see Sides. Empty: both of all.
+    std::vector<std::uint8_t> lit;
+    /// Of its object: of triangles in one place a ray meets that of the least key.
+    std::uint64_t key = 0;
 };
+
+/// Of a triangle, as bits: its front, where its corners go round counter-clockwise, and its back.
+enum Sides : std::uint8_t { kNoSide = 0, kFront = 1, kBack = 2, kBothSides = 3 };
 
 } // namespace penumbra

@@ -27,10 +27,11 @@ namespace {
 
 /// What our filters want to know of a query.
 struct QueryContext {
-    RTCIntersectContext context;        // first, so that Embree's pointer is ours
-    std::uint32_t* blocker = nullptr;   // where to note who is in the way, one a ray
-    std::uint32_t doubts = 0;           // bits: rays to which a triangle was offered that they miss
-    NearestHit* nearest = nullptr;      // who judges what is met
+    RTCIntersectContext context;      // first, so that Embree's pointer is ours
+    std::uint32_t* blocker = nullptr; // where to note who is in the way, one a ray
+    std::uint32_t doubts = 0;         // bits: rays to which a triangle was offered that they miss
+    NearestHit* nearest = nullptr;    // who judges what is met, one a ray
+    RayScene::Faces faces = RayScene::Faces::both;
     std::vector<RayHit>* all = nullptr; // where to note every hit; none ends the ray
 
     QueryContext() {
@@ -45,12 +46,19 @@ struct Triangles {
     const glm::vec3* vertices = nullptr;
     Corners* corners = nullptr;
     std::size_t count = 0;
+    std::vector<std::uint8_t> lit; ///< see RayMesh
+    std::uint64_t key = 0;
     std::vector<std::pair<std::uint32_t, Corners>> leftOut; ///< triangles that can't be traced
 
     std::array<glm::vec3, 3> of(const Corners& triangle) const {
         return {vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]};
     }
     std::array<glm::vec3, 3> at(std::uint32_t triangle) const { return of(corners[triangle]); }
+    std::uint8_t sides(std::uint32_t triangle, RayScene::Faces faces) const {
+        if (faces == RayScene::Faces::front) return kFront;
+        if (faces == RayScene::Faces::both || lit.empty()) return kBothSides;
+        return lit[triangle];
+    }
 
     /// Leaves out triangles that have shrunk to a point, and takes back those that are none any
     /// more: Embree passes over a triangle whose corners lie beyond the last vertex, and the others
@@ -106,15 +114,18 @@ void noteBlocker(const RTCFilterFunctionNArguments* args) {
     }
 }
 
-RayHit hitOf(const RTCFilterFunctionNArguments* args) {
+/// What Embree's i-th ray is offered.
+RayHit hitOf(const RTCFilterFunctionNArguments* args, unsigned i) {
+    const unsigned n = args->N;
     RayHit hit;
-    hit.distance = RTCRayN_tfar(args->ray, 1, 0);
-    hit.object.value = RTCHitN_geomID(args->hit, 1, 0);
-    hit.triangle = RTCHitN_primID(args->hit, 1, 0);
-    hit.u = RTCHitN_u(args->hit, 1, 0);
-    hit.v = RTCHitN_v(args->hit, 1, 0);
-    hit.normal = {RTCHitN_Ng_x(args->hit, 1, 0), RTCHitN_Ng_y(args->hit, 1, 0),
-                  RTCHitN_Ng_z(args->hit, 1, 0)};
+    hit.distance = RTCRayN_tfar(args->ray, n, i);
+    hit.object.value = RTCHitN_geomID(args->hit, n, i);
+    hit.triangle = RTCHitN_primID(args->hit, n, i);
+    hit.key = static_cast<const Triangles*>(args->geometryUserPtr)->key;
+    hit.u = RTCHitN_u(args->hit, n, i);
+    hit.v = RTCHitN_v(args->hit, n, i);
+    hit.normal = {RTCHitN_Ng_x(args->hit, n, i), RTCHitN_Ng_y(args->hit, n, i),
+                  RTCHitN_Ng_z(args->hit, n, i)};
     return hit;
 }
 
@@ -129,21 +140,24 @@ void intersect(RTCScene scene, QueryContext& context, glm::vec3 origin, glm::vec
     rtcIntersect1(scene, &context.context, &query);
 }
 
-/// Hands a hit to whom it concerns. Queries for hits are of single rays.
+/// Hands hits to whom they concern.
 void chooseHits(const RTCFilterFunctionNArguments* args) {
-    assert(args->N == 1);
     auto& context = *reinterpret_cast<QueryContext*>(args->context);
-    const RayHit hit = hitOf(args);
-    if (context.all) {
-        context.all->push_back(hit);
-        args->valid[0] = 0;
-        return;
-    }
     const Triangles& of = *static_cast<const Triangles*>(args->geometryUserPtr);
-    if (context.nearest->take(of.at(hit.triangle), hit))
-        RTCRayN_tfar(args->ray, 1, 0) = context.nearest->searchEnd();
-    else
-        args->valid[0] = 0;
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] == 0) continue;
+        const RayHit hit = hitOf(args, i);
+        if (context.all) {
+            context.all->push_back(hit);
+            args->valid[i] = 0;
+            continue;
+        }
+        NearestHit& nearest = context.nearest[RTCRayN_id(args->ray, args->N, i)];
+        if (nearest.take(of.at(hit.triangle), hit, of.sides(hit.triangle, context.faces)))
+            RTCRayN_tfar(args->ray, args->N, i) = nearest.searchEnd();
+        else
+            args->valid[i] = 0;
+    }
 }
 
 } // namespace
@@ -245,6 +259,8 @@ struct RayScene::Impl {
         members[id].triangles = {static_cast<const glm::vec3*>(vertices),
                                  static_cast<Corners*>(indices),
                                  mesh.triangles.size(),
+                                 mesh.lit,
+                                 mesh.key,
                                  {}};
         members[id].triangles.sift();
         rtcSetGeometryUserData(geometry, &members[id].triangles);
@@ -428,14 +444,47 @@ RayHit RayScene::nearest(glm::vec3 origin, glm::vec3 direction, float reach, Fac
     return nearestIn(impl_->scene, origin, direction, reach, faces);
 }
 
+void RayScene::nearest(glm::vec3 origin, std::span<const glm::vec3> directions, float reach,
+                       Faces faces, std::span<RayHit> hits) const {
+    assert(directions.size() <= ShadowRays::kMost && hits.size() == directions.size());
+    std::ranges::fill(hits, RayHit());
+    if (std::isnan(reach)) return;
+    alignas(64) int valid[16];
+    alignas(64) RTCRayHit16 packet{};
+    std::vector<NearestHit> nearest;
+    nearest.reserve(directions.size());
+    for (std::size_t i = 0; i < 16; ++i) {
+        const bool used = i < directions.size() && isTraceable(origin, directions[i]);
+        const glm::vec3 from = used ? origin : glm::vec3(0);
+        const glm::vec3 to = used ? directions[i] : glm::vec3(0, 0, 1);
+        if (i < directions.size()) nearest.emplace_back(from, to);
+        valid[i] = used ? -1 : 0;
+        packet.ray.org_x[i] = from.x, packet.ray.org_y[i] = from.y, packet.ray.org_z[i] = from.z;
+        packet.ray.dir_x[i] = to.x, packet.ray.dir_y[i] = to.y, packet.ray.dir_z[i] = to.z;
+        packet.ray.tnear[i] = used ? 0.0f : 1.0f; // see trace()
+        packet.ray.tfar[i] = used ? reach : 0.0f;
+        packet.ray.mask[i] = 0xffffffffu;
+        packet.ray.id[i] = unsigned(i);
+        packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    QueryContext context;
+    context.nearest = nearest.data();
+    context.faces = faces;
+    rtcIntersect16(valid, impl_->scene, &context.context, &packet);
+    for (std::size_t i = 0; i < directions.size(); ++i)
+        hits[i] = nearest[i].inDoubt() ? this->nearest(origin, directions[i], reach, faces)
+                                       : nearest[i].hit();
+}
+
 RayHit RayScene::nearestIn(void* scene, glm::vec3 origin, glm::vec3 direction, float reach,
                            Faces faces) const {
     constexpr int kTimes = 4; // corners may need several
     for (int time = 1;; ++time) {
-        NearestHit nearest(origin, direction, faces == Faces::front);
+        NearestHit nearest(origin, direction);
         const auto offer = [&](glm::vec3 from) {
             QueryContext context;
             context.nearest = &nearest;
+            context.faces = faces;
             intersect(static_cast<RTCScene>(scene), context, from, direction, reach);
         };
         offer(origin);

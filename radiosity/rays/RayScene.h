@@ -75,11 +75,16 @@ public:
     /// that of the whole scene, bit for bit: what passes by an edge up to rounding is judged by the
     /// triangles alone.
     void occludedBy(ObjectId object, ShadowRays& rays) const;
-    enum class Faces { both, front };
-    /// The nearest triangle, up to `reach` times the length of `direction`; on request only of
-    /// those that show their front. The same however the scene came to be, as NearestHit says.
+    /// Which triangles are met: all, those that show their front, or a side that is lit.
+    enum class Faces { both, front, lit };
+    /// The nearest triangle, up to `reach` times the length of `direction`. The same however the
+    /// scene came to be, as NearestHit says.
     RayHit nearest(glm::vec3 origin, glm::vec3 direction, float reach,
                    Faces faces = Faces::both) const;
+    /// The same for several rays from one point. \param directions up to ShadowRays::kMost
+    /// \param hits is filled, as many
+    void nearest(glm::vec3 origin, std::span<const glm::vec3> directions, float reach, Faces faces,
+                 std::span<RayHit> hits) const;
 
     /// All triangles on a ray up to `reach` times the length of `direction`, in no order; `hits` is
     /// emptied first.

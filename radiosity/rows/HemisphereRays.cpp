@@ -1,7 +1,6 @@
 // Malley's method: points of the unit disk lifted onto the hemisphere are spread by the cosine.
 #include "radiosity/rows/HemisphereRays.h"
 
-#include "base/Frame.h"
 #include "radiosity/rows/SenderSamples.h"
 
 #include <cmath>
@@ -16,9 +15,12 @@ HemisphereRays::HemisphereRays(int count) {
 }
 
 glm::vec3 HemisphereRays::direction(int index, glm::vec3 normal) const {
-    const Frame frame(normal);
+    return direction(index, Frame(normal));
+}
+
+glm::vec3 HemisphereRays::direction(int index, const Frame& frame) const {
     const glm::vec3 d = local_[std::size_t(index)];
-    return d.x * frame.u + d.y * frame.v + d.z * normal;
+    return d.x * frame.u + d.y * frame.v + d.z * frame.normal;
 }
 
 std::uint64_t HemisphereRays::towards(glm::vec3 away, float radius, glm::vec3 normal) const {

@@ -1,6 +1,8 @@
 // A fixed bundle of rays over the hemisphere.
 #pragma once
 
+#include "base/Frame.h"
+
 #include <glm/glm.hpp>
 
 #include <cstdint>
@@ -17,6 +19,7 @@ public:
     int count() const { return int(local_.size()); }
     /// Direction `index` around a unit normal, unit length.
     glm::vec3 direction(int index, glm::vec3 normal) const;
+    glm::vec3 direction(int index, const Frame& frame) const; ///< around the normal of a frame
     /// Directions around a unit normal that may pass a sphere, at least all that do, as bits.
     /// \param away the sphere's centre, seen from where the rays begin \pre count() <= 64
     std::uint64_t towards(glm::vec3 away, float radius, glm::vec3 normal) const;

@@ -1,6 +1,8 @@
 #include "radiosity/transport/DetailRays.h"
 
 #include "base/Bits.h"
+#include "base/Frame.h"
+#include "radiosity/mesh/RayElements.h"
 
 #include <algorithm>
 #include <bit>
@@ -14,10 +16,11 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr int kSlit = DetailRays::kRays / 4;
 
-bool liesAcross(const PatchSet& patches, const DrawnHit& hit, glm::vec3 normal) {
+bool liesAcross(const PatchSet& patches, std::uint32_t index, float distance, glm::vec3 normal) {
     constexpr float kFacing = -0.7f; // cosine between the normals
-    return glm::dot(patches.vertices[hit.vertices[0]].receiver.normal, normal) < kFacing &&
-           4 * hit.distance * hit.distance < elementArea(patches, patches.elements[hit.element]);
+    const Element& element = patches.elements[index];
+    return glm::dot(patches.vertices[element.vertices[0]].receiver.normal, normal) < kFacing &&
+           4 * distance * distance < elementArea(patches, element);
 }
 
 /// Adds a ray without end.
@@ -63,27 +66,49 @@ bool inSlit(std::span<const std::uint32_t> hits) {
     return std::count_if(hits.begin(), hits.end(), [](auto hit) { return isAcross(hit); }) > kSlit;
 }
 
-DetailRays::DetailRays(const PatchSet& patches, const DrawnSurface& surface, float reach)
-    : patches_(patches), surface_(surface), rays_(kRays), reach_(reach) {}
+DetailRays::DetailRays(const PatchSet& patches, const RayScene& rays, float reach)
+    : patches_(patches), scene_(rays), rays_(kRays), reach_(reach) {}
 
 int DetailRays::follow(const Receiver& receiver, std::uint64_t which, bool slits,
                        Hits& hits) const {
+    constexpr std::size_t kMost = ShadowRays::kMost;
+    std::array<glm::vec3, kMost> directions;
+    std::array<RayHit, kMost> met;
+    std::array<int, kMost> rays;
+    std::size_t count = 0;
+    const Frame frame(receiver.normal);
+    const auto trace = [&] {
+        const auto found = std::span(met).first(count);
+        scene_.nearest(receiver.position, std::span(directions).first(count), 1e30f,
+                       RayScene::Faces::lit, found);
+        for (std::size_t k = 0; k < count; ++k)
+            note(receiver, directions[k], found[k], rays[k], slits, hits);
+        count = 0;
+    };
     for (const int i : bitsOf(which)) {
-        const glm::vec3 direction = rays_.direction(i, receiver.normal);
-        const DrawnHit hit = surface_.nearest(receiver.position, direction, 1e30f);
-        std::uint32_t& element = hits.elements[std::size_t(i)];
-        element = hit.met() ? hit.element : Element::kNone;
-        if (slits && hit.met() && liesAcross(patches_, hit, receiver.normal)) element |= kAcross;
-        const std::uint64_t bit = std::uint64_t(1) << i;
-        hits.near = hit.met() && hit.distance <= reach_ ? hits.near | bit : hits.near & ~bit;
-        if (hit.met()) {
-            hits.ways.add(receiver.position);
-            hits.ways.add(receiver.position + hit.distance * direction);
-        } else {
-            addEndless(hits.ways, receiver.position, direction);
-        }
+        rays[count] = i;
+        directions[count++] = rays_.direction(i, frame);
+        if (count == kMost) trace();
     }
+    if (count > 0) trace();
     return std::popcount(which);
+}
+
+void DetailRays::note(const Receiver& receiver, glm::vec3 direction, const RayHit& hit, int ray,
+                      bool slits, Hits& hits) const {
+    std::uint32_t& element = hits.elements[std::size_t(ray)];
+    element = elementAt(patches_, hit);
+    if (slits && hit.met() && hit.distance <= reach_ &&
+        liesAcross(patches_, element, hit.distance, receiver.normal))
+        element |= kAcross;
+    const std::uint64_t bit = std::uint64_t(1) << ray;
+    hits.near = hit.met() && hit.distance <= reach_ ? hits.near | bit : hits.near & ~bit;
+    if (hit.met()) {
+        hits.ways.add(receiver.position);
+        hits.ways.add(receiver.position + hit.distance * direction);
+    } else {
+        addEndless(hits.ways, receiver.position, direction);
+    }
 }
 
 /// Bound of how far away any point of an element is [m].
@@ -102,12 +127,13 @@ std::uint64_t DetailRays::affected(const Receiver& receiver, std::uint64_t which
         for (std::size_t i = 0; i < hits.size(); ++i)
             affected |= std::uint64_t(elements.contains(hits[i] & ~kAcross)) << i;
     affected &= which;
+    const Frame frame(receiver.normal);
     for (const Bounds& box : moved.boxes) {
         if (!inFront(box, receiver) || distanceTo(box, receiver.position) > reach) continue;
         const std::uint64_t towards =
             rays_.towards(box.centre() - receiver.position, 0.5f * box.diagonal(), receiver.normal);
         for (const int i : bitsOf(which & towards & ~affected)) {
-            const float at = entry(box, receiver.position, rays_.direction(i, receiver.normal));
+            const float at = entry(box, receiver.position, rays_.direction(i, frame));
             const std::uint32_t hit = hits[std::size_t(i)];
             if (at > reach) continue;
             if (hit != Element::kNone && at > farthest(receiver.position, hit & ~kAcross)) continue;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "base/Bounds.h"
-#include "radiosity/mesh/DrawnSurface.h"
 #include "radiosity/mesh/PatchSet.h"
+#include "radiosity/rays/RayScene.h"
 #include "radiosity/rows/HemisphereRays.h"
 
 #include <array>
@@ -13,8 +13,8 @@
 
 namespace penumbra {
 
-/// Follows rays over the hemisphere of a receiver to the drawn surface, and tells which of them
-/// meet something else than before now that objects were moved.
+/// Follows rays over the hemisphere of a receiver to the sides that are lit, and tells which of
+/// them meet something else than before now that objects were moved.
 class DetailRays {
 public:
     static constexpr int kRays = 64;
@@ -34,7 +34,7 @@ public:
         Bounds ways;            ///< around all that the rays cross that were followed [m, world]
     };
     /// Both must outlive this. \param reach of what is near [m]
-    DetailRays(const PatchSet& patches, const DrawnSurface& surface, float reach);
+    DetailRays(const PatchSet& patches, const RayScene& rays, float reach);
 
     /// Follows some rays. \param which bits, a ray each \param slits whether to mark these
     /// \return number of rays
@@ -54,10 +54,12 @@ public:
                            float reach) const;
 
 private:
+    void note(const Receiver& receiver, glm::vec3 direction, const RayHit& hit, int ray, bool slits,
+              Hits& hits) const;
     float farthest(glm::vec3 from, std::uint32_t element) const;
 
     const PatchSet& patches_;
-    const DrawnSurface& surface_;
+    const RayScene& scene_;
     HemisphereRays rays_;
     float reach_;
 };

@@ -44,9 +44,8 @@ std::uint32_t renamedHit(std::uint32_t hit, const std::vector<std::uint32_t>& el
     return now == NodeHits::kGone ? now : now | (hit & DetailRays::kAcross);
 }
 
-NodeHits::NodeHits(const PatchSet& patches)
-    : patches_(patches), surface_(patches), rays_(patches, surface_, patches.patchSize),
-      boxes_(patches.objects.size()) {
+NodeHits::NodeHits(const PatchSet& patches, const RayScene& rays)
+    : patches_(patches), rays_(patches, rays, patches.patchSize), boxes_(patches.objects.size()) {
     for (std::uint32_t o = 0; o < boxes_.size(); ++o) boxes_[o] = boxOf(o);
     resize();
 }
@@ -118,12 +117,10 @@ void NodeHits::takeNodes(const NodeHits& before, std::span<const std::uint32_t> 
 }
 
 void NodeHits::add() {
-    surface_.grow();
     boxes_.resize(patches_.objects.size());
 }
 
 std::vector<NodeHits::Move> NodeHits::apply(const SceneChange& change) {
-    surface_.follow(change.objects);
     resize();
     std::vector<Move> moves;
     for (ObjectId object : change.objects) {

@@ -1,8 +1,8 @@
 // What is seen from the nodes of the indirect light.
 #pragma once
 
-#include "radiosity/mesh/DrawnSurface.h"
 #include "radiosity/mesh/PatchSet.h"
+#include "radiosity/rays/RayScene.h"
 #include "radiosity/schedule/DirtyGroups.h"
 #include "radiosity/schedule/GroupWork.h"
 #include "radiosity/transport/DetailRays.h"
@@ -27,8 +27,8 @@ public:
     /// Element of a hit on something that is not as it was; its ray is dirty.
     static constexpr std::uint32_t kGone = 0x7ffffffeu;
 
-    /// Everything is dirty at first. `patches` must outlive this.
-    explicit NodeHits(const PatchSet& patches);
+    /// Everything is dirty at first. \param rays through all that is there; both must outlive this
+    NodeHits(const PatchSet& patches, const RayScene& rays);
     NodeHits(const NodeHits&) = delete;
     NodeHits& operator=(const NodeHits&) = delete;
 
@@ -73,7 +73,6 @@ public:
     std::vector<std::uint32_t> takeChanged();
     bool anyChanged() const { return !changed_.empty(); }
 
-    const DrawnSurface& surface() const { return surface_; }
     const DetailRays& rays() const { return rays_; }
     /// What may have changed for a dirty group.
     DetailRays::Moved movedOf(const DirtyGroups::Dirty& dirty) const;
@@ -90,7 +89,6 @@ private:
     GroupOutcome trace(std::uint32_t group);
 
     const PatchSet& patches_;
-    DrawnSurface surface_;
     DetailRays rays_;
     std::vector<Bounds> boxes_; ///< of objects, see Move
     DirtyGroups dirty_;

@@ -53,7 +53,8 @@ struct KeyHash {
 };
 
 bool sameRays(const RayMesh& a, const RayMesh& b) {
-    return a.vertices == b.vertices && a.triangles == b.triangles && a.solid == b.solid;
+    return a.vertices == b.vertices && a.triangles == b.triangles && a.solid == b.solid &&
+           a.lit == b.lit;
 }
 
 bool sameObject(const PatchSet& before, std::uint32_t was, const PatchSet& now, std::uint32_t is) {

@@ -36,7 +36,7 @@ Solver::Solver(const PatchSet& patches, const RayScene& rays, const SolverOption
     : set_(patches), rays_(rays), options_(options), direct_(patches, rays, options.samples) {
     const bool lit = !patches.patches.empty() && !patches.emitters.empty(); // else all is black
     if (!options.directOnly && lit) {
-        nodeHits_ = std::make_unique<NodeHits>(patches);
+        nodeHits_ = std::make_unique<NodeHits>(patches, rays);
         indirect_ = std::make_unique<IndirectLight>(patches, rays, direct_, *nodeHits_, memory(),
                                                     options.clusters);
         if (options.detail) detail_ = std::make_unique<DetailGather>(patches, *nodeHits_);

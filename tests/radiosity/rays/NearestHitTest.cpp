@@ -24,17 +24,18 @@ RayHit offered(std::uint32_t object, std::uint32_t triangle, float distance) {
 
 TEST(NearestHit, OnASharedEdgeIsTheFirstTriangleInEitherOrder) {
     for (bool swapped : {false, true}) {
-        NearestHit nearest({0.25f, 0.25f, 2}, {0, 0, -1}, true);
+        NearestHit nearest({0.25f, 0.25f, 2}, {0, 0, -1});
         const std::array order{swapped ? 1u : 0u, swapped ? 0u : 1u};
-        for (std::uint32_t t : order) nearest.take(t == 0 ? kLower : kUpper, offered(0, t, 2));
+        for (std::uint32_t t : order)
+            nearest.take(t == 0 ? kLower : kUpper, offered(0, t, 2), kFront);
         EXPECT_EQ(nearest.hit().triangle, 0u);
         EXPECT_FLOAT_EQ(nearest.hit().distance, 2);
     }
 }
 
 TEST(NearestHit, TellsWhereOnTheTriangle) {
-    NearestHit nearest({0.5f, -0.25f, 1}, {0, 0, -2}, true);
-    ASSERT_TRUE(nearest.take(kLower, offered(3, 7, 0.5f)));
+    NearestHit nearest({0.5f, -0.25f, 1}, {0, 0, -2});
+    ASSERT_TRUE(nearest.take(kLower, offered(3, 7, 0.5f), kFront));
     const RayHit& hit = nearest.hit();
     const glm::vec3 at = (1 - hit.u - hit.v) * kLower[0] + hit.u * kLower[1] + hit.v * kLower[2];
     EXPECT_FLOAT_EQ(at.x, 0.5f);
@@ -44,31 +45,32 @@ TEST(NearestHit, TellsWhereOnTheTriangle) {
 }
 
 TEST(NearestHit, MeetsBacksOnlyIfAsked) {
-    NearestHit fronts({0.5f, -0.25f, -1}, {0, 0, 1}, true),
-        both({0.5f, -0.25f, -1}, {0, 0, 1}, false);
-    EXPECT_FALSE(fronts.take(kLower, offered(0, 0, 1)));
-    EXPECT_FALSE(fronts.inDoubt()); // a back is not passed by: it is not there
-    EXPECT_TRUE(both.take(kLower, offered(0, 0, 1)));
+    NearestHit nearest({0.5f, -0.25f, -1}, {0, 0, 1});
+    EXPECT_FALSE(nearest.take(kLower, offered(0, 0, 1), kFront));
+    EXPECT_FALSE(nearest.take(kLower, offered(0, 0, 1), kNoSide));
+    EXPECT_FALSE(nearest.inDoubt()); // a back is not passed by: it is not there
+    EXPECT_TRUE(nearest.take(kLower, offered(0, 0, 1), kBack));
+    EXPECT_TRUE(nearest.hit().back);
 }
 
 TEST(NearestHit, IsInDoubtAboutWhatItPassesByUnlessTheNeighbourIsMet) {
     // Beside the lower half by less than what floats tell apart.
     const glm::vec3 from(0.25f, 0.25f + 3e-8f, 2);
-    NearestHit nearest(from, {0, 0, -1}, true);
-    EXPECT_FALSE(nearest.take(kLower, offered(0, 0, 2)));
+    NearestHit nearest(from, {0, 0, -1});
+    EXPECT_FALSE(nearest.take(kLower, offered(0, 0, 2), kFront));
     ASSERT_TRUE(nearest.inDoubt());
     const glm::vec3 aside = nearest.aside(1e-4f);
     EXPECT_NEAR(glm::length(aside), 1e-4, 1e-9);
     EXPECT_EQ(aside.z, 0);           // beside the ray
     EXPECT_GT(aside.y - aside.x, 0); // away from the lower half
-    EXPECT_TRUE(nearest.take(kUpper, offered(0, 1, 2)));
+    EXPECT_TRUE(nearest.take(kUpper, offered(0, 1, 2), kFront));
     EXPECT_FALSE(nearest.inDoubt());
 }
 
 TEST(NearestHit, RaysAroundAreAHairBesideItAlsoWhereTheTriangleTouchesItsOrigin) {
     const glm::vec3 from(0.25f, 0.25f + 3e-8f, 0), direction(0.1f, 0, -3);
-    NearestHit nearest(from, direction, true);
-    EXPECT_FALSE(nearest.take(kLower, offered(0, 0, 0)));
+    NearestHit nearest(from, direction);
+    EXPECT_FALSE(nearest.take(kLower, offered(0, 0, 0), kFront));
     ASSERT_TRUE(nearest.inDoubt());
     glm::vec3 sum(0);
     for (int i = 0; i < NearestHit::kAround; ++i) {

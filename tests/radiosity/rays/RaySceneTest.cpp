@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace penumbra {
 
@@ -53,6 +54,43 @@ TEST(RayScene, OfEquallyNearTrianglesMeetsTheFirst) {
         // On the diagonal that both triangles share, too.
         EXPECT_EQ(scene.nearest({x, x, 0.5f}, {0, 0, -1}, 10).triangle, 0u);
     }
+}
+
+TEST(RayScene, RaysFromOnePointMeetTogetherWhatEachOneMeets) {
+    std::array objects{square(1), square(0), square(-1)};
+    objects[1].lit = {kBack, kNoSide}; // of its first half the back, of the other none
+    const RayScene scene(objects);
+    std::vector<glm::vec3> along;
+    for (int i = 0; i < 13; ++i) along.emplace_back(0.05f * float(i) - 0.3f, 0.01f, i % 3 - 1);
+    along[7] = glm::vec3(std::nanf(""), 0, 1);
+    for (const auto faces : {RayScene::Faces::both, RayScene::Faces::front, RayScene::Faces::lit}) {
+        std::vector<RayHit> hits(along.size());
+        for (const float z : {0.5f, -0.5f}) {
+            scene.nearest({0.2f, 0.1f, z}, along, 10, faces, hits);
+            for (std::size_t i = 0; i < along.size(); ++i) {
+                const RayHit one = scene.nearest({0.2f, 0.1f, z}, along[i], 10, faces);
+                EXPECT_EQ(hits[i].object, one.object) << i;
+                EXPECT_EQ(hits[i].triangle, one.triangle);
+                EXPECT_EQ(hits[i].distance, one.distance);
+                EXPECT_EQ(hits[i].back, one.back);
+            }
+        }
+    }
+    const auto below = [&](RayScene::Faces faces) {
+        return scene.nearest({0.3f, -0.3f, -0.5f}, {0, 0, 1}, 10, faces).object.value;
+    };
+    EXPECT_EQ(below(RayScene::Faces::both), 1u);
+    EXPECT_EQ(below(RayScene::Faces::lit), 1u);
+    EXPECT_EQ(below(RayScene::Faces::front), ObjectId::kNone);
+    EXPECT_EQ(scene.nearest({-0.3f, 0.3f, -0.5f}, {0, 0, 1}, 10, RayScene::Faces::lit).object.value,
+              0u);
+}
+
+TEST(RayScene, OfTrianglesInOnePlaceMeetsThatOfTheLeastKey) {
+    std::array objects{square(0), square(0), square(0)};
+    objects[0].key = 3, objects[1].key = 1, objects[2].key = 2;
+    const RayScene scene(objects);
+    EXPECT_EQ(scene.nearest({0.1f, 0.3f, 1}, {0, 0, -1}, 10).object.value, 1u);
 }
 
 /// A cube of 2 m in many triangles, which share no vertex.

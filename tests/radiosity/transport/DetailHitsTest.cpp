@@ -15,7 +15,8 @@ struct AllHits {
     NodeHits nodes;
     DetailHits vertices;
 
-    explicit AllHits(const PatchSet& patches) : nodes(patches), vertices(patches, nodes) {}
+    AllHits(const PatchSet& patches, const RayScene& rays)
+        : nodes(patches, rays), vertices(patches, nodes) {}
     void apply(const SceneChange& change) { vertices.apply(change, nodes.apply(change)); }
     bool work() { return nodes.work(1000) || vertices.work(1000); }
     void settle() {
@@ -63,7 +64,7 @@ struct TwoRooms {
     TwoRooms()
         : scene(make()),
           lit(placeScene(scene), {.patchSize = 0.4f, .elementSize = 0.1f}, {.directOnly = true}),
-          hits(lit.patches()) {
+          hits(lit.patches(), lit.rays()) {
         hits.settle();
     }
     Scene make() {
@@ -113,7 +114,7 @@ TEST(DetailHits, ColoursTraceNoRay) {
 
 TEST(DetailHits, ABoxEvaluatedAnewChangesNothingWhereNothingWasWrong) {
     TwoRooms rooms;
-    AllHits fresh(rooms.lit.patches());
+    AllHits fresh(rooms.lit.patches(), rooms.lit.rays());
     fresh.settle();
     const std::uint64_t before = rooms.hits.rays();
     const Bounds box{glm::vec3(-0.5f), glm::vec3(0.5f)};

@@ -18,18 +18,16 @@ struct Moving {
                                        boxData({-0.1f, -0.1f, -0.1f}, {0.1f, 0.1f, 0.1f}, false))});
     Scene scene = sceneOf({object("room", boxData({-1, -1, -1}, {1, 1, 1}, true)), box});
     LitScene lit;
-    DrawnSurface surface;
     DetailRays rays;
 
     Moving()
         : lit((box->setBeginsObject(true), placeScene(scene)),
               {.patchSize = 0.5f, .elementSize = 0.25f}, {.directOnly = true}),
-          surface(lit.patches()), rays(lit.patches(), surface, 0.3f) {}
+          rays(lit.patches(), lit.rays(), 0.3f) {}
 
     DetailRays::Moved move() {
         box->setMatrix(moved(0.5, 0, 0));
         const SceneChange change = lit.follow(placeScene(scene)).change;
-        surface.follow(change.objects);
         const ObjectId id = change.objects.front();
         return {{lit.patches().objects[id.value].elements}, {boundsOf(lit.patches(), id)}};
     }

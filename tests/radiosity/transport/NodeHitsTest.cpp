@@ -32,7 +32,7 @@ std::string difference(const PatchSet& set, const NodeHits& a, const NodeHits& b
 struct Rooms {
     RoomsWithDoor made;
     LitScene lit{placeScene(made.scene), kCoarse, {.directOnly = true}};
-    NodeHits hits{lit.patches()};
+    NodeHits hits{lit.patches(), lit.rays()};
 
     Rooms() {
         settle(hits);
@@ -95,7 +95,8 @@ TEST(NodeHits, TellWhichNodesSeeMoreOrLessEachOnce) {
 TEST(NodeHits, TakenOverByAMeshingThatIsTheSameTraceNoRay) {
     RoomsWithDoor made;
     const BuiltPatches one = meshed(made.scene, kCoarse), other = meshed(made.scene, kCoarse);
-    NodeHits before(one.patches), now(other.patches);
+    const RayScene rays = raysThrough(one.patches);
+    NodeHits before(one.patches, rays), now(other.patches, rays);
     settle(before);
     now.takeOver(before, matchPatches(one.patches, other.patches));
     EXPECT_TRUE(now.done());
@@ -105,7 +106,8 @@ TEST(NodeHits, TakenOverByAMeshingThatIsTheSameTraceNoRay) {
 TEST(NodeHits, TakenOverFromUnfinishedOnesEndAsNewOnes) {
     RoomsWithDoor made;
     const BuiltPatches one = meshed(made.scene, kCoarse), other = meshed(made.scene, kCoarse);
-    NodeHits before(one.patches), now(other.patches), fresh(other.patches);
+    const RayScene rays = raysThrough(one.patches);
+    NodeHits before(one.patches, rays), now(other.patches, rays), fresh(other.patches, rays);
     before.work(20'000);
     ASSERT_FALSE(before.done());
     now.takeOver(before, matchPatches(one.patches, other.patches));

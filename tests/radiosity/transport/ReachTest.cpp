@@ -17,7 +17,7 @@ constexpr MeshingOptions kCoarse{.patchSize = 0.5f, .elementSize = 0.25f};
 struct Reached {
     LitScene scene;
     const PatchSet& set = scene.patches();
-    NodeHits hits{set};
+    NodeHits hits{set, scene.rays()};
     Reach reach;
 
     Reached(const Scene& from, const std::string& lit)
@@ -102,7 +102,7 @@ TEST(Reach, IsTheLeastSetThatIsClosed) {
         const EditableRoom room(seed);
         const LitScene lit(placeScene(room.scene()), EditableRoom::meshing(), {.directOnly = true});
         const PatchSet& set = lit.patches();
-        NodeHits hits(set);
+        NodeHits hits(set, lit.rays());
         while (hits.work(1 << 20)) {
         }
         std::mt19937 random(seed);

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace penumbra {
@@ -25,33 +24,23 @@ struct DrawnHit {
 /// Texture coordinates of a hit; zero if there are no textures.
 glm::vec2 uvOf(const PatchSet& patches, const DrawnHit& hit);
 
-/// The elements' triangles, cut as the renderer cuts them. Only fronts are met. Each object is a
-/// geometry of its own, so that one that moves is refitted and the others stay.
+/// The elements' triangles, cut as the renderer cuts them, of what is there. Only fronts are met.
 class DrawnSurface {
 public:
+    /// \param patches must outlive this, and stay as they are
     explicit DrawnSurface(const PatchSet& patches);
-
-    /// Takes in objects that came to the patch set.
-    void grow();
-    /// Takes in that objects were posed anew, hidden or shown in the patch set.
-    void follow(std::span<const ObjectId> objects);
 
     /// What is met first. Of surfaces that lie on each other it is the same one however the scene
     /// came to be as it is.
     DrawnHit nearest(glm::vec3 origin, glm::vec3 direction, float reach) const;
 
 private:
-    struct Part {
-        std::uint32_t object = 0;
-        std::vector<std::uint32_t> triangles; ///< element * 2 + (0: corners 0 1 2, 1: 0 2 3)
-    };
     std::vector<RayMesh> meshes();
-    void hideAbsent();
 
     const PatchSet& patches_;
-    std::vector<Part> parts_; ///< objects in an order that does not depend on what else there is
-    std::vector<std::uint32_t> partOf_; ///< by object
-    RayScene rays_;                     ///< of the parts
+    /// By object: what each triangle is, element * 2 + (0: corners 0 1 2, 1: corners 0 2 3).
+    std::vector<std::vector<std::uint32_t>> triangles_;
+    RayScene rays_;
 };
 
 } // namespace penumbra
