@@ -45,7 +45,11 @@ bool NearestHit::take(std::span<const glm::vec3, 3> corners, const RayHit& hit,
     const bool back = glm::dot(direction_, normal) >= 0;
     if (!(sides & (back ? kBack : kFront))) return false;
     if (!edges.passes()) {
-        if (hit.distance < doubt_.distance) doubt_ = hit, middle_ = (a + b + c) / 3.0;
+        if (hit.distance < doubt_.distance) {
+            doubt_ = hit;
+            doubt_.back = back;
+            middle_ = (a + b + c) / 3.0;
+        }
         return false;
     }
     const double distance = glm::dot(a, normal) / glm::dot(direction_, normal);

@@ -167,26 +167,6 @@ bool canBeTraced(glm::vec3 p) {
     return std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest && std::abs(p.z) < kFarthest;
 }
 
-std::uint32_t lanesThatMeet(const ShadowRays& rays, std::uint32_t lanes, const Bounds& box) {
-    float first[16], last[16];
-    for (int i = 0; i < 16; ++i) first[i] = 0, last[i] = 1;
-    const auto clip = [&](const float* origin, const float* direction, float lower, float upper) {
-        for (int i = 0; i < 16; ++i) {
-            const float inverse = 1.0f / direction[i];
-            const float a = (lower - origin[i]) * inverse, b = (upper - origin[i]) * inverse;
-            const float near = a < b ? a : b, far = a < b ? b : a;
-            first[i] = near > first[i] ? near : first[i]; // not a number: changes nothing
-            last[i] = far < last[i] ? far : last[i];
-        }
-    };
-    clip(rays.originX, rays.directionX, box.lower.x, box.upper.x);
-    clip(rays.originY, rays.directionY, box.lower.y, box.upper.y);
-    clip(rays.originZ, rays.directionZ, box.lower.z, box.upper.z);
-    std::uint32_t meet = 0;
-    for (int i = 0; i < 16; ++i) meet |= std::uint32_t(first[i] <= last[i]) << i;
-    return meet & lanes;
-}
-
 struct RayScene::Impl {
     /// An object's geometry is part of the whole scene and of one of its own, made on demand.
     struct Member {
@@ -447,22 +427,27 @@ RayHit RayScene::nearest(glm::vec3 origin, glm::vec3 direction, float reach, Fac
 void RayScene::nearest(glm::vec3 origin, std::span<const glm::vec3> directions, float reach,
                        Faces faces, std::span<RayHit> hits) const {
     assert(directions.size() <= ShadowRays::kMost && hits.size() == directions.size());
-    std::ranges::fill(hits, RayHit());
-    if (std::isnan(reach)) return;
-    alignas(64) int valid[16];
+    constexpr std::size_t kFew = 4; // a packet costs more than one by one
+    if (directions.size() < kFew || std::isnan(reach)) {
+        for (std::size_t i = 0; i < directions.size(); ++i)
+            hits[i] = nearest(origin, directions[i], reach, faces);
+        return;
+    }
+    alignas(64) int valid[16]{};
     alignas(64) RTCRayHit16 packet{};
+    std::ranges::fill(packet.ray.dir_z, 1.0f);
+    std::ranges::fill(packet.ray.tnear, 1.0f); // of those that are not used, see trace()
     std::vector<NearestHit> nearest;
     nearest.reserve(directions.size());
-    for (std::size_t i = 0; i < 16; ++i) {
-        const bool used = i < directions.size() && isTraceable(origin, directions[i]);
-        const glm::vec3 from = used ? origin : glm::vec3(0);
-        const glm::vec3 to = used ? directions[i] : glm::vec3(0, 0, 1);
-        if (i < directions.size()) nearest.emplace_back(from, to);
-        valid[i] = used ? -1 : 0;
-        packet.ray.org_x[i] = from.x, packet.ray.org_y[i] = from.y, packet.ray.org_z[i] = from.z;
-        packet.ray.dir_x[i] = to.x, packet.ray.dir_y[i] = to.y, packet.ray.dir_z[i] = to.z;
-        packet.ray.tnear[i] = used ? 0.0f : 1.0f; // see trace()
-        packet.ray.tfar[i] = used ? reach : 0.0f;
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        const glm::vec3 to = directions[i];
+        nearest.emplace_back(origin, to);
+        if (!isTraceable(origin, to)) continue;
+        valid[i] = -1;
+        packet.ray.org_x[i] = origin.x, packet.ray.dir_x[i] = to.x;
+        packet.ray.org_y[i] = origin.y, packet.ray.dir_y[i] = to.y;
+        packet.ray.org_z[i] = origin.z, packet.ray.dir_z[i] = to.z;
+        packet.ray.tnear[i] = 0, packet.ray.tfar[i] = reach;
         packet.ray.mask[i] = 0xffffffffu;
         packet.ray.id[i] = unsigned(i);
         packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;

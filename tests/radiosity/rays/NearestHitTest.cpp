@@ -67,6 +67,14 @@ TEST(NearestHit, IsInDoubtAboutWhatItPassesByUnlessTheNeighbourIsMet) {
     EXPECT_FALSE(nearest.inDoubt());
 }
 
+TEST(NearestHit, TellsWhichSideItPassesBy) {
+    const glm::vec3 beside(0.25f, 0.25f + 3e-8f, -2);
+    NearestHit nearest(beside, {0, 0, 1});
+    EXPECT_FALSE(nearest.take(kLower, offered(0, 0, 2), kBothSides));
+    ASSERT_TRUE(nearest.inDoubt());
+    EXPECT_TRUE(nearest.doubt().back);
+}
+
 TEST(NearestHit, RaysAroundAreAHairBesideItAlsoWhereTheTriangleTouchesItsOrigin) {
     const glm::vec3 from(0.25f, 0.25f + 3e-8f, 0), direction(0.1f, 0, -3);
     NearestHit nearest(from, direction);
