@@ -89,7 +89,7 @@ void PatchAssembly::addSheet(const SurfaceMesh& mesh, const Tessellation& tessel
             outlines_.insert(outlines_.end(), first, first + cell.cornerCount);
             if (back) std::reverse(outlines_.end() - cell.cornerCount + 1, outlines_.end());
         }
-        cells_.push_back(std::move(sheet));
+        cells_.push_back(sheet);
     }
     addElements(tessellation, firstCell, object, back, !mesh.uvs.empty());
 }
