@@ -127,6 +127,7 @@ Rgb TextureImage::texel(int level, int x, int y) const {
 void TextureImage::buildLevels(int width, int height) {
     levels_.push_back({width, height, 0});
     while (levels_.back().width > 1 || levels_.back().height > 1) addLevel();
+    roots_.shrink_to_fit();
 }
 
 /// Box means of the last level.

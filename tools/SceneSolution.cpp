@@ -242,8 +242,9 @@ void SceneSolution::mesh(const MeshingOptions& meshing) {
     progress_.show("meshing", 0);
     timed("mesh", [&] {
         try {
+            const bool isFollowed = !settings_.frames.empty() && !settings_.fromScratch;
             lit_ = std::make_unique<LitScene>(
-                placed_, meshing, solving_, true,
+                placed_, meshing, solving_, isFollowed,
                 [&](const char* phase, double done) { progress_.show(phase, done); });
         } catch (const Error& error) {
             progress_.clear();

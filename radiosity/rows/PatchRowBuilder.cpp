@@ -165,7 +165,7 @@ bool PatchRowBuilder::list(const PatchSender& sender, const ReceiverBlock& recei
     const float factor = drawn(open(sender, receivers.receivers[r], r), sender.least,
                                pairHash(sender.key, receivers.keys[r]));
     if (!(factor > 0)) return false;
-    drafts_[r].formFactor = factor;
+    drafts_[r].formFactor = SmallFloat(factor);
     const std::size_t begin = samples_.size();
     listSamples(sender, receivers, r);
     return samples_.size() > begin;
@@ -223,9 +223,10 @@ void PatchRowBuilder::collect(const PatchSender& sender, const EntrySamples& ent
             draft.block(sample.blocker, sample.index);
         }
     }
+    if (draft.visible != 0) draft.visibility = SmallFloat(draft.visibility);
     draft.sharing = sharingOf(sender);
-    draft.allSamples = sender.allSamples && draft.sharing != RowBlock::Sharing::even;
-    if (draft.visible != 0 && draft.sharing != RowBlock::Sharing::even) share(sender, entry);
+    draft.allSamples = sender.allSamples && RowBlock::hasShares(draft.sharing);
+    if (draft.visible != 0 && RowBlock::hasShares(draft.sharing)) share(sender, entry);
 }
 
 /// Notes how much is visible of each cell: a sample stands for the cell that it lies in, of four

@@ -23,7 +23,8 @@ namespace penumbra {
 /// [ArvoKirk1990]), so that sums stay what they are in the mean. But a thing of a few centimetres
 /// right beside a bulb may light a room, and comes by such entries alone: of what emitters may
 /// shine on like that the least is kLeastOfBright. What is below kNoFactor has no entry.
-inline constexpr float kLeastFactor = 3e-4f, kLeastOfBright = 1e-5f, kNoFactor = 1e-6f;
+inline constexpr float kLeastFactor = SmallFloat(3e-4f), kLeastOfBright = SmallFloat(1e-5f),
+                       kNoFactor = 1e-6f;
 
 /// A patch, or a cluster of patches, made ready to send light to receivers.
 struct PatchSender {

@@ -66,12 +66,11 @@ public:
         put(visible_);
         put(std::uint16_t(0)); // the size, not yet known
         put(std::uint16_t(objectCount_ | (wideObjects_ ? kWideObjects : 0u) |
-                          (sharing_ == Sharing::quarters ? kQuarters : 0u) |
-                          (sharing_ == Sharing::cells ? kCells : 0u) |
-                          (sharing_ != Sharing::even && allSamples_ ? kAllSamples : 0u)));
+                          unsigned(sharing_) * kSharingUnit |
+                          (hasShares(sharing_) && allSamples_ ? kAllSamples : 0u)));
         if (present_ != visible_) put(seen_);
-        for (const int i : bitsOf(present_)) put(draft(i).formFactor);
-        for (const int i : bitsOf(seen_ & ~visible_)) put(draft(i).visibility);
+        for (const int i : bitsOf(present_)) putNumber(draft(i).formFactor);
+        for (const int i : bitsOf(seen_ & ~visible_)) putNumber(draft(i).visibility);
         putShares();
         for (const std::uint32_t object : objects()) putLow(object, wideObjects_ ? 4 : 2);
         for (const int i : bitsOf(present_ & ~visible_)) putRecord(draft(i));
@@ -109,6 +108,9 @@ private:
         std::memcpy(out_.data() + size_, &value, sizeof value); // what is too much is written over
         size_ += size;
     }
+    void putNumber(float value) {
+        sharing_ == Sharing::emitter ? put(value) : put(SmallFloat(value));
+    }
     std::span<const std::uint32_t> objects() const {
         return std::span(objects_).first(objectCount_);
     }
@@ -117,7 +119,7 @@ private:
     }
 
     void putShares() {
-        if (sharing_ == Sharing::even) return;
+        if (!hasShares(sharing_)) return;
         std::size_t all = 0;
         const auto countOf = [this](int i) {
             return shareCount(sharing_, samplesFor(draft(i).formFactor, allSamples_));
@@ -155,7 +157,7 @@ private:
     std::span<const Draft> drafts_;
     std::uint64_t present_ = 0, visible_ = 0, seen_ = 0;
     bool wideObjects_ = false, allSamples_ = false;
-    Sharing sharing_ = Sharing::even;
+    Sharing sharing_ = Sharing::emitter;
     std::array<std::uint32_t, std::size_t(kSize) * kSize> objects_;
     std::size_t objectCount_ = 0;
     std::array<std::byte, 65536> out_; ///< 64 entries of 64 blockers, all different, take less
@@ -185,8 +187,8 @@ public:
         if (left_ == 0) return false;
         receiver = std::countr_zero(left_);
         left_ &= left_ - 1;
-        formFactor = block_.at<float>(factor_);
-        factor_ += 4;
+        formFactor = block_.number(factor_);
+        factor_ += block_.width();
         visibility = 1;
         visible = kAll;
         blockers = {};
@@ -201,8 +203,8 @@ public:
         visible = 0;
         const bool seen = seen_ >> receiver & 1;
         if (seen) {
-            visibility = block_.at<float>(share_);
-            share_ += 4;
+            visibility = block_.number(share_);
+            share_ += block_.width();
         }
         readRecord(seen);
         return true;
@@ -212,7 +214,7 @@ public:
     float formFactor = 0, visibility = 0;
     std::uint64_t visible = 0;
     std::span<const Blocker> blockers;
-    Sharing sharing = Sharing::even;
+    Sharing sharing = Sharing::emitter;
     bool allSamples = false;
     std::array<std::uint8_t, kMostShares> shares{};
 
@@ -302,7 +304,7 @@ bool RowBlock::blockedBy(std::uint32_t object) const {
 float RowBlock::largestFormFactor() const {
     float largest = 0;
     for (int i = 0; i < entryCount(); ++i)
-        largest = std::max(largest, at<float>(factors() + 4 * std::size_t(i)));
+        largest = std::max(largest, number(factors() + width() * std::size_t(i)));
     return largest;
 }
 

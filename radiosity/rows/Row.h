@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/ObjectId.h"
+#include "radiosity/rows/SmallFloat.h"
 
 #include <array>
 #include <bit>
@@ -31,12 +32,12 @@ struct Blocker {
 ///
 ///     present, visible   8 + 8  masks of receivers: has an entry; and is wholly visible
 ///     size, objects      2 + 2  bytes of this run; length of the list of objects, | kWideObjects,
-///                               | kQuarters, | kCells, | kAllSamples
+///                               | Sharing, | kAllSamples
 ///     seen               8      mask: some sample is visible       (not if all are wholly visible)
-///     form factors       4 each of the present entries, unoccluded
-///     visibilities       4 each of the entries that are seen, but not wholly
-///     shares                    with kQuarters or kCells: 2 for the length of all of them, then
-///                               1, 4 or 15 for each of the entries that are seen
+///     form factors       2 each of the present entries, unoccluded (4 in an emitter's row)
+///     visibilities       2 each of the entries that are seen, but not wholly (4)
+///     shares                    of quarters or cells: 2 for the length of all of them, then 1, 4
+///                               or 15 for each of the entries that are seen
 ///     objects            2 each, with kWideObjects 4: all that block anything in this block
 ///     records                   of the entries that are not wholly visible, in order
 ///
@@ -57,8 +58,11 @@ public:
     static constexpr int kSize = 64;
 
     /// Whether all of a sender sends alike, or what is seen of it is shared among its cells: those
-    /// of a patch, or those of a cluster, which has quarters as well. See SenderLight.h.
-    enum class Sharing : std::uint8_t { even, cells, quarters };
+    /// of a patch, or those of a cluster, which has quarters as well. See SenderLight.h. Emitters
+    /// send evenly, and what is said of them is kept as it is; of all others form factors and
+    /// visibilities are SmallFloats.
+    enum class Sharing : std::uint8_t { emitter, even, cells, quarters };
+    static constexpr bool hasShares(Sharing sharing) { return sharing >= Sharing::cells; }
 
     /// What is seen of a sender, part by part: how much its first, first two, ... parts are, of
     /// 255; the last one is what is left over. By the number of samples of the entry:
@@ -68,7 +72,7 @@ public:
     ///     16   15 of cells
     static constexpr std::size_t kMostShares = 15;
     static constexpr std::size_t shareCount(Sharing sharing, int samples) {
-        if (sharing == Sharing::even) return 0;
+        if (!hasShares(sharing)) return 0;
         if (samples == 16) return 15;
         return samples == 1 && sharing == Sharing::cells ? 1 : 4;
     }
@@ -80,12 +84,12 @@ public:
 
     /// An entry in the making.
     struct Draft {
-        float formFactor = 0;            ///< unoccluded; 0: no entry
-        float visibility = 1;            ///< weighted share of the samples that are visible
-        std::uint64_t visible;           ///< mask of the visible samples
-        int blockerCount = 0;            ///< 0: all samples are visible
-        Sharing sharing = Sharing::even; ///< the same for all entries of a block
-        bool allSamples = false;         ///< see samplesFor(); likewise, false if even
+        float formFactor = 0;               ///< unoccluded; 0: no entry
+        float visibility = 1;               ///< weighted share of the samples that are visible
+        std::uint64_t visible;              ///< mask of the visible samples
+        int blockerCount = 0;               ///< 0: all samples are visible
+        Sharing sharing = Sharing::emitter; ///< the same for all entries of a block
+        bool allSamples = false;            ///< see samplesFor(); likewise, false without shares
         std::array<std::uint8_t, kMostShares> shares{};
         std::array<Blocker, kSize> blockers;
 
@@ -94,7 +98,7 @@ public:
             visibility = 1;
             visible = 0;
             blockerCount = 0;
-            sharing = Sharing::even;
+            sharing = Sharing::emitter;
             allSamples = false;
             shares = {};
         }
@@ -122,10 +126,8 @@ public:
     void decode(std::span<Draft> drafts) const;
 
     Sharing sharing() const {
-        const unsigned flags = bytes_ ? at<std::uint16_t>(kObjects) : 0u;
-        return flags & kCells      ? Sharing::cells
-               : flags & kQuarters ? Sharing::quarters
-                                   : Sharing::even;
+        return bytes_ ? Sharing((at<std::uint16_t>(kObjects) & kSharing) / kSharingUnit)
+                      : Sharing::emitter;
     }
     /// The same as forEach(), with the Shares as well.
     template <class Visit>
@@ -153,27 +155,8 @@ public:
     template <class Visit>
     void forEachSeen(Visit visit) const {
         if (!bytes_) return;
-        const std::uint64_t present = at<std::uint64_t>(0), visible = at<std::uint64_t>(kVisible);
-        std::size_t factor = factors();
-        if (present == visible) {
-            for (std::uint64_t left = present; left != 0; left &= left - 1, factor += 4)
-                visit(std::countr_zero(left), at<float>(factor), at<float>(factor));
-            return;
-        }
-        constexpr float kAll = 1;
-        const std::byte* const wholly = reinterpret_cast<const std::byte*>(&kAll);
-        const std::byte* share = bytes_.get() + visibilities();
-        for (std::uint64_t left = at<std::uint64_t>(kSeen); left != 0; left &= left - 1) {
-            const std::uint64_t before = (left & (~left + 1)) - 1; // receivers
-            const int receiver = std::countr_zero(left);
-            const float formFactor =
-                at<float>(factor + 4 * std::size_t(std::popcount(present & before)));
-            const bool whole = visible >> receiver & 1;
-            float visibility; // without a branch, which nothing could foresee
-            std::memcpy(&visibility, whole ? wholly : share, sizeof visibility);
-            share += whole ? 0 : sizeof visibility;
-            visit(receiver, formFactor, formFactor * visibility);
-        }
+        sharing() == Sharing::emitter ? forEachSeenOf<float>(visit)
+                                      : forEachSeenOf<SmallFloat>(visit);
     }
 
     /// Calls visit(object) once for every object that blocks any sample in this block.
@@ -222,9 +205,9 @@ private:
     class Reader;
 
     static constexpr std::size_t kVisible = 8, kBytes = 16, kObjects = 18, kSeen = 20;
-    static constexpr std::uint16_t kWideObjects = 0x8000;               ///< object ids of 4 bytes
-    static constexpr std::uint16_t kQuarters = 0x4000, kCells = 0x2000; ///< there are shares
-    static constexpr std::uint16_t kAllSamples = 0x1000;                ///< of blocks with shares
+    static constexpr std::uint16_t kWideObjects = 0x8000; ///< object ids of 4 bytes
+    static constexpr std::uint16_t kSharing = 0x6000, kSharingUnit = 0x2000;
+    static constexpr std::uint16_t kAllSamples = 0x1000; ///< not of emitters
 
     template <class T>
     T at(std::size_t offset) const {
@@ -238,36 +221,73 @@ private:
     }
     std::size_t size() const { return bytes_ ? at<std::uint16_t>(kBytes) : 0; }
     bool allSamples() const {
-        return sharing() != Sharing::even && (at<std::uint16_t>(kObjects) & kAllSamples) != 0;
+        return hasShares(sharing()) && (at<std::uint16_t>(kObjects) & kAllSamples) != 0;
     }
     std::size_t objectCount() const {
         if (!bytes_) return 0;
-        // Without shares there may be 64 blockers an entry: 0x1000 in all.
-        const unsigned flags = kWideObjects | kQuarters | kCells |
-                               (sharing() == Sharing::even ? 0u : unsigned(kAllSamples));
+        // Of an emitter there may be 64 blockers an entry: 0x1000 in all.
+        const unsigned flags =
+            kWideObjects | kSharing | (sharing() == Sharing::emitter ? 0u : unsigned(kAllSamples));
         return at<std::uint16_t>(kObjects) & ~flags;
     }
     std::size_t objectSize() const { return at<std::uint16_t>(kObjects) & kWideObjects ? 4 : 2; }
 
     /// Where the parts begin. \pre there are entries
     std::size_t factors() const { return present() == visible() ? kSeen : kSeen + 8; }
+    /// Bytes of a form factor and of a visibility.
+    std::size_t width() const {
+        return sharing() == Sharing::emitter ? sizeof(float) : sizeof(SmallFloat);
+    }
     std::size_t visibilities() const {
-        return factors() + 4 * std::size_t(std::popcount(present()));
+        return factors() + width() * std::size_t(std::popcount(present()));
     }
     std::size_t shares() const {
-        return visibilities() + 4 * std::size_t(std::popcount(seen() & ~visible()));
+        return visibilities() + width() * std::size_t(std::popcount(seen() & ~visible()));
     }
     std::size_t firstShare() const {
-        return bytes_ ? shares() + (sharing() == Sharing::even ? 0 : 2) : 0;
+        return bytes_ ? shares() + (hasShares(sharing()) ? 2 : 0) : 0;
     }
     std::size_t objects() const {
         const std::size_t from = shares();
-        return sharing() == Sharing::even ? from : from + 2 + at<std::uint16_t>(from);
+        return hasShares(sharing()) ? from + 2 + at<std::uint16_t>(from) : from;
     }
     std::size_t records() const { return objects() + objectSize() * objectCount(); }
     std::uint32_t object(std::size_t i) const {
         return objectSize() == 4 ? at<std::uint32_t>(objects() + 4 * i)
                                  : at<std::uint16_t>(objects() + 2 * i);
+    }
+
+    /// A form factor or a visibility.
+    float number(std::size_t offset) const {
+        return sharing() == Sharing::emitter ? at<float>(offset) : float(at<SmallFloat>(offset));
+    }
+    /// \tparam Number that form factors and visibilities are \pre there are entries
+    template <class Number, class Visit>
+    void forEachSeenOf(Visit& visit) const {
+        const std::uint64_t present = at<std::uint64_t>(0), visible = at<std::uint64_t>(kVisible);
+        std::size_t factor = factors();
+        if (present == visible) {
+            for (std::uint64_t left = present; left != 0; left &= left - 1) {
+                const float formFactor = at<Number>(factor);
+                visit(std::countr_zero(left), formFactor, formFactor);
+                factor += sizeof(Number);
+            }
+            return;
+        }
+        const Number all(1);
+        const auto* const wholly = reinterpret_cast<const std::byte*>(&all);
+        const std::byte* share = bytes_.get() + visibilities();
+        for (std::uint64_t left = at<std::uint64_t>(kSeen); left != 0; left &= left - 1) {
+            const std::uint64_t before = (left & (~left + 1)) - 1; // receivers
+            const int receiver = std::countr_zero(left);
+            const float formFactor =
+                at<Number>(factor + sizeof(Number) * std::size_t(std::popcount(present & before)));
+            const bool whole = visible >> receiver & 1;
+            Number visibility; // without a branch, which nothing could foresee
+            std::memcpy(&visibility, whole ? wholly : share, sizeof visibility);
+            share += whole ? 0 : sizeof visibility;
+            visit(receiver, formFactor, formFactor * float(visibility));
+        }
     }
 
     std::unique_ptr<std::byte[]> bytes_;

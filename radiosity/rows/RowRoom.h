@@ -7,9 +7,9 @@
 
 namespace penumbra {
 
-/// A block of a row of patches takes no more, but for a few [bytes]: 64 entries of 8 bytes and 4 of
+/// A block of a row of patches takes no more, but for a few [bytes]: 64 entries of 4 bytes and 4 of
 /// shares, and masks.
-inline constexpr std::size_t kFullBlock = 830;
+inline constexpr std::size_t kFullBlock = 574;
 
 /// How many times as much a row takes as its blocks are large: what the allocator adds, lists of
 /// blockers, and gaps that rows in the making leave behind. Measured: office, gallery.

@@ -68,6 +68,8 @@ public:
     void note(std::span<const BlockerNote> notes) { insert(blockers_, notes); }
     /// Remembers objects with a wall that hides receivers of a block, which have no entry.
     void noteOccluders(std::span<const BlockerNote> notes) { insert(occluders_, notes); }
+    /// A row has been built: its notes take no more memory than they need.
+    void fit(std::uint32_t row) { blockers_[row].shrink_to_fit(), occluders_[row].shrink_to_fit(); }
     /// Of a row: by block.
     std::vector<BlockerNote> occluders(std::uint32_t row) const;
     /// Takes out all entries of a row, and all notes of it.

@@ -103,7 +103,7 @@ private:
 /// Calls visit(receiver, form factor times visibility, what that makes of `light`).
 template <class Visit>
 void forEachReceived(const RowBlock& block, const SentLight& light, const Visit& visit) {
-    if (block.sharing() == RowBlock::Sharing::even) {
+    if (!RowBlock::hasShares(block.sharing())) {
         block.forEach(
             [&](int r, float factor) { visit(r, factor, double(factor) * light.first()); });
         return;

@@ -60,7 +60,7 @@ struct DetailGather::Sweep {
 };
 
 DetailGather::DetailGather(const PatchSet& patches, NodeHits& nodes)
-    : patches_(patches), hits_(patches, nodes), sweep_(std::make_unique<Sweep>()) {}
+    : patches_(patches), hits_(patches, nodes) {}
 
 DetailGather::~DetailGather() = default;
 
@@ -115,14 +115,13 @@ void DetailGather::invalidate(const Bounds& region) {
 
 void DetailGather::beginSweeps(std::span<const Rgb> direct, std::vector<glm::dvec3> nodeIndirect) {
     assert(hits_.done());
+    sweep_ = std::make_unique<Sweep>();
     sweep_->direct = direct;
     sweep_->indirect.resize(direct.size());
     sweep_->nodeIndirect = std::move(nodeIndirect);
     sweep_->sent.all.resize(patches_.elements.size());
     sweep_->sent.direct.resize(patches_.elements.size());
     sweep_->settled.assign(direct.size(), 0);
-    sweep_->round = -1;
-    sweep_->next = 0;
     sweeping_ = true;
 }
 
@@ -151,7 +150,8 @@ void DetailGather::sweep(std::size_t effort) {
     if (s.next < round.count) return;
     s.next = 0;
     if (++s.round < kRounds * kSweeps - 1) return;
-    std::swap(sent_, s.sent);
+    sent_ = std::move(s.sent);
+    sweep_.reset();
     sweeping_ = pending_ = false;
     swept_ = true;
 }

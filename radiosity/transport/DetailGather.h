@@ -119,7 +119,7 @@ private:
     DetailHits hits_;
     Sent sent_; ///< as the last sweeps left it; empty before the first
     bool swept_ = false, sweeping_ = false, pending_ = true;
-    std::unique_ptr<Sweep> sweep_; ///< kept for its memory
+    std::unique_ptr<Sweep> sweep_; ///< null if none are under way
 };
 
 } // namespace penumbra

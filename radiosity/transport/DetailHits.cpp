@@ -147,6 +147,7 @@ GroupOutcome DetailHits::trace(std::uint32_t group) {
             {v, patches_.vertices[v].receiver, expected, (dirty.anew >> i & 1) != 0, known, moved},
             out, outcome);
     }
+    out.fit();
     return outcome;
 }
 

@@ -101,6 +101,8 @@ private:
             probed |= 1u << slot;
             return probes.emplace_back();
         }
+        /// All is found: it takes no more memory than it needs.
+        void fit() { probes.shrink_to_fit(), gatherers.shrink_to_fit(), hits.shrink_to_fit(); }
     };
     struct Visit;
     void takeVertices(const DetailHits& before, std::span<const std::uint32_t> were,

@@ -121,9 +121,12 @@ private:
         std::vector<std::vector<std::uint32_t>> linked; ///< to senders without a row, one each
         std::vector<std::vector<Link>> receivers;       ///< as of Shot
     };
-    /// Who blocks what of the rows that a shot builds, and whose walls hide blocks of them.
-    struct ShotNotes {
+    /// What serving some blocks has built of rows: who blocks what of them, and whose walls hide
+    /// blocks.
+    struct Served {
+        std::size_t bytes = 0;
         std::vector<RowTable::BlockerNote> blockers, occluders;
+        RayCount rays;
     };
     /// What a block has received from a sender [lm/m^2], and whether its row sums know of it.
     struct Arrived {
@@ -178,10 +181,9 @@ private:
     void list(std::size_t effort);
     void load(Listing& listing);
     void serve(std::size_t effort);
-    void serveBlock(std::uint32_t block, PatchRowBuilder& builder, std::size_t& bytes,
-                    ShotNotes& notes);
+    void serveBlock(std::uint32_t block, std::optional<PatchRowBuilder>& builder, Served& served);
     void buildBlock(std::uint32_t s, std::uint32_t b, PatchRowBuilder& builder, RowBlock& block,
-                    std::size_t& bytes, ShotNotes& notes);
+                    Served& served);
     void serveLink(std::uint32_t i, std::uint32_t b, const RowBlock& block);
     void finishShot();
     void residualsChanged();
@@ -285,7 +287,6 @@ private:
     std::unique_ptr<Listing> listing_;   ///< never at the same time as shot_
     std::unique_ptr<Shot> shot_;
     std::vector<std::vector<Link>> lists_; ///< empty: a shot's, kept for their memory
-    std::vector<PatchRowBuilder> builders_;
     RayCount buildRays_;
     std::uint64_t shots_ = 0, served_ = 0;
     double most_ = 0, dirtyBound_ = 0, gain_ = 1, certificate_ = 0, meanRadiosity_ = 0;

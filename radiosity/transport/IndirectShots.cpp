@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace penumbra {
@@ -181,29 +182,28 @@ void IndirectLight::serve(std::size_t effort) {
     }
     cuts.push_back(last);
     const std::size_t tasks = cuts.size() - 1;
-    struct Task {
-        std::size_t bytes = 0;
-        ShotNotes notes;
-    };
-    std::vector<Task> done(tasks);
-    while (builders_.size() < tasks) builders_.emplace_back(rays_);
+    std::vector<Served> done(tasks);
     parallelFor(tasks, 1, [&](std::size_t first, std::size_t end) {
-        for (std::size_t t = first; t < end; ++t)
+        std::optional<PatchRowBuilder> builder;
+        for (std::size_t t = first; t < end; ++t) {
             for (auto b = std::uint32_t(cuts[t]); b < cuts[t + 1]; ++b)
-                serveBlock(b, builders_[t], done[t].bytes, done[t].notes);
+                serveBlock(b, builder, done[t]);
+            if (builder) done[t].rays = builder->takeRayCount();
+        }
     });
-    for (const Task& task : done) {
+    for (const Served& task : done) {
         shot.bytes += task.bytes;
-        table_.note(task.notes.blockers);
-        table_.noteOccluders(task.notes.occluders);
+        table_.note(task.blockers);
+        table_.noteOccluders(task.occluders);
+        buildRays_ += task.rays;
     }
-    for (PatchRowBuilder& builder : builders_) buildRays_ += builder.takeRayCount();
     for (; shot.next < last; ++shot.next) served_ += shot.receivers[shot.next].size();
     if (last == shot.receivers.size()) finishShot();
 }
 
-void IndirectLight::serveBlock(std::uint32_t b, PatchRowBuilder& builder, std::size_t& bytes,
-                               ShotNotes& notes) {
+/// \param builder is made once there is something to build
+void IndirectLight::serveBlock(std::uint32_t b, std::optional<PatchRowBuilder>& builder,
+                               Served& served) {
     constexpr std::size_t kAhead = 16; // so many are fetched at a time
     const std::vector<Link>& links = shot_->receivers[b];
     for (std::size_t first = 0; first < links.size(); first += kAhead) {
@@ -217,23 +217,25 @@ void IndirectLight::serveBlock(std::uint32_t b, PatchRowBuilder& builder, std::s
         }
         for (std::size_t k = 0; k < some.size(); ++k) blocks[k]->prefetch();
         for (std::size_t k = 0; k < some.size(); ++k) {
-            if (shot_->build[some[k].sender])
-                buildBlock(shot_->senders[some[k].sender], b, builder, *blocks[k], bytes, notes);
+            if (shot_->build[some[k].sender]) {
+                if (!builder) builder.emplace(rays_);
+                buildBlock(shot_->senders[some[k].sender], b, *builder, *blocks[k], served);
+            }
             serveLink(some[k].sender, b, *blocks[k]);
         }
     }
 }
 
 void IndirectLight::buildBlock(std::uint32_t s, std::uint32_t b, PatchRowBuilder& builder,
-                               RowBlock& block, std::size_t& bytes, ShotNotes& notes) {
+                               RowBlock& block, Served& served) {
     ReceiverBlock receivers = receiversOf(s, b);
     const ObjectId by = receivers.wanted != 0 ? hiddenBy(s, b) : ObjectId();
     if (by.valid()) receivers.wanted = 0;
     builder.build(senders_.sender(s), receivers, block);
     if (!kept_[s]) return;
-    bytes += block.bytes();
-    RowTable::listBlockers(s, b, block, notes.blockers);
-    if (by.valid()) notes.occluders.push_back({s, b, by.value});
+    served.bytes += block.bytes();
+    RowTable::listBlockers(s, b, block, served.blockers);
+    if (by.valid()) served.occluders.push_back({s, b, by.value});
 }
 
 /// \param i index into the senders of the batch
@@ -251,6 +253,7 @@ void IndirectLight::finishShot() {
         const std::span<glm::dvec3> sent = cellsOf(sent_, p);
         for (std::size_t c = 0; c < sent.size(); ++c) sent[c] += shot_->light[i][c];
         known_[p] = 1;
+        if (shot_->build[i]) table_.fit(p);
         if (kept_[p] && !sendersReached_[p]) forgotten_.push_back(p);
         updates_.dirty().setPower(p, largest(sent));
     }

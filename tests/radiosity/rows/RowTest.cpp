@@ -49,17 +49,22 @@ Draft anyDraft() {
     return draft;
 }
 
-/// A block whose sender sends evenly, or from quarters or cells, of which entries have shares.
+/// A block whose sender is an emitter, or sends evenly, or from quarters or cells, of which entries
+/// have shares.
 std::vector<Draft> anyDrafts() {
     std::vector<Draft> drafts(std::size_t(*rc::gen::inRange(0, RowBlock::kSize + 1)));
-    const auto sharing = *rc::gen::element(RowBlock::Sharing::even, RowBlock::Sharing::quarters,
-                                           RowBlock::Sharing::cells);
-    const bool all = sharing != RowBlock::Sharing::even && *rc::gen::arbitrary<bool>();
+    const auto sharing = *rc::gen::element(RowBlock::Sharing::emitter, RowBlock::Sharing::even,
+                                           RowBlock::Sharing::quarters, RowBlock::Sharing::cells);
+    const bool all = RowBlock::hasShares(sharing) && *rc::gen::arbitrary<bool>();
     for (Draft& draft : drafts) {
         draft = anyDraft();
         if (!(draft.formFactor > 0)) continue;
         draft.formFactor *= *rc::gen::element(1.0f, 0.01f, 0.0001f); // of 16, 4 samples, or one
         draft.sharing = sharing;
+        if (sharing != RowBlock::Sharing::emitter) { // as a PatchRowBuilder rounds them
+            draft.formFactor = SmallFloat(draft.formFactor);
+            if (draft.visibility > 0) draft.visibility = SmallFloat(draft.visibility);
+        }
         draft.allSamples = all;
         if (draft.blockerCount > 0 && draft.visible == 0) continue;
         const std::size_t count = RowBlock::shareCount(sharing, samplesFor(draft.formFactor, all));
