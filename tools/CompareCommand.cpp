@@ -153,9 +153,7 @@ void run(CompareCommand command) {
     if (command.json.empty())
         command.json = std::filesystem::path(command.output).replace_extension(".json").string();
     checkOutputs({command.solve.scene}, {command.output, command.json});
-    ProgressBar progress(command.solve.quiet      ? ProgressBar::When::never
-                         : command.solve.progress ? ProgressBar::When::always
-                                                  : ProgressBar::When::terminal);
+    ProgressBar progress(whenToShowProgress(command.solve));
     LoadOptions load;
     load.allowOutside = command.solve.allowOutside;
     load.time = frameRange(command.solve.frames).first;

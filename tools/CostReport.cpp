@@ -4,6 +4,7 @@
 #include "base/Parallel.h"
 #include "radiosity/query/CostEstimate.h"
 #include "radiosity/transport/LitScene.h"
+#include "tools/ProgressBar.h"
 
 #include <fmt/format.h>
 
@@ -56,17 +57,24 @@ void printCost(const SolveSettings& settings, const LoadedScene& loaded,
     const RadiosityOptions resolved = resolvedOptions(settings, loaded, settings.frame);
     SolverOptions direct = resolved.solving;
     direct.directOnly = true;
+    ProgressBar progress(whenToShowProgress(settings));
     std::unique_ptr<LitScene> lit;
     try {
-        lit = std::make_unique<LitScene>(placed, sizesToLight(resolved.meshing, placed), direct);
+        lit = std::make_unique<LitScene>(
+            placed, sizesToLight(resolved.meshing, placed), direct, true,
+            [&](const char* phase, double done) { progress.show(phase, done); });
     } catch (const Error& error) {
+        progress.clear();
         throw SceneFileError({settings.scene}, error.what());
     }
+    progress.clear();
     const PatchSet& set = lit->patches();
     const double before = processorTime(); // reading and meshing, which both kinds of light take
     fmt::print("  {} patches, {} elements, {} emitters\n", set.patchCount(), set.elements.size(),
                set.emitters.size());
+    progress.show("tracing rays here and there", 0);
     const CostEstimate cost = estimateCost(*lit, resolved.solving);
+    progress.clear();
     const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
     const unsigned threads = settings.threads > 0 ? settings.threads : cores;
     printLine("direct light", before, cost.directSeconds, threads, cost.directRays,

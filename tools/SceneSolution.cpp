@@ -125,6 +125,12 @@ RadiosityOptions resolvedOptions(const SolveSettings& settings, const LoadedScen
     return optionsFor(lightSettings(settings.scene, loaded, frame, settings.asked), options);
 }
 
+ProgressBar::When whenToShowProgress(const SolveSettings& settings) {
+    return settings.quiet      ? ProgressBar::When::never
+           : settings.progress ? ProgressBar::When::always
+                               : ProgressBar::When::terminal;
+}
+
 FrameRange frameRange(const std::string& text) {
     FrameRange range;
     const char* const end = text.data() + text.size();
@@ -206,9 +212,7 @@ SceneSolution::PhaseTimer::~PhaseTimer() {
 }
 
 SceneSolution::SceneSolution(const SolveSettings& settings)
-    : settings_(settings), progress_(settings.quiet      ? ProgressBar::When::never
-                                     : settings.progress ? ProgressBar::When::always
-                                                         : ProgressBar::When::terminal) {
+    : settings_(settings), progress_(whenToShowProgress(settings)) {
     progress_.show("reading", 0);
     LoadOptions options;
     options.allowOutside = settings.allowOutside;

@@ -57,6 +57,8 @@ void addSolveOptions(CLI::App& command, SolveSettings& settings);
 RadiosityOptions resolvedOptions(const SolveSettings& settings, const LoadedScene& loaded,
                                  std::optional<double> frame);
 
+ProgressBar::When whenToShowProgress(const SolveSettings& settings);
+
 /// Sizes to mesh a scene with: those, but where there is no light and sizes are not asked for,
 /// coarse ones. What stands in for lights then throws no shadow and is smooth.
 MeshingOptions sizesToLight(const MeshingOptions& meshing, const PlacedScene& placed);

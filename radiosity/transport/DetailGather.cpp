@@ -125,6 +125,13 @@ void DetailGather::beginSweeps(std::span<const Rgb> direct, std::vector<glm::dve
     sweeping_ = true;
 }
 
+double DetailGather::share() const {
+    constexpr double kTracing = 0.8; // share of the time, if all is to be traced
+    if (swept_) return 1;
+    const double swept = sweep_ ? double(1 + sweep_->round) / (1 + kRounds * kSweeps) : 0;
+    return kTracing * hits_.share() + (1 - kTracing) * swept;
+}
+
 void DetailGather::sweep(std::size_t effort) {
     struct Round {
         void (DetailGather::*work)(Sweep&, std::size_t, std::size_t) const;

@@ -67,6 +67,8 @@ public:
     /// Whether the sweeps know of the light as it is.
     bool swept() const { return swept_; }
     bool sweeping() const { return sweeping_; }
+    /// How much of tracing and sweeps is done, in [0, 1].
+    double share() const;
     /// Begins the sweeps. \pre trace() has nothing to do
     /// \param direct       at the vertices [lux]; is read until the sweeps are done or given up
     /// \param nodeIndirect the solver's, one a node of the patch set [lux]

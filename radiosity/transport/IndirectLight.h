@@ -89,6 +89,9 @@ public:
     std::size_t rowRoom() const { return rowRoom_.value_or(0); } ///< what they may take [bytes]
     bool rowsMissing() const { return rowsMissing_; }            ///< some rows were not kept
     std::size_t rowsNotKept() const;
+    /// Share of the senders that light reaches whose rows row sums know of, a batch on its way in
+    /// part; in [0, 1].
+    double knownShare() const;
     const RowUpdates& updates() const { return updates_; }
     bool reached(std::uint32_t node) const { return reach_.node(node); } ///< see Reach
     /// Whose wall hides a block of nodes from a sender altogether, if any does: a function of poses

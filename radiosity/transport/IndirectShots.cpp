@@ -122,6 +122,17 @@ std::size_t IndirectLight::rowsNotKept() const {
     return count;
 }
 
+double IndirectLight::knownShare() const {
+    std::size_t reached = 0;
+    double known = 0;
+    for (std::uint32_t s = 0; s < known_.size(); ++s)
+        if (sendersReached_[s] && senders_.present(s)) ++reached, known += known_[s];
+    if (shot_ && !shot_->receivers.empty())
+        known += double(std::ranges::count(shot_->fresh, 1)) * double(shot_->next) /
+                 double(shot_->receivers.size());
+    return reached > 0 ? std::min(known / double(reached), 1.0) : 1;
+}
+
 std::uint64_t IndirectLight::blocksKept() const {
     std::uint64_t count = 0;
     for (const Row& row : table_.rows())

@@ -128,7 +128,8 @@ void Solver::invalidate(const Bounds& region) {
 void Solver::begin() {
     handedOver_ = completed_ = idle_ = stopped_ = false;
     state_ = SolutionState::working;
-    firstCertificate_ = 0;
+    firstCertificate_ = relaxed_ = 0;
+    firstKnown_ = 1;
     if (!indirect_) return;
     shotsBefore_ = indirect_->shots();
     servedBefore_ = indirect_->blocksServed();
@@ -232,9 +233,11 @@ bool Solver::workOnIndirect(Pace& pace, const Progress& progress) {
     if (!more && !completed_ && !spent() && !indirect_->relaxing() &&
         !indirect_->residualsStale() && indirect_->certificate() <= kEarly * target())
         completing_ = completed_ = true;
-    if (!more && completing_)
+    if (!more && completing_) {
         completing_ = more = pace.work(
             Pace::completion, [&](std::size_t effort) { return indirect_->complete(effort); });
+        reportIndirect(progress);
+    }
     finished_ = isFinished();
     if (!more &&
         (!(finished_ || spent()) || indirect_->relaxing() || indirect_->residualsStale())) {
@@ -242,17 +245,25 @@ bool Solver::workOnIndirect(Pace& pace, const Progress& progress) {
             return indirect_->relax(effort, kFinish * target());
         });
         finished_ = finished_ || (!more && certificateMet()); // what is left is deferred
-        reportRelaxation(progress);
+        reportIndirect(progress);
     }
     return more;
 }
 
-void Solver::reportRelaxation(const Progress& progress) {
-    const double now = indirect_->certificate();
+/// Rows that are built take most of the time, then shots: by how far the certificate has come.
+/// Progress, once made, stands: of what comes in late nobody could know.
+void Solver::reportIndirect(const Progress& progress) {
+    if (!progress) return;
+    const double now = indirect_->certificate(), known = indirect_->knownShare();
     firstCertificate_ = std::max(firstCertificate_, now);
-    if (!progress || !(now > 0)) return;
+    firstKnown_ = std::min(firstKnown_, known);
+    constexpr double kBuilding = 0.8; // share of the time, if no row is there at first
+    const double building = kBuilding * (1 - firstKnown_);
+    const double built = firstKnown_ < 1 ? (known - firstKnown_) / (1 - firstKnown_) : 1;
     const double span = std::log(firstCertificate_ / std::max(target(), 1e-30));
-    progress("indirect light", span > 0 ? std::log(firstCertificate_ / now) / span : 1.0);
+    const double sent = !(now > 0) ? 0 : span > 0 ? std::log(firstCertificate_ / now) / span : 1;
+    relaxed_ = std::max(relaxed_, building * built + (1 - building) * std::min(sent, 1.0));
+    progress("indirect light", relaxed_);
 }
 
 bool Solver::workOnDetail(Pace& pace, const Progress& progress) {
@@ -263,7 +274,7 @@ bool Solver::workOnDetail(Pace& pace, const Progress& progress) {
         pace.work(Pace::sweeps, [&](std::size_t effort) { return detail_->sweep(effort), true; });
     }
     detailSeconds_ += steadySeconds() - start;
-    if (progress) progress("fine shadows", detail_->hits().share());
+    if (progress) progress("fine shadows", detail_->share());
     return true;
 }
 

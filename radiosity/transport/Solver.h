@@ -202,7 +202,7 @@ private:
     bool work(Pace& pace, const Progress& progress);
     void handOver();
     bool workOnIndirect(Pace& pace, const Progress& progress);
-    void reportRelaxation(const Progress& progress);
+    void reportIndirect(const Progress& progress);
     bool workOnce(Pace& pace, const Progress& progress);
     SolutionState reached(bool deferred) const;
     double tolerance(double share) const;
@@ -231,7 +231,9 @@ private:
     bool idle_ = false;    ///< all is done but for what was deferred; nothing is any more
     bool stopped_ = false; ///< see stopped()
     std::uint64_t shotsBefore_ = 0, servedBefore_ = 0; ///< before the last edit
-    double firstCertificate_ = 0;
+    /// Since the last edit: the largest certificate, the least knownShare() and the progress so
+    /// far, see reportIndirect().
+    double firstCertificate_ = 0, firstKnown_ = 1, relaxed_ = 0;
     Pace pace_; ///< of pieces within a time
     double directSeconds_ = 0, indirectSeconds_ = 0, detailSeconds_ = 0;
 };

@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <map>
 #include <numbers>
+#include <string>
+#include <vector>
 
 namespace penumbra {
 
@@ -113,6 +116,25 @@ TEST(Solver, CountsWhatItDid) {
     for (const Row& row : solution.solver.emitterRows()) entries += sizeOf(row).entries;
     for (const Row& row : solution.solver.patchRows()) entries += sizeOf(row).entries;
     EXPECT_EQ(s.entries, entries);
+}
+
+TEST(Solver, ProgressNeverFallsAndNeverStandsForLong) {
+    const Scene scene = furnished();
+    LitScene lit(placeScene(scene), {.patchSize = 0.25f, .elementSize = 0.06f}, {});
+    std::map<std::string, std::vector<double>> shown;
+    while (lit.solver().work(
+        2000, [&](const char* phase, double done) { shown[phase].push_back(done); })) {
+    }
+    for (const char* phase : {"indirect light", "fine shadows"}) {
+        const std::vector<double>& done = shown[phase];
+        ASSERT_GT(done.size(), 5u) << phase;
+        for (std::size_t i = 1; i < done.size(); ++i) {
+            EXPECT_GE(done[i], done[i - 1]) << phase;
+            EXPECT_LE(done[i], done[i - 1] + 0.25) << phase;
+        }
+        EXPECT_LE(done.back(), 1) << phase;
+        EXPECT_GT(done.back(), 0.9) << phase;
+    }
 }
 
 TEST(Solver, WithoutLightIsDarkAndDone) {
