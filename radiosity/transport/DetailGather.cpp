@@ -38,6 +38,17 @@ Rgb toRgb(glm::dvec3 v) {
     return {float(v.x), float(v.y), float(v.z)};
 }
 
+/// What sweeps without end would add to a last step: they are a geometric series where light goes
+/// to and fro in a slit, and no more of it comes back than a surface reflects.
+/// \param before the luminance of the step before
+Rgb stillToCome(Rgb step, float before, Rgb reflectance) {
+    constexpr float kMostRatio = 0.95f;
+    const float now = luminance(step);
+    if (!(now > 0) || !(before > 0)) return {};
+    const float ratio = std::min({now / before, luminance(reflectance), kMostRatio});
+    return ratio / (1 - ratio) * step;
+}
+
 /// \param drawn what `now` is part of [lux]
 bool isSettled(Rgb was, Rgb now, Rgb drawn) {
     return double(maxChannel(absolute(now - was))) < kSettled * double(maxChannel(drawn));
@@ -52,11 +63,13 @@ struct DetailGather::Sweep {
     std::vector<Rgb> indirect;
     std::vector<glm::dvec3> nodeIndirect;
     Sent sent;
+    std::vector<float> steps;          ///< of all luminance sent, in the last sweep but one
     std::vector<std::uint8_t> settled; ///< vertices; 1: see kFullSweeps
     int round = -1; ///< -1: vertices are interpolated; kRounds i + k: round k of sweep i
     std::size_t next = 0;
 
-    bool isFull() const { return round < kRounds * kFullSweeps; }
+    int index() const { return round / kRounds; } ///< of the sweep
+    bool isFull() const { return index() < kFullSweeps; }
 };
 
 DetailGather::DetailGather(const PatchSet& patches, NodeHits& nodes)
@@ -121,6 +134,7 @@ void DetailGather::beginSweeps(std::span<const Rgb> direct, std::vector<glm::dve
     sweep_->nodeIndirect = std::move(nodeIndirect);
     sweep_->sent.all.resize(patches_.elements.size());
     sweep_->sent.direct.resize(patches_.elements.size());
+    sweep_->steps.assign(patches_.elements.size(), 0);
     sweep_->settled.assign(direct.size(), 0);
     sweeping_ = true;
 }
@@ -217,8 +231,11 @@ void DetailGather::sendElements(Sweep& sweep, std::size_t first, std::size_t las
     for (std::size_t e = first; e < last; ++e) {
         const Element& element = patches_.elements[e];
         const Rgb rho = elementReflectance(patches_, std::uint32_t(e));
-        const Rgb all = rho * elementMean(element, sweep.direct, sweep.indirect);
+        Rgb all = rho * elementMean(element, sweep.direct, sweep.indirect);
         const Rgb direct = rho * directMean(element, sweep.direct);
+        const Rgb step = all - sweep.sent.all[e].colour;
+        if (sweep.index() == kSweeps - 2) sweep.steps[e] = luminance(step);
+        if (sweep.index() == kSweeps - 1) all += stillToCome(step, sweep.steps[e], rho);
         sweep.sent.all[e] = {all, luminance(all)};
         sweep.sent.direct[e] = {direct, luminance(direct)};
     }

@@ -84,6 +84,17 @@ TEST(Furnace, WithAnObjectInsideIsEvenlyBrightOnTheObjectToo) {
     EXPECT_NEAR(sum / solution.patches().area, 2, 0.03);
 }
 
+TEST(Furnace, HoldsInAFlatSlitWhereLightGoesToAndFro) {
+    // Vertices gather what they draw from each other, sweep by sweep.
+    for (const float rho : {0.5f, 0.8f, 0.9f}) {
+        const auto walls = paint(Rgb(rho), Rgb(1 / std::numbers::pi_v<float>));
+        const Solution solution(
+            sceneOf({object("slit", boxData({-1, -1, 0}, {1, 1, 0.03f}, true, walls))}),
+            {.patchSize = 0.2f, .elementSize = 0.05f}, {.residual = 1e-5});
+        EXPECT_LT(deviation(solution, rho).vertices, 1e-3) << rho;
+    }
+}
+
 TEST(IntegratingSphere, IsEvenlyLitAwayFromItsLight) {
     // H = c M/(1 - 0.6 (1 - c)), c = (1 - cos 45)/2 the cap's share, M = 10 pi: 9.43033 for the
     // smooth sphere (formfactors.csv, integrating_sphere_H). The file's facets have a little less
