@@ -57,6 +57,7 @@ void addSolveOptions(CLI::App& command, SolveSettings& settings);
 RadiosityOptions resolvedOptions(const SolveSettings& settings, const LoadedScene& loaded,
                                  std::optional<double> frame);
 
+/// As `--progress` and `--quiet` say.
 ProgressBar::When whenToShowProgress(const SolveSettings& settings);
 
 /// Sizes to mesh a scene with: those, but where there is no light and sizes are not asked for,
