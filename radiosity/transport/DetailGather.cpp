@@ -142,7 +142,7 @@ void DetailGather::beginSweeps(std::span<const Rgb> direct, std::vector<glm::dve
 double DetailGather::share() const {
     constexpr double kTracing = 0.8; // share of the time, if all is to be traced
     if (swept_) return 1;
-    const double swept = sweep_ ? double(1 + sweep_->round) / (1 + kRounds * kSweeps) : 0;
+    const double swept = sweeping_ ? double(1 + sweep_->round) / (1 + kRounds * kSweeps) : 0;
     return kTracing * hits_.share() + (1 - kTracing) * swept;
 }
 

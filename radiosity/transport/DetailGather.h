@@ -121,7 +121,7 @@ private:
     DetailHits hits_;
     Sent sent_; ///< as the last sweeps left it; empty before the first
     bool swept_ = false, sweeping_ = false, pending_ = true;
-    std::unique_ptr<Sweep> sweep_; ///< null if none are under way
+    std::unique_ptr<Sweep> sweep_; ///< those under way, or given up
 };
 
 } // namespace penumbra
