@@ -15,7 +15,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <span>
+#include <tuple>
 
 namespace penumbra {
 
@@ -104,17 +106,33 @@ bool emits(const Surface& surface, const SurfaceFace& face) {
     return surface.light || surface.mesh.materialOf(face).emissive();
 }
 
+/// Which of a surface's emitting faces tell whether it has light inside of something: one in each
+/// cell of a grid, so that they are as many as their area asks for.
+class LightPlaces {
+public:
+    /// Whether no face of that material was there yet.
+    bool add(glm::vec3 point, const Material* material) {
+        constexpr float kCell = 0.02f; // [m]
+        const glm::vec3 cell = glm::floor(point / kCell);
+        return seen_.emplace(cell.x, cell.y, cell.z, material).second;
+    }
+
+private:
+    std::set<std::tuple<float, float, float, const Material*>> seen_;
+};
+
 /// Decides which sides there are. Lights count even when they are dark, meshes when they shine.
 /// \param others lights that these surfaces do not have [m, world]
 void chooseAllSides(std::vector<Surface>& surfaces, std::span<const glm::vec3> others,
                     BuiltPatches& built) {
     const PatchSet& set = built.patches;
-    // A point a hair in front of every emitting face [world].
+    // Points a hair in front of emitting faces [world].
     std::vector<glm::vec3> lights(others.begin(), others.end());
     std::vector<std::vector<const SurfaceMesh*>> siblings(set.objects.size());
     for (const Surface& surface : surfaces) siblings[surface.object.value].push_back(&surface.mesh);
     for (const Surface& surface : surfaces) {
         built.enclosures.addSurface(surface.mesh, siblings[surface.object.value], surface.object);
+        LightPlaces places;
         for (const SurfaceFace& face : surface.mesh.faces) {
             if (!emits(surface, face)) continue;
             glm::vec3 middle(0);
@@ -124,6 +142,7 @@ void chooseAllSides(std::vector<Surface>& surfaces, std::span<const glm::vec3> o
             const glm::dvec3 normal = newellNormal(surface.mesh.points, corners);
             const double size = std::sqrt(glm::length(normal));
             const glm::vec3 point = middle + glm::vec3(1e-3 * size * glm::normalize(normal));
+            if (!places.add(point, &surface.mesh.materialOf(face))) continue;
             built.enclosures.addLight(point, surface.object,
                                       surface.light ? nullptr
                                                     : surface.mesh.data->materialOf(face.source));

@@ -140,24 +140,29 @@ double polygonArea(std::span<const glm::vec3> polygon) {
 namespace {
 
 /// Collects emissive polygons as emitters. Small ones that lie close together, like the faces of a
-/// bulb, are one; large ones are cut, so that each is seen mildly by most of what it lights.
+/// bulb, are one; large ones are cut, so that each is seen mildly by most of what it lights. How
+/// many there are goes by their extent, not by how many polygons they have.
 class EmitterCollector {
 public:
     /// \param emissiveAreas of the polygons of each material [m^2]: others, that may shine or not,
     /// cut none of them
-    EmitterCollector(const std::map<const Material*, double>& emissiveAreas, float patchSize)
-        : small_(2 * patchSize) {
+    EmitterCollector(const std::map<const Material*, double>& emissiveAreas, float patchSize) {
         for (const auto& [material, area] : emissiveAreas)
-            large_[material] = std::max(4 * patchSize, float(std::sqrt(area / 32)));
+            extents_[material] = {std::max(2 * patchSize, float(std::sqrt(area / 16))),
+                                  std::max(4 * patchSize, float(std::sqrt(area / 32)))};
     }
 
-    std::vector<FaceEmitter> take() { return std::move(found_); }
+    /// In the order in which their materials were first seen.
+    std::vector<FaceEmitter> take() {
+        for (MaterialPieces& of : pieces_) group(*of.material, of.pieces);
+        return std::move(found_);
+    }
 
     /// \param uvs of the outline's corners; empty: no textures
     void add(const Material& material, const std::vector<glm::vec3>& outline,
              std::span<const glm::vec2> uvs) {
         if (outline.size() != 4) return addPiece(material, outline, {uvs.begin(), uvs.end()});
-        const float large = large_.at(&material);
+        const float large = extents_.at(&material).large;
         const auto parts = [&](float a, float b) {
             return std::max(1, int(std::ceil(std::max(a, b) / large - 1e-3f)));
         };
@@ -198,41 +203,97 @@ private:
         return area > 0 ? sum * (1 / area) : Rgb();
     }
 
+    struct Piece {
+        std::vector<glm::vec3> outline;
+        glm::vec3 middle;
+        double area = 0; ///< [m^2]
+        Rgb texture;     ///< its mean
+        std::size_t index = 0;
+    };
+    struct MaterialPieces {
+        const Material* material = nullptr;
+        std::vector<Piece> pieces;
+    };
+    struct Extents {
+        float small = 0; ///< of pieces that send as one: their box's diagonal at most [m]
+        float large = 0; ///< of one piece: a side at most [m]
+    };
+
     void addPiece(const Material& material, std::vector<glm::vec3> outline,
-                  const std::vector<glm::vec2>& uvs) {
-        constexpr std::size_t kMostPolygons = 64;
+                  std::span<const glm::vec2> uvs) {
         const double area = polygonArea(outline);
         if (!(area > 0)) return;
-        const Rgb mean = meanOf(material, outline, uvs);
-        if (!(maxChannel(mean) > 0)) return; // a dark part of a texture never emits
-        Group& group = groups_[&material];
-        Bounds grown = group.bounds;
-        for (glm::vec3 point : outline) grown.add(point);
-        const bool fits =
-            group.count > 0 && group.count < kMostPolygons && grown.diagonal() <= small_;
-        if (!fits) {
-            group = {found_.size(), 0, {}};
-            for (glm::vec3 point : outline) group.bounds.add(point);
-            found_.push_back({{}, &material});
-        } else {
-            group.bounds = grown;
+        const Rgb texture = meanOf(material, outline, uvs);
+        if (!(maxChannel(texture) > 0)) return; // a dark part of a texture never emits
+        auto of = std::ranges::find(pieces_, &material, &MaterialPieces::material);
+        if (of == pieces_.end()) {
+            pieces_.push_back({&material, {}});
+            of = pieces_.end() - 1;
         }
-        ++group.count;
-        Emitter& emitter = found_[group.emitter].emitter;
-        emitter.area += area;
-        emitter.texture += (mean - emitter.texture) * float(area / emitter.area);
-        emitter.exitance = lambertianExitance(material.emission()) * emitter.texture;
-        emitter.polygons.push_back(std::move(outline));
+        glm::vec3 middle(0);
+        for (const glm::vec3 corner : outline) middle += corner / float(outline.size());
+        of->pieces.push_back({std::move(outline), middle, area, texture, of->pieces.size()});
     }
 
-    struct Group {
-        std::size_t emitter = 0, count = 0;
-        Bounds bounds;
-    };
-    float small_;                            ///< [m]
-    std::map<const Material*, float> large_; ///< [m]
+    /// Sorts pieces along the longest side of a box around their middles. \return its axis
+    static int sortAlong(std::span<Piece> pieces) {
+        Bounds box;
+        for (const Piece& piece : pieces) box.add(piece.middle);
+        const glm::vec3 size = box.size();
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        std::ranges::sort(pieces, {}, [axis](const Piece& piece) {
+            return std::pair(piece.middle[axis], piece.index);
+        });
+        return axis;
+    }
+
+    /// Where neighbours lie farthest apart, preferably in the middle. 0: all lie at one place.
+    static std::size_t widestGap(std::span<const Piece> pieces, int axis) {
+        const float first = pieces.front().middle[axis], last = pieces.back().middle[axis];
+        std::size_t best = 0;
+        float widest = 0;
+        for (std::size_t i = 1; i < pieces.size(); ++i) {
+            const float from = pieces[i - 1].middle[axis], to = pieces[i].middle[axis];
+            const float score = (to - from) * std::min(to - first, last - from);
+            if (score > widest) widest = score, best = i;
+        }
+        return best;
+    }
+
+    void group(const Material& material, std::span<Piece> pieces) {
+        Bounds box;
+        for (const Piece& piece : pieces)
+            for (const glm::vec3 corner : piece.outline) box.add(corner);
+        if (pieces.size() > 1 && box.diagonal() > extents_.at(&material).small) {
+            const int axis = sortAlong(pieces);
+            if (const std::size_t half = widestGap(pieces, axis)) {
+                group(material, pieces.first(half));
+                group(material, pieces.subspan(half));
+                return;
+            }
+        }
+        halve(pieces);
+        FaceEmitter& faces = found_.emplace_back(FaceEmitter{{}, &material});
+        Emitter& emitter = faces.emitter;
+        for (Piece& piece : pieces) {
+            emitter.area += piece.area;
+            emitter.texture += (piece.texture - emitter.texture) * float(piece.area / emitter.area);
+            emitter.polygons.push_back(std::move(piece.outline));
+        }
+        emitter.exitance = lambertianExitance(material.emission()) * emitter.texture;
+    }
+
+    /// Orders pieces so that neighbours in space are neighbours in the list, half by half.
+    static void halve(std::span<Piece> pieces) {
+        if (pieces.size() < 3) return;
+        sortAlong(pieces);
+        halve(pieces.first(pieces.size() / 2));
+        halve(pieces.subspan(pieces.size() / 2));
+    }
+
+    std::map<const Material*, Extents> extents_;
+    std::vector<MaterialPieces> pieces_;
     std::vector<FaceEmitter> found_;
-    std::map<const Material*, Group> groups_;
 };
 
 } // namespace

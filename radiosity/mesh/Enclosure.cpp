@@ -30,8 +30,9 @@ Enclosures::lights(const std::function<const Pose*(ObjectId)>& poseOf) const {
 bool Enclosures::holds(const PatchSet& set, const Closed& closed,
                        std::span<const glm::vec3> lights) const {
     const Pose& pose = set.objects[closed.object.value].pose;
-    return std::any_of(lights.begin(), lights.end(),
-                       [&](glm::vec3 light) { return closed.part.contains(pose.inverse(light)); });
+    std::vector<glm::vec3> inFrame;
+    for (const glm::vec3 light : lights) inFrame.push_back(pose.inverse(light));
+    return closed.part.containsAny(inFrame);
 }
 
 void Enclosures::decide(const PatchSet& set, std::span<const glm::vec3> others) {

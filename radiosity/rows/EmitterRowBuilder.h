@@ -4,7 +4,7 @@
 #include "radiosity/rays/RayScene.h"
 #include "radiosity/rows/EmitterSender.h"
 #include "radiosity/rows/MovedObject.h"
-#include "radiosity/rows/RayCount.h"
+#include "radiosity/rays/RayCount.h"
 #include "radiosity/rows/ReceiverBlock.h"
 #include "radiosity/rows/Row.h"
 

@@ -11,6 +11,9 @@ namespace penumbra {
 
 namespace {
 
+/// As many polygons are gone through one by one.
+constexpr std::size_t kFewPolygons = 64;
+
 int roundUp(int samples) {
     return std::max(16, (samples + 15) / 16 * 16);
 }
@@ -29,6 +32,7 @@ glm::vec3 ontoSphere(glm::vec3 from, glm::vec3 onDisk, glm::vec3 centre, float r
 EmitterSender::EmitterSender(const Emitter& emitter, int baseSamples, int allSamples)
     : emitter_(&emitter), base_(roundUp(baseSamples)), all_(std::max(base_, roundUp(allSamples))),
       box_(boundsOf(emitter)) {
+    if (emitter.polygons.size() > kFewPolygons) many_.emplace(emitter.polygons);
     const EmitterSamples samples = sampleEmitter(emitter, std::size_t(all_));
     for (const EmitterSamples::Point& point : samples.points) {
         x_.push_back(point.position.x), y_.push_back(point.position.y),
@@ -47,6 +51,7 @@ float EmitterSender::formFactor(const Receiver& receiver) const {
     case Emitter::Kind::polygons:
         break;
     }
+    if (many_) return std::min(many_->formFactor(p, n), 1.0f);
     float sum = 0;
     for (const auto& polygon : emitter_->polygons) sum += polygonFormFactor(p, n, polygon);
     return std::min(sum, 1.0f);

@@ -3,7 +3,9 @@
 
 #include "radiosity/mesh/PatchSet.h"
 #include "radiosity/rays/RayScene.h"
+#include "radiosity/rows/PolygonTree.h"
 
+#include <optional>
 #include <vector>
 
 namespace penumbra {
@@ -32,8 +34,9 @@ public:
     const Bounds& box() const { return box_; }
 
     /// What the whole emitter gives to a receiver when nothing stands between them: the closed
-    /// forms of FormFactor.h, summed over polygons. Exact for convex emitters; polygons that shade
-    /// each other are found by the visibility samples.
+    /// forms of FormFactor.h, summed over polygons; of many, those that are far send together.
+    /// Exact for convex emitters of few; polygons that shade each other are found by the
+    /// visibility samples.
     float formFactor(const Receiver& receiver) const;
 
     /// Samples first ... first + 15 for a receiver. A sphere is sampled on the part that faces it.
@@ -48,6 +51,7 @@ private:
     const Emitter* emitter_;
     int base_, all_;
     Bounds box_;
+    std::optional<PolygonTree> many_;             ///< of an emitter of many polygons
     std::vector<float> x_, y_, z_, nx_, ny_, nz_; ///< of the samples
 };
 

@@ -6,7 +6,7 @@
 #include "radiosity/rows/ClusterParts.h"
 #include "radiosity/rows/MovedObject.h"
 #include "radiosity/rows/PartKernels.h"
-#include "radiosity/rows/RayCount.h"
+#include "radiosity/rays/RayCount.h"
 #include "radiosity/rows/ReceiverBlock.h"
 #include "radiosity/rows/Row.h"
 

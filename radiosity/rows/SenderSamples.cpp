@@ -69,8 +69,8 @@ void samplePolygons(const Emitter& emitter, std::size_t count, EmitterSamples& o
     for (std::uint32_t i = 0; i < count; ++i) {
         glm::vec2 u = sobol02(i, count);
         const double at = u.x * area;
-        const auto part = std::find_if(parts.begin(), parts.end() - 1,
-                                       [&](const Part& p) { return at < p.upTo; });
+        const auto part = std::ranges::upper_bound(parts.begin(), parts.end() - 1, at, {},
+                                                   [](const Part& p) { return p.upTo; });
         const double from = part == parts.begin() ? 0 : (part - 1)->upTo;
         u.x =
             float(std::clamp((at - from) / (part->upTo - from), 0.0, 1.0)); // the same number again

@@ -227,27 +227,6 @@ bool usable(const SurfaceMesh& mesh, std::span<const std::uint32_t> corners) {
 
 } // namespace
 
-/// Whether a ray along a skew direction leaves the part an odd number of times.
-bool ClosedPart::contains(glm::vec3 point) const {
-    if (!bounds.contains(point)) return false;
-    const glm::dvec3 direction(0.3826834323, 0.2705980501, 0.8835345612);
-    const glm::dvec3 p(point);
-    int crossings = 0;
-    for (const auto& triangle : triangles) {
-        const glm::dvec3 a = glm::dvec3(triangle[0]) - p;
-        const glm::dvec3 ab = glm::dvec3(triangle[1]) - p - a;
-        const glm::dvec3 ac = glm::dvec3(triangle[2]) - p - a;
-        const glm::dvec3 q = glm::cross(direction, ac);
-        const double det = glm::dot(ab, q);
-        if (det == 0) continue;
-        const double u = -glm::dot(a, q) / det;
-        const glm::dvec3 r = glm::cross(-a, ab);
-        const double v = glm::dot(direction, r) / det;
-        if (u >= 0 && v >= 0 && u + v <= 1 && glm::dot(ac, r) / det > 0) ++crossings;
-    }
-    return crossings % 2 == 1;
-}
-
 namespace {
 
 ClosedPart closedPart(const SurfaceMesh& mesh, const Component& component) {
@@ -357,9 +336,8 @@ void chooseSides(SurfaceMesh& mesh, std::span<const glm::vec3> lightPoints,
                  std::span<const SurfaceMesh* const> object) {
     for (const Component& component : connectedComponents(mesh, object)) {
         const ClosedPart part = closedPart(mesh, component);
-        const bool solid = component.closed && component.volume != 0 &&
-                           std::none_of(lightPoints.begin(), lightPoints.end(),
-                                        [&](glm::vec3 p) { return part.contains(p); });
+        const bool solid =
+            component.closed && component.volume != 0 && !part.containsAny(lightPoints);
         const bool twoSided = mesh.data->doubleSided;
         for (std::uint32_t f : component.faces) {
             SurfaceFace& face = mesh.faces[f];

@@ -2,6 +2,7 @@
 // sides there are.
 #pragma once
 
+#include "radiosity/surface/ClosedPart.h"
 #include "scenegraph/Mesh.h"
 
 #include <glm/glm.hpp>
@@ -61,18 +62,13 @@ SurfaceMesh placeSurface(const MeshData& data, const glm::dmat4& toWorld);
 /// Decides which sides of the faces there are. Of a closed connected surface that contains none of
 /// `lightPoints` only the outside is ever lit. An open two-sided surface, or a closed one with a
 /// light inside, has both sides; a one-sided surface has its front. A surface whose only opening is
-/// flat and lies on a face of the same object is closed. \param lightPoints a point on every
+/// flat and lies on a face of the same object is closed. \param lightPoints points on every
 /// emitter [m, in the mesh's frame] \param object the meshes of the same rigid object, in the same
 /// frame; this one may be among them
 void chooseSides(SurfaceMesh& mesh, std::span<const glm::vec3> lightPoints,
                  std::span<const SurfaceMesh* const> object = {});
 
-/// A closed connected part of a mesh, in triangles, its lid included.
-struct ClosedPart {
-    Bounds bounds;
-    std::vector<std::array<glm::vec3, 3>> triangles;
-    bool contains(glm::vec3 point) const;
-};
+/// The closed connected parts of a mesh. \param object see chooseSides()
 std::vector<ClosedPart> closedParts(const SurfaceMesh& mesh,
                                     std::span<const SurfaceMesh* const> object = {});
 

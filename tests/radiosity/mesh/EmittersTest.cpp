@@ -1,6 +1,7 @@
 // Lights as senders: area, flux, direction.
 #include "radiosity/mesh/Emitters.h"
 #include "radiosity/rows/FormFactor.h"
+#include "tests/support/BallData.h"
 #include "tests/support/Scenes.h"
 
 #include <gtest/gtest.h>
@@ -86,6 +87,59 @@ TEST(LightShapes, AreMeshesThatFaceWhereTheyShine) {
         };
         EXPECT_GT(glm::dot(glm::cross(at(1) - at(0), at(2) - at(0)), at(0)), 0);
         first += std::size_t(count);
+    }
+}
+
+/// The emissive faces of a mesh, patches being 0.4 m.
+std::vector<FaceEmitter> emittersOf(const MeshData& data) {
+    const SurfaceMesh mesh = placeSurface(data, glm::dmat4(1.0));
+    return faceEmitters(mesh, {}, 0.4f);
+}
+
+TEST(FaceEmitters, AreAsManyAsTheirAreaAsksForWhateverTheMesh) {
+    // Within .8 m all send as one; a ball of 3 m is about 30 pieces.
+    for (const int rings : {6, 24, 96}) {
+        EXPECT_EQ(emittersOf(ballData(rings, 0.2f, paint(Rgb(0.5f), Rgb(100)))).size(), 1u);
+        const auto large = emittersOf(ballData(rings, 1.5f, paint(Rgb(0.5f), Rgb(100))));
+        EXPECT_NEAR(double(large.size()), 40, 20) << rings;
+    }
+}
+
+TEST(FaceEmitters, HaveAllOfTheAreaWhateverTheOrderOfTheFaces) {
+    const MeshData ball = ballData(24, 0.6f, paint(Rgb(0.5f), Rgb(100)));
+    MeshData mixed = ball;
+    const std::size_t faces = ball.faceVertexCounts.size();
+    for (std::size_t f = 0; f < faces; ++f)
+        for (std::size_t k = 0; k < 3; ++k)
+            mixed.faceVertexIndices[3 * f + k] = ball.faceVertexIndices[3 * (f * 997 % faces) + k];
+    const auto area = [](const std::vector<FaceEmitter>& emitters) {
+        double sum = 0;
+        for (const FaceEmitter& faces : emitters) sum += faces.emitter.area;
+        return sum;
+    };
+    EXPECT_NEAR(area(emittersOf(mixed)), area(emittersOf(ball)), 1e-6);
+    EXPECT_EQ(emittersOf(mixed).size(), emittersOf(ball).size());
+}
+
+TEST(FaceEmitters, LeaveABulbWhole) {
+    // Twelve bulbs around a chandelier of 1.2 m.
+    MeshData bulbs;
+    for (int b = 0; b < 12; ++b) {
+        const MeshData bulb = ballData(6, 0.03f, paint(Rgb(0.5f), Rgb(100)));
+        const int first = int(bulbs.points.size());
+        const glm::vec3 at(0.6 * std::cos(b * kPi / 6), 0.6 * std::sin(b * kPi / 6), 0);
+        for (const glm::vec3 point : bulb.points) bulbs.points.push_back(point + at);
+        for (const int i : bulb.faceVertexIndices) bulbs.faceVertexIndices.push_back(first + i);
+        bulbs.faceVertexCounts.insert(bulbs.faceVertexCounts.end(), bulb.faceVertexCounts.begin(),
+                                      bulb.faceVertexCounts.end());
+        bulbs.materials = bulb.materials;
+    }
+    const double whole =
+        emittersOf(ballData(6, 0.03f, paint(Rgb(0.5f), Rgb(100)))).at(0).emitter.area;
+    for (const FaceEmitter& faces : emittersOf(bulbs)) {
+        const double count = faces.emitter.area / whole;
+        EXPECT_NEAR(count, std::round(count), 1e-3) << "bulbs";
+        EXPECT_LE(boundsOf(faces.emitter).diagonal(), 0.8f);
     }
 }
 

@@ -1,4 +1,4 @@
-// How many rays rows have cost.
+// How many rays have been traced.
 #pragma once
 
 #include <cstdint>
