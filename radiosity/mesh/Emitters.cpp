@@ -148,7 +148,8 @@ public:
     /// cut none of them
     EmitterCollector(const std::map<const Material*, double>& emissiveAreas, float patchSize) {
         for (const auto& [material, area] : emissiveAreas)
-            extents_[material] = {std::max(2 * patchSize, float(std::sqrt(area / 16))),
+            extents_[material] = {patchSize / 2,
+                                  std::max(2 * patchSize, float(std::sqrt(area / 16))),
                                   std::max(4 * patchSize, float(std::sqrt(area / 32)))};
     }
 
@@ -206,8 +207,9 @@ private:
     struct Piece {
         std::vector<glm::vec3> outline;
         glm::vec3 middle;
-        double area = 0; ///< [m^2]
-        Rgb texture;     ///< its mean
+        glm::dvec3 vectorArea{0}; ///< [m^2]
+        double area = 0;          ///< its length
+        Rgb texture;              ///< its mean
         std::size_t index = 0;
     };
     struct MaterialPieces {
@@ -215,13 +217,15 @@ private:
         std::vector<Piece> pieces;
     };
     struct Extents {
-        float small = 0; ///< of pieces that send as one: their box's diagonal at most [m]
-        float large = 0; ///< of one piece: a side at most [m]
+        float narrow = 0; ///< of pieces that send as one whichever way they look: their width [m]
+        float small = 0;  ///< of pieces that send as one: their box's diagonal at most [m]
+        float large = 0;  ///< of one piece: a side at most [m]
     };
 
     void addPiece(const Material& material, std::vector<glm::vec3> outline,
                   std::span<const glm::vec2> uvs) {
-        const double area = polygonArea(outline);
+        const glm::dvec3 vectorArea = areaVector(outline);
+        const double area = glm::length(vectorArea);
         if (!(area > 0)) return;
         const Rgb texture = meanOf(material, outline, uvs);
         if (!(maxChannel(texture) > 0)) return; // a dark part of a texture never emits
@@ -232,7 +236,8 @@ private:
         }
         glm::vec3 middle(0);
         for (const glm::vec3 corner : outline) middle += corner / float(outline.size());
-        of->pieces.push_back({std::move(outline), middle, area, texture, of->pieces.size()});
+        of->pieces.push_back(
+            {std::move(outline), middle, vectorArea, area, texture, of->pieces.size()});
     }
 
     /// Sorts pieces along the longest side of a box around their middles. \return its axis
@@ -260,6 +265,36 @@ private:
         return best;
     }
 
+    /// Of a ball a receiver sees half, so half of its samples would be wasted. Parts pieces that
+    /// look to either side of a plane. \return how many look to its front; 0: all look much the
+    /// same way, or they are many things far apart, like the bulbs of a chandelier
+    static std::size_t partByNormal(std::span<Piece> pieces, glm::vec3 size) {
+        glm::dvec3 sum(0), squares(0);
+        double area = 0;
+        for (const Piece& piece : pieces) {
+            sum += piece.vectorArea;
+            squares += piece.vectorArea * piece.vectorArea / piece.area;
+            area += piece.area;
+        }
+        if (glm::length(sum) > 0.6 * area) return 0; // of a hemisphere .5, of half of one .71
+        if (area < 0.5 * (size.x * size.y + size.y * size.z + size.z * size.x)) return 0;
+        // along the axis on which normals differ most
+        const glm::dvec3 spread = squares - sum * sum / area;
+        const int axis = spread.x >= spread.y && spread.x >= spread.z ? 0
+                         : spread.y >= spread.z                       ? 1
+                                                                      : 2;
+        const auto back =
+            std::stable_partition(pieces.begin(), pieces.end(), [axis](const Piece& piece) {
+                return piece.vectorArea[axis] >= 0;
+            });
+        return std::size_t(back - pieces.begin());
+    }
+
+    /// The second longest of three sides.
+    static float width(glm::vec3 size) {
+        return std::max(std::min(size.x, size.y), std::min(std::max(size.x, size.y), size.z));
+    }
+
     void group(const Material& material, std::span<Piece> pieces) {
         Bounds box;
         for (const Piece& piece : pieces)
@@ -272,6 +307,13 @@ private:
                 return;
             }
         }
+        if (width(box.size()) > extents_.at(&material).narrow)
+            if (const std::size_t front = partByNormal(pieces, box.size());
+                front % pieces.size() != 0) {
+                group(material, pieces.first(front));
+                group(material, pieces.subspan(front));
+                return;
+            }
         halve(pieces);
         FaceEmitter& faces = found_.emplace_back(FaceEmitter{{}, &material});
         Emitter& emitter = faces.emitter;

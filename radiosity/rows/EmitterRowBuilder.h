@@ -1,10 +1,10 @@
 // Fills rows of direct light: form factors of emitters in closed form, visibility by rays.
 #pragma once
 
+#include "radiosity/rays/RayCount.h"
 #include "radiosity/rays/RayScene.h"
 #include "radiosity/rows/EmitterSender.h"
 #include "radiosity/rows/MovedObject.h"
-#include "radiosity/rays/RayCount.h"
 #include "radiosity/rows/ReceiverBlock.h"
 #include "radiosity/rows/Row.h"
 

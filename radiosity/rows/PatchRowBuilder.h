@@ -2,11 +2,11 @@
 #pragma once
 
 #include "radiosity/mesh/PatchSet.h"
+#include "radiosity/rays/RayCount.h"
 #include "radiosity/rays/RayScene.h"
 #include "radiosity/rows/ClusterParts.h"
 #include "radiosity/rows/MovedObject.h"
 #include "radiosity/rows/PartKernels.h"
-#include "radiosity/rays/RayCount.h"
 #include "radiosity/rows/ReceiverBlock.h"
 #include "radiosity/rows/Row.h"
 

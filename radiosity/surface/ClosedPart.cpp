@@ -73,7 +73,9 @@ private:
         const glm::vec3 at = glm::clamp((flat - lower_) * scale_, 0.0f, float(side_ - 1));
         return {int(at.x), int(at.y)};
     }
-    std::size_t cell(int x, int y) const { return std::size_t(y * side_ + x); }
+    std::size_t cell(int x, int y) const {
+        return std::size_t(y) * std::size_t(side_) + std::size_t(x);
+    }
 
     std::vector<glm::vec3> points_;
     int side_ = 1;

@@ -97,12 +97,27 @@ std::vector<FaceEmitter> emittersOf(const MeshData& data) {
 }
 
 TEST(FaceEmitters, AreAsManyAsTheirAreaAsksForWhateverTheMesh) {
-    // Within .8 m all send as one; a ball of 3 m is about 30 pieces.
+    // Within .8 m all send as one. A sixteenth of 28 m^2 is a square of 1.33 m: a flat piece whose
+    // diagonal is between that and half of it has .22 to .88 m^2.
     for (const int rings : {6, 24, 96}) {
-        EXPECT_EQ(emittersOf(ballData(rings, 0.2f, paint(Rgb(0.5f), Rgb(100)))).size(), 1u);
+        EXPECT_EQ(emittersOf(ballData(rings, 0.05f, paint(Rgb(0.5f), Rgb(100)))).size(), 1u);
         const auto large = emittersOf(ballData(rings, 1.5f, paint(Rgb(0.5f), Rgb(100))));
-        EXPECT_NEAR(double(large.size()), 40, 20) << rings;
+        EXPECT_NEAR(double(large.size()), 70, 38) << rings;
     }
+}
+
+TEST(FaceEmitters, OfAGlobeLookAboutOneWayEach) {
+    for (const int rings : {6, 24, 96}) {
+        const auto globe = emittersOf(ballData(rings, 0.2f, paint(Rgb(0.5f), Rgb(100))));
+        EXPECT_EQ(globe.size(), 4u);
+        for (const FaceEmitter& faces : globe) {
+            glm::dvec3 sum(0);
+            for (const auto& polygon : faces.emitter.polygons) sum += areaVector(polygon);
+            EXPECT_GT(glm::length(sum), 0.6 * faces.emitter.area) << rings;
+        }
+    }
+    const MeshData panel = boxData({0, 0, 0}, {0.5f, 0.5f, 0.05f}, false, paint({}, Rgb(100)));
+    EXPECT_EQ(emittersOf(panel).size(), 2u) << "its rim goes with either";
 }
 
 TEST(FaceEmitters, HaveAllOfTheAreaWhateverTheOrderOfTheFaces) {

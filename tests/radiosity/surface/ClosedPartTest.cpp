@@ -1,8 +1,8 @@
 // Points in and out of closed surfaces.
 #include "radiosity/surface/ClosedPart.h"
+#include "radiosity/mesh/Emitters.h"
 #include "radiosity/surface/SurfaceMesh.h"
-#include "tests/support/BallData.h"
-#include "tests/support/Scenes.h"
+#include "scenegraph/Light.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,9 @@ namespace penumbra {
 
 namespace {
 
-ClosedPart ball(float radius) {
-    const MeshData data = ballData(40, radius);
+/// A ball of radius 1 of 288 faces.
+ClosedPart ball() {
+    const MeshData data = lightShapeMesh(Light("ball", SphereShape{1}, Rgb(1.0f)));
     return closedParts(placeSurface(data, glm::dmat4(1.0))).at(0);
 }
 
@@ -26,13 +27,13 @@ std::vector<glm::vec3> spiral(float radius) {
 }
 
 TEST(ClosedPart, HoldsNoneOfManyPointsThatLieOnItsOutside) {
-    EXPECT_FALSE(ball(1).containsAny(spiral(1.001f)));
+    EXPECT_FALSE(ball().containsAny(spiral(1.001f)));
 }
 
 TEST(ClosedPart, FindsTheOnePointOfManyThatLiesInside) {
-    const ClosedPart part = ball(1);
+    const ClosedPart part = ball();
     const std::vector<glm::vec3> outside = spiral(1.001f);
-    for (const glm::vec3 inside : spiral(0.98f)) {
+    for (const glm::vec3 inside : spiral(0.97f)) {
         if (int(inside.z * 1e5f) % 50 != 0) continue;
         std::vector<glm::vec3> points = outside;
         points.insert(points.begin() + 700, inside);
@@ -42,7 +43,7 @@ TEST(ClosedPart, FindsTheOnePointOfManyThatLiesInside) {
 }
 
 TEST(ClosedPart, HoldsNothingWhenThereIsNothing) {
-    EXPECT_FALSE(ball(1).containsAny({}));
+    EXPECT_FALSE(ball().containsAny({}));
 }
 
 } // namespace
