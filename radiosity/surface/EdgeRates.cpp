@@ -159,17 +159,22 @@ bool EdgeRates::makeStrip(FaceRates& rates) const {
 void EdgeRates::addFace(const FaceSurface& face, std::span<const std::uint32_t> corners) {
     constexpr Bound kPatches{6, 16}, kElements{6, 64}; // a right triangle of 4 by 1 makes 6 times
     constexpr Bound kStripPatches{1, 4}, kStripElements{1, 64};
+    constexpr Bound kSlim{6, 8};
     FaceRates rates = wantedBy(face, corners);
-    if (pieces(rates.elements) > mostPieces(corners.size(), 0, elementSize_, kElements)) {
+    const auto exceeds = [&](double area, Bound bound) {
+        return pieces(rates.elements) > mostPieces(corners.size(), area, elementSize_, bound);
+    };
+    if (exceeds(0, kSlim)) {
         const double area = face.area();
-        const bool slim =
-            pieces(rates.elements) > mostPieces(corners.size(), area, elementSize_, kElements);
-        const bool strip = slim && makeStrip(rates);
-        const std::size_t count = rates.corners.size();
-        coarsen(rates.patches, std::vector<int>(count, 1),
-                mostPieces(count, area, patchSize_, strip ? kStripPatches : kPatches));
-        coarsen(rates.elements, rates.bent,
-                mostPieces(count, area, elementSize_, strip ? kStripElements : kElements));
+        const bool many = exceeds(0, kElements);
+        const bool strip = exceeds(area, kSlim) && makeStrip(rates);
+        if (strip || many) {
+            const std::size_t count = rates.corners.size();
+            coarsen(rates.patches, std::vector<int>(count, 1),
+                    mostPieces(count, area, patchSize_, strip ? kStripPatches : kPatches));
+            coarsen(rates.elements, rates.bent,
+                    mostPieces(count, area, elementSize_, strip ? kStripElements : kElements));
+        }
     }
     const std::size_t count = rates.corners.size();
     for (std::size_t i = 0; i < count; ++i) {

@@ -31,10 +31,10 @@ struct EdgeRate {
 /// a sliver keeps its elements.
 ///
 /// The 6 is what the grids at the corners of a slender triangle need. A triangle that is slimmer
-/// still and has one short edge, a needle, is a strip instead: a quadrilateral whose first two
-/// corners are the one opposite that edge, in rows from there to the edge. Its pieces are as long
-/// as wide or longer, and no more than those of a square of its area: area / size^2 + 4 + some,
-/// with some = 4 for patches, 64 for elements.
+/// still, of more pieces than with some = 8, and has one short edge, a needle, is a strip instead:
+/// a quadrilateral whose first two corners are the one opposite that edge, in rows from there to
+/// the edge. Its pieces are as long as wide or longer, and no more than those of a square of its
+/// area: area / size^2 + 4 + some, with some = 4 for patches, 64 for elements.
 class EdgeRates {
 public:
     /// \param patchSize, elementSize longest edges of patches and elements [m], above 0

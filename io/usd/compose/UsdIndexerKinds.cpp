@@ -110,7 +110,7 @@ void UsdIndexer::addReference(Graph& graph, std::uint32_t node, const UsdSiteRef
     const UsdSitePath path = graph.index[node].path;
     const auto said = [&](const std::string& why) {
         return std::string(nameOf(kind)) + " @" + reference.asset + "@<" + reference.path +
-               "> of <" + path.text() + ">: " + why;
+               "> of <" + path.text() + "> left out: " + why;
     };
     const auto report = [&](const std::string& why) { errors_.report(reference.where, said(why)); };
     NewArc arc;

@@ -24,6 +24,15 @@ void Diagnostics::append(const std::vector<Diagnostic>& others) {
     for (const Diagnostic& d : others) warn(d.where, d.text, d.count);
 }
 
+namespace {
+
+/// Whether something of the scene is missing. All such texts say so in these words.
+bool isLoss(const Diagnostic& diagnostic) {
+    return diagnostic.text.find("left out") != std::string::npos;
+}
+
+} // namespace
+
 std::string summary(const std::vector<Diagnostic>& diagnostics) {
     if (diagnostics.empty()) return {};
     std::vector<const Diagnostic*> byCount;
@@ -32,8 +41,10 @@ std::string summary(const std::vector<Diagnostic>& diagnostics) {
         byCount.push_back(&d);
         total += d.count;
     }
-    std::stable_sort(byCount.begin(), byCount.end(),
-                     [](const Diagnostic* a, const Diagnostic* b) { return a->count > b->count; });
+    std::stable_sort(byCount.begin(), byCount.end(), [](const Diagnostic* a, const Diagnostic* b) {
+        if (isLoss(*a) != isLoss(*b)) return isLoss(*a);
+        return a->count > b->count;
+    });
     std::string text = std::to_string(total) + (total == 1 ? " warning: " : " warnings: ");
     const std::size_t shown = std::min<std::size_t>(3, byCount.size());
     for (std::size_t i = 0; i < shown; ++i) {

@@ -40,8 +40,8 @@ private:
     std::unordered_map<std::string, std::size_t> indexOf_;
 };
 
-/// One line for people, e.g. `5 warnings: 3 x missing file 'a.usda'; 2 x ...` (the commonest three
-/// are quoted); empty if there is nothing to say.
+/// One line for people, e.g. `5 warnings: 3 x missing file 'a.usda'; 2 x ...`: three are quoted,
+/// first what is left out of the scene, then the commonest; empty if there is nothing to say.
 std::string summary(const std::vector<Diagnostic>& diagnostics);
 
 } // namespace penumbra

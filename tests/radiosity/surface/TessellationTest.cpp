@@ -310,6 +310,21 @@ TEST(Tessellation, CutsNeedlesIntoStripsAndNoMorePiecesThanTheirAreaHolds) {
     }
 }
 
+TEST(Tessellation, CutsNeedlesThatAreNarrowerThanAnElementAlongOnly) {
+    // A disk of ten thousand triangles, .5 m by .3 mm: each had 56 pieces.
+    const int count = 10'000;
+    std::vector<glm::vec3> points{{0, 0, 0}};
+    std::vector<std::vector<int>> faces;
+    for (int i = 0; i < count; ++i) {
+        const double angle = 2 * 3.14159265358979 * i / count;
+        points.emplace_back(0.5 * std::cos(angle), 0.5 * std::sin(angle), 0);
+        faces.push_back({0, i + 1, (i + 1) % count + 1});
+    }
+    const Tessellation t = cut(meshOf(points, faces), 0.4f, 0.1f);
+    EXPECT_EQ(t.facets.size(), 6u * count);
+    EXPECT_EQ(cracks(t), count) << "the rim";
+}
+
 TEST(Tessellation, LeavesNoCracksBetweenNeedles) {
     // A spire of 2 m over a dodecagon of 10 cm.
     std::vector<glm::vec3> points{{0, 0, 2}};

@@ -171,6 +171,14 @@ TEST(UsdScene, CamerasKeepTheirLens) {
     EXPECT_EQ(nodes.at("/bad").camera()->lens().focalLength, 50);
 }
 
+TEST(UsdScene, WhatIsMissingIsSummedUpBeforeWhatIsCommon) {
+    Diagnostics diagnostics;
+    for (const char* text : {"a", "b", "c", "d"}) diagnostics.warn({}, text, 9);
+    diagnostics.warn({}, "reference @x.usda@<> of </x> left out: can't be opened");
+    EXPECT_TRUE(summary(diagnostics.list()).starts_with("37 warnings: reference @x.usda@"))
+        << summary(diagnostics.list());
+}
+
 TEST(UsdScene, WhatIsNotUnderstoodIsSummedUpInOneLine) {
     const LoadedScene loaded =
         loadText("def BasisCurves \"a\"\n{\n}\ndef BasisCurves \"b\"\n{\n}\ndef Volume "

@@ -131,7 +131,7 @@ TEST_F(HostileScenes, PathsOfThousandsOfElements) {
                       path + ">; inherits = <" + path + ">)\n{\n def \"b\"\n {\n }\n}\n"));
     EXPECT_TRUE(stage.find("/a/b"));
     EXPECT_TRUE(warns(stage, "relocate of </a/b> to <" + path + "> left out: not the path"));
-    EXPECT_TRUE(warns(stage, "of </a>: not the path of a prim"));
+    EXPECT_TRUE(warns(stage, "of </a> left out: not the path of a prim"));
     EXPECT_TRUE(warns(stage, "class </p/p"));
 }
 

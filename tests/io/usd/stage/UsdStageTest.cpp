@@ -170,10 +170,10 @@ TEST(UsdStage, ArcsThatLeadNowhereAreSaid) {
     const auto& list = stage.diagnostics().list();
     ASSERT_EQ(list.size(),
               2u); // inheriting </a>, </b> has its reference again, and it says the same
-    EXPECT_NE(list[0].text.find("reference @x.usda@<> of </a>: "), std::string::npos);
+    EXPECT_NE(list[0].text.find("reference @x.usda@<> of </a> left out: "), std::string::npos);
     EXPECT_EQ(list[0].count, 2u);
     EXPECT_EQ(list[0].where.line, 2u);
-    EXPECT_EQ(list[1].text, "reference @@</x> of </b>: there is no prim");
+    EXPECT_EQ(list[1].text, "reference @@</x> of </b> left out: there is no prim");
 }
 
 } // namespace penumbra
