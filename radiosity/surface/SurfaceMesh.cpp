@@ -344,7 +344,8 @@ void chooseSides(SurfaceMesh& mesh, std::span<const glm::vec3> lightPoints,
             face.solid = solid && (twoSided || component.volume > 0);
             const bool insideOut = face.solid && component.volume < 0;
             face.front = !insideOut;
-            face.back = insideOut || (twoSided && !solid);
+            const bool turned = solid && !face.solid; // or a room without a light
+            face.back = insideOut || turned || (twoSided && !solid);
         }
     }
 }

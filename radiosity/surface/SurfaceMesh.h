@@ -61,10 +61,11 @@ SurfaceMesh placeSurface(const MeshData& data, const glm::dmat4& toWorld);
 
 /// Decides which sides of the faces there are. Of a closed connected surface that contains none of
 /// `lightPoints` only the outside is ever lit. An open two-sided surface, or a closed one with a
-/// light inside, has both sides; a one-sided surface has its front. A surface whose only opening is
-/// flat and lies on a face of the same object is closed. \param lightPoints points on every
-/// emitter [m, in the mesh's frame] \param object the meshes of the same rigid object, in the same
-/// frame; this one may be among them
+/// light inside, has both sides; a one-sided surface has its front. So has a room; but one that no
+/// light is in may as well be a model turned inside out, and has both sides. A surface whose only
+/// opening is flat and lies on a face of the same object is closed. \param lightPoints points on
+/// every emitter [m, in the mesh's frame] \param object the meshes of the same rigid object, in the
+/// same frame; this one may be among them
 void chooseSides(SurfaceMesh& mesh, std::span<const glm::vec3> lightPoints,
                  std::span<const SurfaceMesh* const> object = {});
 

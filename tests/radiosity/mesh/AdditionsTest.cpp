@@ -19,7 +19,8 @@ struct Additions : ::testing::Test {
                  placed("lamp", moved(0, 0, 1.9),
                         {std::make_shared<Light>("light", RectShape{0.6f, 0.4f}, Rgb(10))})});
     PlacedScene all = placeScene(scene);
-    BuiltPatches set = buildObjects(partOf(all, std::vector{ObjectId{0}}), kSizes, {});
+    std::vector<glm::vec3> light{{0, 0, 1.8f}};
+    BuiltPatches set = buildObjects(partOf(all, std::vector{ObjectId{0}}), kSizes, light);
     BuiltPatches come =
         buildObjects(partOf(all, std::vector{ObjectId{1}, ObjectId{2}}), kSizes, {});
 };

@@ -53,7 +53,10 @@ TEST(ChooseSides, ATwoSidedBoxWithALightInsideIsLitOnBothSides) {
 TEST(ChooseSides, AOneSidedSurfaceIsLitOnItsFront) {
     EXPECT_EQ(sidesOf(box(false, false), {kOutside}), (Sides{6, 0, 6}));
     EXPECT_EQ(sidesOf(box(true, false), {kInside}), (Sides{6, 0, 0})); // a room
-    EXPECT_EQ(sidesOf(box(true, false), {kOutside}), (Sides{6, 0, 0}));
+}
+
+TEST(ChooseSides, AOneSidedBoxThatLooksInwardsIsLitOutsideWhenNoLightIsIn) {
+    EXPECT_EQ(sidesOf(box(true, false), {kOutside}), (Sides{6, 6, 0}));
 }
 
 TEST(ChooseSides, AnOpenTwoSidedSheetIsLitOnBothSides) {
