@@ -157,9 +157,9 @@ void describeScene(const SolveSettings& command, bool cost) {
     printTextures(placed);
     printObjects(placed);
     printSizes(command, loaded, placed);
-    fmt::print("  {} light{}\n", placed.lights.size(), placed.lights.size() == 1 ? "" : "s");
+    fmt::print("  {} lights\n", placed.lights.size());
     printLights(placed);
-    fmt::print("  {} camera{}\n", placed.cameras.size(), placed.cameras.size() == 1 ? "" : "s");
+    fmt::print("  {} cameras\n", placed.cameras.size());
     for (const auto& camera : placed.cameras) fmt::print("  {}\n", camera.path);
     if (command.verbose)
         for (std::size_t i = 0; i < placed.objects.size(); ++i)
