@@ -1,5 +1,6 @@
 #include "radiosity/clusters/NearPairs.h"
 
+#include "base/Axis.h"
 #include "base/BoundsTree.h"
 
 #include <algorithm>
@@ -25,8 +26,7 @@ void sortByPlace(std::span<Index> order, std::span<const Bounds> boxes) {
     if (order.size() <= 1) return;
     Bounds centres;
     for (Index i : order) centres.add(boxes[i].centre());
-    const glm::vec3 size = centres.size();
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const int axis = longestAxis(centres.size());
     const std::size_t half = order.size() / 2;
     std::nth_element(order.begin(), order.begin() + std::ptrdiff_t(half), order.end(),
                      [&](Index a, Index b) {

@@ -1,5 +1,6 @@
 #include "radiosity/mesh/Emitters.h"
 
+#include "base/Axis.h"
 #include "scenegraph/Light.h"
 
 #include <algorithm>
@@ -244,8 +245,7 @@ private:
     static int sortAlong(std::span<Piece> pieces) {
         Bounds box;
         for (const Piece& piece : pieces) box.add(piece.middle);
-        const glm::vec3 size = box.size();
-        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        const int axis = longestAxis(box.size());
         std::ranges::sort(pieces, {}, [axis](const Piece& piece) {
             return std::pair(piece.middle[axis], piece.index);
         });
@@ -280,9 +280,7 @@ private:
         if (area < 0.5 * (size.x * size.y + size.y * size.z + size.z * size.x)) return 0;
         // along the axis on which normals differ most
         const glm::dvec3 spread = squares - sum * sum / area;
-        const int axis = spread.x >= spread.y && spread.x >= spread.z ? 0
-                         : spread.y >= spread.z                       ? 1
-                                                                      : 2;
+        const int axis = longestAxis(spread);
         const auto back =
             std::stable_partition(pieces.begin(), pieces.end(), [axis](const Piece& piece) {
                 return piece.vectorArea[axis] >= 0;
@@ -299,21 +297,16 @@ private:
         Bounds box;
         for (const Piece& piece : pieces)
             for (const glm::vec3 corner : piece.outline) box.add(corner);
-        if (pieces.size() > 1 && box.diagonal() > extents_.at(&material).small) {
-            const int axis = sortAlong(pieces);
-            if (const std::size_t half = widestGap(pieces, axis)) {
-                group(material, pieces.first(half));
-                group(material, pieces.subspan(half));
-                return;
-            }
+        const Extents& extents = extents_.at(&material);
+        std::size_t first = 0;
+        if (box.diagonal() > extents.small) first = widestGap(pieces, sortAlong(pieces));
+        if (first == 0 && width(box.size()) > extents.narrow)
+            first = partByNormal(pieces, box.size());
+        if (first % pieces.size() != 0) {
+            group(material, pieces.first(first));
+            group(material, pieces.subspan(first));
+            return;
         }
-        if (width(box.size()) > extents_.at(&material).narrow)
-            if (const std::size_t front = partByNormal(pieces, box.size());
-                front % pieces.size() != 0) {
-                group(material, pieces.first(front));
-                group(material, pieces.subspan(front));
-                return;
-            }
         halve(pieces);
         FaceEmitter& faces = found_.emplace_back(FaceEmitter{{}, &material});
         Emitter& emitter = faces.emitter;

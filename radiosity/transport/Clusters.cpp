@@ -1,5 +1,6 @@
 #include "radiosity/transport/Clusters.h"
 
+#include "base/Axis.h"
 #include "base/Bounds.h"
 
 #include <algorithm>
@@ -17,8 +18,7 @@ constexpr float kThin = 4;             ///< how much more thickness counts than 
 
 /// The face of a cube that a direction points to, 0 ... 5.
 int faceOf(glm::vec3 direction) {
-    const glm::vec3 size = glm::abs(direction);
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const int axis = longestAxis(glm::abs(direction));
     return 2 * axis + (direction[axis] < 0);
 }
 
@@ -36,7 +36,7 @@ std::size_t halve(std::span<ClusterPatch> patches, int thin) {
     for (const ClusterPatch& patch : patches) box.add(patch.centre);
     glm::vec3 size = box.size();
     if (thin >= 0) size[thin] *= kThin;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const int axis = longestAxis(size);
     const float middle = box.centre()[axis];
     const auto half =
         std::stable_partition(patches.begin(), patches.end(),
